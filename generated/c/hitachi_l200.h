@@ -23,6 +23,10 @@
 #endif
 
 #define HITACHI_L200_DESCRIPTION_VERSION "1.0.0"
+#define HITACHI_L200_DESCRIPTION_VERSION_MAJOR 1U
+#define HITACHI_L200_DESCRIPTION_VERSION_MINOR 0U
+#define HITACHI_L200_DESCRIPTION_VERSION_PATCH 0U
+#define HITACHI_L200_DESCRIPTION_VERSION_NUMBER 1000000UL /* to compare: 1.2.3 is 1002003 */
 #define HITACHI_L200_DESCRIPTION_DIGEST "e9443fb4e82d8e79"
 #define HITACHI_L200_DESCRIPTION 0xe9443fb4U /* for #if */
 
@@ -48,7 +52,7 @@ typedef fieldscribe_real hitachi_l200_real;
 
 enum {
     HITACHI_L200_RUN_COMMAND_STOP = 0,
-    HITACHI_L200_RUN_COMMAND_RUN = 1
+    HITACHI_L200_RUN_COMMAND_RUN = 1,
 };
 static const char *const hitachi_l200_run_command_names[] = {
     "stop", "run"
@@ -67,7 +71,7 @@ static inline bool hitachi_l200_run_command_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_DIRECTION_COMMAND_FORWARD = 0,
-    HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1
+    HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1,
 };
 static const char *const hitachi_l200_direction_command_names[] = {
     "forward", "reverse"
@@ -86,7 +90,7 @@ static inline bool hitachi_l200_direction_command_decode(bool raw) { return raw;
 
 enum {
     HITACHI_L200_EXTERNAL_TRIP_NO_TRIP = 0,
-    HITACHI_L200_EXTERNAL_TRIP_TRIP = 1
+    HITACHI_L200_EXTERNAL_TRIP_TRIP = 1,
 };
 static const char *const hitachi_l200_external_trip_names[] = {
     "no_trip", "trip"
@@ -105,7 +109,7 @@ static inline bool hitachi_l200_external_trip_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_TRIP_RESET_NO_RESET = 0,
-    HITACHI_L200_TRIP_RESET_RESET = 1
+    HITACHI_L200_TRIP_RESET_RESET = 1,
 };
 static const char *const hitachi_l200_trip_reset_names[] = {
     "no_reset", "reset"
@@ -128,7 +132,7 @@ static inline bool hitachi_l200_trip_reset_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_OFF_ON_OFF = 0,
-    HITACHI_L200_OFF_ON_ON = 1
+    HITACHI_L200_OFF_ON_ON = 1,
 };
 static const char *const hitachi_l200_off_on_names[] = {
     "off", "on"
@@ -185,7 +189,7 @@ static inline bool hitachi_l200_digital_input_5_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_RUNNING_STOPPED = 0,
-    HITACHI_L200_RUNNING_RUNNING = 1
+    HITACHI_L200_RUNNING_RUNNING = 1,
 };
 static const char *const hitachi_l200_running_names[] = {
     "stopped", "running"
@@ -199,7 +203,7 @@ static inline bool hitachi_l200_running_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_DIRECTION_STATUS_FORWARD = 0,
-    HITACHI_L200_DIRECTION_STATUS_REVERSE = 1
+    HITACHI_L200_DIRECTION_STATUS_REVERSE = 1,
 };
 static const char *const hitachi_l200_direction_status_names[] = {
     "forward", "reverse"
@@ -213,7 +217,7 @@ static inline bool hitachi_l200_direction_status_decode(bool raw) { return raw; 
 
 enum {
     HITACHI_L200_READY_NOT_READY = 0,
-    HITACHI_L200_READY_READY = 1
+    HITACHI_L200_READY_READY = 1,
 };
 static const char *const hitachi_l200_ready_names[] = {
     "not_ready", "ready"
@@ -233,7 +237,7 @@ static inline bool hitachi_l200_ready_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_ALARM_NORMAL = 0,
-    HITACHI_L200_ALARM_TRIPPED = 1
+    HITACHI_L200_ALARM_TRIPPED = 1,
 };
 static const char *const hitachi_l200_alarm_names[] = {
     "normal", "tripped"
@@ -267,7 +271,7 @@ static inline bool hitachi_l200_run_mode_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_DATA_WRITE_NORMAL = 0,
-    HITACHI_L200_DATA_WRITE_WRITING = 1
+    HITACHI_L200_DATA_WRITE_WRITING = 1,
 };
 static const char *const hitachi_l200_data_write_names[] = {
     "normal", "writing"
@@ -281,7 +285,7 @@ static inline bool hitachi_l200_data_write_decode(bool raw) { return raw; }
 
 enum {
     HITACHI_L200_ERROR_FLAG_NO_ERROR = 0,
-    HITACHI_L200_ERROR_FLAG_ERROR = 1
+    HITACHI_L200_ERROR_FLAG_ERROR = 1,
 };
 static const char *const hitachi_l200_error_flag_names[] = {
     "no_error", "error"
@@ -338,7 +342,7 @@ enum {
     HITACHI_L200_INVERTER_STATUS_DC_BRAKING = 6,
     HITACHI_L200_INVERTER_STATUS_RESTARTING = 7,
     HITACHI_L200_INVERTER_STATUS_TRIPPED = 8,
-    HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE = 9
+    HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE = 9,
 };
 static const char *const hitachi_l200_inverter_status_names[] = {
     "initial_state", "reserved", "stopped", "running", "coasting", "jogging", "dc_braking", "restarting", "tripped",
@@ -394,7 +398,7 @@ static inline fieldscribe_real hitachi_l200_motor_current_decode(uint16_t raw) {
 enum {
     HITACHI_L200_ROTATION_DIRECTION_STOPPED = 0,
     HITACHI_L200_ROTATION_DIRECTION_FORWARD = 1,
-    HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2
+    HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2,
 };
 static const char *const hitachi_l200_rotation_direction_names[] = {
     "stopped", "forward", "reverse"
@@ -478,7 +482,7 @@ static inline int32_t hitachi_l200_trip_count_decode(uint16_t raw) { return raw;
 enum {
     HITACHI_L200_TRIP_CODE_OVERVOLTAGE = 7,
     HITACHI_L200_TRIP_CODE_UNDERVOLTAGE = 9,
-    HITACHI_L200_TRIP_CODE_NO_TRIP = 255
+    HITACHI_L200_TRIP_CODE_NO_TRIP = 255,
 };
 static const fieldscribe_name hitachi_l200_trip_code_names[] = {
     {HITACHI_L200_TRIP_CODE_OVERVOLTAGE, "overvoltage"}, {HITACHI_L200_TRIP_CODE_UNDERVOLTAGE, "undervoltage"},
@@ -736,7 +740,7 @@ static inline double hitachi_l200_deceleration_time_set_2_decode(uint32_t raw)
 
 enum {
     HITACHI_L200_MOTOR_DIRECTION_FORWARD = 0,
-    HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1
+    HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1,
 };
 static const char *const hitachi_l200_motor_direction_names[] = {
     "forward", "reverse"
@@ -761,7 +765,7 @@ enum {
     HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI = 1,
     HITACHI_L200_FREQUENCY_SOURCE_F001_OR_A020 = 2,
     HITACHI_L200_FREQUENCY_SOURCE_MODBUS = 3,
-    HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT = 10
+    HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT = 10,
 };
 static const fieldscribe_name hitachi_l200_frequency_source_names[] = {
     {HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER, "keypad_potentiometer"},
@@ -806,7 +810,7 @@ static inline int32_t hitachi_l200_frequency_source_set_2_decode(uint16_t raw) {
 enum {
     HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV = 1,
     HITACHI_L200_RUN_SOURCE_RUN_KEY = 2,
-    HITACHI_L200_RUN_SOURCE_MODBUS = 3
+    HITACHI_L200_RUN_SOURCE_MODBUS = 3,
 };
 static const fieldscribe_name hitachi_l200_run_source_names[] = {
     {HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV, "terminal_fw_rv"}, {HITACHI_L200_RUN_SOURCE_RUN_KEY, "run_key"},
@@ -918,7 +922,7 @@ enum {
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI = 0,
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI_AT_IGNORED = 1,
     HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_POTENTIOMETER = 2,
-    HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER = 3
+    HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER = 3,
 };
 static const char *const hitachi_l200_at_terminal_selection_names[] = {
     "o_and_oi", "o_and_oi_at_ignored", "o_and_potentiometer", "oi_and_potentiometer"
@@ -990,7 +994,7 @@ static inline int32_t hitachi_l200_input_o_maximum_setpoint_decode(uint16_t raw)
 
 enum {
     HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY = 0,
-    HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1
+    HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1,
 };
 static const char *const hitachi_l200_input_o_start_condition_names[] = {
     "minimum_frequency", "zero_hz"
@@ -1009,7 +1013,7 @@ FIELDSCRIBE_STATUS hitachi_l200_input_o_start_condition_encode(int32_t value, ui
 static inline int32_t hitachi_l200_input_o_start_condition_decode(uint16_t raw) { return raw; }
 
 enum {
-    HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND = 17
+    HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND = 17,
 };
 static const fieldscribe_name hitachi_l200_analog_input_filter_names[] = {
     {HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND, "samples_16_dead_band"}
@@ -1318,7 +1322,7 @@ static inline fieldscribe_real hitachi_l200_jog_frequency_decode(uint16_t raw) {
 enum {
     HITACHI_L200_JOG_STOP_MODE_COAST = 0,
     HITACHI_L200_JOG_STOP_MODE_RAMP = 1,
-    HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2
+    HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2,
 };
 static const char *const hitachi_l200_jog_stop_mode_names[] = {
     "coast", "ramp", "dc_brake"
@@ -1338,7 +1342,7 @@ static inline int32_t hitachi_l200_jog_stop_mode_decode(uint16_t raw) { return r
 
 enum {
     HITACHI_L200_BOOST_MODE_MANUAL = 0,
-    HITACHI_L200_BOOST_MODE_AUTOMATIC = 1
+    HITACHI_L200_BOOST_MODE_AUTOMATIC = 1,
 };
 static const char *const hitachi_l200_boost_mode_names[] = {
     "manual", "automatic"
@@ -1432,7 +1436,7 @@ static inline fieldscribe_real hitachi_l200_manual_boost_frequency_set_2_decode(
 
 enum {
     HITACHI_L200_VF_CHARACTERISTIC_CONSTANT = 0,
-    HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1
+    HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1,
 };
 static const char *const hitachi_l200_vf_characteristic_names[] = {
     "constant", "quadratic"
@@ -1481,7 +1485,7 @@ static inline int32_t hitachi_l200_output_voltage_setting_set_2_decode(uint16_t 
 
 enum {
     HITACHI_L200_INACTIVE_ACTIVE_INACTIVE = 0,
-    HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1
+    HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1,
 };
 static const char *const hitachi_l200_inactive_active_names[] = {
     "inactive", "active"
@@ -1575,7 +1579,7 @@ static inline fieldscribe_real hitachi_l200_dc_brake_time_decode(uint16_t raw) {
 
 enum {
     HITACHI_L200_DC_BRAKE_TRIGGER_EDGE = 0,
-    HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1
+    HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1,
 };
 static const char *const hitachi_l200_dc_brake_trigger_names[] = {
     "edge", "level"
@@ -1996,7 +2000,7 @@ enum {
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI = 0,
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O = 1,
     HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS = 2,
-    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT = 10
+    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT = 10,
 };
 static const fieldscribe_name hitachi_l200_pid_process_value_source_names[] = {
     {HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI, "terminal_oi"},
@@ -2026,7 +2030,7 @@ static inline int32_t hitachi_l200_pid_process_value_source_decode(uint16_t raw)
 
 enum {
     HITACHI_L200_PID_INVERSION_SETPOINT_MINUS_PROCESS_VALUE = 0,
-    HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT = 1
+    HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT = 1,
 };
 static const char *const hitachi_l200_pid_inversion_names[] = {
     "setpoint_minus_process_value", "process_value_minus_setpoint"
@@ -2062,7 +2066,7 @@ static inline fieldscribe_real hitachi_l200_pid_output_limit_decode(uint16_t raw
 enum {
     HITACHI_L200_AVR_MODE_ACTIVE = 0,
     HITACHI_L200_AVR_MODE_INACTIVE = 1,
-    HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2
+    HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2,
 };
 static const char *const hitachi_l200_avr_mode_names[] = {
     "active", "inactive", "inactive_in_deceleration"
@@ -2168,7 +2172,7 @@ static inline double hitachi_l200_deceleration_time_2_set_2_decode(uint32_t raw)
 
 enum {
     HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH = 0,
-    HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1
+    HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1,
 };
 static const char *const hitachi_l200_ramp_2_selection_names[] = {
     "terminal_2ch", "frequency"
@@ -2266,7 +2270,7 @@ static inline fieldscribe_real hitachi_l200_deceleration_change_frequency_set_2_
 
 enum {
     HITACHI_L200_RAMP_CURVE_LINEAR = 0,
-    HITACHI_L200_RAMP_CURVE_S_CURVE = 1
+    HITACHI_L200_RAMP_CURVE_S_CURVE = 1,
 };
 static const char *const hitachi_l200_ramp_curve_names[] = {
     "linear", "s_curve"
@@ -2348,7 +2352,7 @@ static inline int32_t hitachi_l200_input_oi_maximum_setpoint_decode(uint16_t raw
 
 enum {
     HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY = 0,
-    HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1
+    HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1,
 };
 static const char *const hitachi_l200_input_oi_start_condition_names[] = {
     "minimum_frequency", "zero_hz"
@@ -2371,7 +2375,7 @@ enum {
     HITACHI_L200_CALCULATION_INPUT_KEYPAD_POTENTIOMETER = 1,
     HITACHI_L200_CALCULATION_INPUT_TERMINAL_O = 2,
     HITACHI_L200_CALCULATION_INPUT_TERMINAL_OI = 3,
-    HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE = 4
+    HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE = 4,
 };
 static const char *const hitachi_l200_calculation_input_names[] = {
     "operator_panel", "keypad_potentiometer", "terminal_o", "terminal_oi", "network_variable"
@@ -2402,7 +2406,7 @@ static inline int32_t hitachi_l200_calculation_input_b_decode(uint16_t raw) { re
 enum {
     HITACHI_L200_CALCULATION_OPERATOR_ADD = 0,
     HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT = 1,
-    HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2
+    HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2,
 };
 static const char *const hitachi_l200_calculation_operator_names[] = {
     "add", "subtract", "multiply"
@@ -2437,7 +2441,7 @@ static inline fieldscribe_real hitachi_l200_frequency_offset_decode(uint16_t raw
 
 enum {
     HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS = 0,
-    HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1
+    HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1,
 };
 static const char *const hitachi_l200_frequency_offset_sign_names[] = {
     "plus", "minus"
@@ -2511,7 +2515,7 @@ static inline int32_t hitachi_l200_potentiometer_maximum_setpoint_decode(uint16_
 
 enum {
     HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY = 0,
-    HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1
+    HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1,
 };
 static const char *const hitachi_l200_potentiometer_start_condition_names[] = {
     "minimum_frequency", "zero_hz"
@@ -2535,7 +2539,7 @@ enum {
     HITACHI_L200_RESTART_MODE_TRIP = 0,
     HITACHI_L200_RESTART_MODE_START_AT_0_HZ = 1,
     HITACHI_L200_RESTART_MODE_SYNCHRONIZE = 2,
-    HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP = 3
+    HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP = 3,
 };
 static const char *const hitachi_l200_restart_mode_names[] = {
     "trip", "start_at_0_hz", "synchronize", "synchronize_and_stop"
@@ -2587,7 +2591,7 @@ static inline fieldscribe_real hitachi_l200_restart_delay_decode(uint16_t raw) {
 
 enum {
     HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP = 0,
-    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1
+    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1,
 };
 static const char *const hitachi_l200_power_failure_trip_at_standstill_names[] = {
     "no_trip", "trip"
@@ -2607,7 +2611,7 @@ static inline int32_t hitachi_l200_power_failure_trip_at_standstill_decode(uint1
 
 enum {
     HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16 = 0,
-    HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1
+    HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1,
 };
 static const char *const hitachi_l200_power_failure_restarts_names[] = {
     "attempts_16", "unlimited"
@@ -2662,7 +2666,7 @@ static inline fieldscribe_real hitachi_l200_motor_protection_level_set_2_decode(
 enum {
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1 = 0,
     HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CONSTANT = 1,
-    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2 = 2
+    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2 = 2,
 };
 static const char *const hitachi_l200_motor_protection_characteristic_names[] = {
     "quadratic_1", "constant", "quadratic_2"
@@ -2693,7 +2697,7 @@ static inline int32_t hitachi_l200_motor_protection_characteristic_set_2_decode(
 enum {
     HITACHI_L200_CURRENT_LIMIT_MODE_INACTIVE = 0,
     HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE = 1,
-    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2
+    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2,
 };
 static const char *const hitachi_l200_current_limit_mode_names[] = {
     "inactive", "active", "active_at_constant_speed"
@@ -2788,7 +2792,7 @@ static inline fieldscribe_real hitachi_l200_current_limit_time_set_2_decode(uint
 
 enum {
     HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER = 0,
-    HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1
+    HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1,
 };
 static const char *const hitachi_l200_current_limit_source_names[] = {
     "parameter", "terminal_o"
@@ -2820,7 +2824,7 @@ enum {
     HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS_AND_SETPOINT = 0,
     HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS = 1,
     HITACHI_L200_PARAMETER_LOCK_PARAMETERS_AND_SETPOINT = 2,
-    HITACHI_L200_PARAMETER_LOCK_PARAMETERS = 3
+    HITACHI_L200_PARAMETER_LOCK_PARAMETERS = 3,
 };
 static const char *const hitachi_l200_parameter_lock_names[] = {
     "sft_parameters_and_setpoint", "sft_parameters", "parameters_and_setpoint", "parameters"
@@ -2881,7 +2885,7 @@ static inline fieldscribe_real hitachi_l200_carrier_frequency_decode(uint16_t ra
 enum {
     HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS = 0,
     HITACHI_L200_INITIALIZATION_MODE_FACTORY_SETTINGS = 1,
-    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS = 2
+    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS = 2,
 };
 static const char *const hitachi_l200_initialization_mode_names[] = {
     "clear_trips", "factory_settings", "clear_trips_and_factory_settings"
@@ -2919,7 +2923,7 @@ static inline fieldscribe_real hitachi_l200_frequency_display_factor_decode(uint
 
 enum {
     HITACHI_L200_STOP_KEY_LOCK_KEY_ACTIVE = 0,
-    HITACHI_L200_STOP_KEY_LOCK_KEY_INACTIVE = 1
+    HITACHI_L200_STOP_KEY_LOCK_KEY_INACTIVE = 1,
 };
 static const char *const hitachi_l200_stop_key_lock_names[] = {
     "key_active", "key_inactive"
@@ -2939,7 +2943,7 @@ static inline int32_t hitachi_l200_stop_key_lock_decode(uint16_t raw) { return r
 
 enum {
     HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ = 0,
-    HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1
+    HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1,
 };
 static const char *const hitachi_l200_coast_restart_mode_names[] = {
     "start_at_0_hz", "synchronize"
@@ -2964,7 +2968,7 @@ enum {
     HITACHI_L200_NETWORK_DISPLAY_PROCESS_VALUE = 4,
     HITACHI_L200_NETWORK_DISPLAY_DIGITAL_INPUTS = 5,
     HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS = 6,
-    HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY = 7
+    HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY = 7,
 };
 static const fieldscribe_name hitachi_l200_network_display_names[] = {
     {HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY, "output_frequency"},
@@ -2993,7 +2997,7 @@ static inline int32_t hitachi_l200_network_display_decode(uint16_t raw) { return
 
 enum {
     HITACHI_L200_STOP_MODE_RAMP = 0,
-    HITACHI_L200_STOP_MODE_COAST = 1
+    HITACHI_L200_STOP_MODE_COAST = 1,
 };
 static const char *const hitachi_l200_stop_mode_names[] = {
     "ramp", "coast"
@@ -3054,14 +3058,11 @@ static inline int32_t hitachi_l200_overvoltage_deceleration_level_400v_decode(ui
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_ADDRESS 0x1102U
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MAX 255
-static const fieldscribe_range hitachi_l200_digital_input_1_function_ranges[] = {
+static const fieldscribe_range hitachi_l200_ranges_e8c1e3bc[] = {
     {0, 9}, {11, 13}, {15, 16}, {18, 24}, {27, 29}, {31, 31}, {50, 53}, {255, 255}
 };
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3078,10 +3079,7 @@ static inline int32_t hitachi_l200_digital_input_1_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3098,10 +3096,7 @@ static inline int32_t hitachi_l200_digital_input_1_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3118,10 +3113,7 @@ static inline int32_t hitachi_l200_digital_input_2_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3138,10 +3130,7 @@ static inline int32_t hitachi_l200_digital_input_2_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3158,10 +3147,7 @@ static inline int32_t hitachi_l200_digital_input_3_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3178,10 +3164,7 @@ static inline int32_t hitachi_l200_digital_input_3_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3198,10 +3181,7 @@ static inline int32_t hitachi_l200_digital_input_4_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3218,10 +3198,7 @@ static inline int32_t hitachi_l200_digital_input_4_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3238,10 +3215,7 @@ static inline int32_t hitachi_l200_digital_input_5_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_check(uint16_t raw)
-{
-    return fieldscribe_check_ranges(raw, hitachi_l200_digital_input_1_function_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_digital_input_1_function_ranges));
-}
+{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3252,7 +3226,7 @@ static inline int32_t hitachi_l200_digital_input_5_function_set_2_decode(uint16_
 
 enum {
     HITACHI_L200_CONTACT_NORMALLY_OPEN = 0,
-    HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1
+    HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1,
 };
 static const char *const hitachi_l200_contact_names[] = {
     "normally_open", "normally_closed"
@@ -3339,7 +3313,7 @@ static inline int32_t hitachi_l200_relay_output_function_decode(uint16_t raw) { 
 
 enum {
     HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY = 0,
-    HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1
+    HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1,
 };
 static const char *const hitachi_l200_analog_output_source_names[] = {
     "output_frequency", "motor_current"
@@ -3592,7 +3566,7 @@ static inline fieldscribe_real hitachi_l200_analog_output_offset_decode(uint16_t
 
 enum {
     HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD = 0,
-    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1
+    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1,
 };
 static const char *const hitachi_l200_motor_potentiometer_memory_names[] = {
     "discard", "keep"
@@ -3613,7 +3587,7 @@ static inline int32_t hitachi_l200_motor_potentiometer_memory_decode(uint16_t ra
 enum {
     HITACHI_L200_RESET_MODE_RISING_EDGE = 0,
     HITACHI_L200_RESET_MODE_FALLING_EDGE = 1,
-    HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2
+    HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2,
 };
 static const char *const hitachi_l200_reset_mode_names[] = {
     "rising_edge", "falling_edge", "rising_edge_when_tripped"
@@ -3652,7 +3626,7 @@ static inline int32_t hitachi_l200_logic_input_b_decode(uint16_t raw) { return r
 enum {
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_AND = 0,
     HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR = 1,
-    HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2
+    HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2,
 };
 static const char *const hitachi_l200_logic_operator_names[] = {
     "logic_and", "logic_or", "logic_xor"
@@ -3785,7 +3759,7 @@ enum {
     HITACHI_L200_MOTOR_POWER_KW_3_7 = 9, /* 3.7 kW */
     HITACHI_L200_MOTOR_POWER_KW_4_0 = 10, /* 4.0 kW */
     HITACHI_L200_MOTOR_POWER_KW_5_5 = 11, /* 5.5 kW */
-    HITACHI_L200_MOTOR_POWER_KW_7_5 = 12 /* 7.5 kW */
+    HITACHI_L200_MOTOR_POWER_KW_7_5 = 12, /* 7.5 kW */
 };
 static const char *const hitachi_l200_motor_power_names[] = {
     "kw_0_20", "kw_0_37", "kw_0_40", "kw_0_55", "kw_0_75", "kw_1_10", "kw_1_50", "kw_2_2", "kw_3_0", "kw_3_7", "kw_4_0",
@@ -3818,7 +3792,7 @@ enum {
     HITACHI_L200_MOTOR_POLES_POLES_2 = 2,
     HITACHI_L200_MOTOR_POLES_POLES_4 = 4,
     HITACHI_L200_MOTOR_POLES_POLES_6 = 6,
-    HITACHI_L200_MOTOR_POLES_POLES_8 = 8
+    HITACHI_L200_MOTOR_POLES_POLES_8 = 8,
 };
 static const fieldscribe_name hitachi_l200_motor_poles_names[] = {
     {HITACHI_L200_MOTOR_POLES_POLES_2, "poles_2"}, {HITACHI_L200_MOTOR_POLES_POLES_4, "poles_4"},
@@ -3831,13 +3805,13 @@ static inline const char *hitachi_l200_motor_poles_name(int32_t raw)
 #define HITACHI_L200_MOTOR_POLES_ADDRESS 0x1165U
 #define HITACHI_L200_MOTOR_POLES_RAW_MIN 2
 #define HITACHI_L200_MOTOR_POLES_RAW_MAX 8
-static const fieldscribe_range hitachi_l200_motor_poles_ranges[] = {
+static const fieldscribe_range hitachi_l200_ranges_9c951a72[] = {
     {2, 2}, {4, 4}, {6, 6}, {8, 8}
 };
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_check(uint16_t raw)
 {
-    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_motor_poles_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_motor_poles_ranges)));
+    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_ranges_9c951a72,
+        FIELDSCRIBE_COUNT(hitachi_l200_ranges_9c951a72)));
 }
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_encode(int32_t value, uint16_t *raw)
 {
@@ -3853,8 +3827,8 @@ static inline int32_t hitachi_l200_motor_poles_decode(uint16_t raw) { return raw
 #define HITACHI_L200_MOTOR_POLES_SET_2_RAW_MAX 8
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_check(uint16_t raw)
 {
-    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_motor_poles_ranges,
-        FIELDSCRIBE_COUNT(hitachi_l200_motor_poles_ranges)));
+    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_ranges_9c951a72,
+        FIELDSCRIBE_COUNT(hitachi_l200_ranges_9c951a72)));
 }
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_encode(int32_t value, uint16_t *raw)
 {

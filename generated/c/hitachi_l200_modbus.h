@@ -33,7 +33,7 @@ static const fieldscribe_modbus_function hitachi_l200_modbus_functions[] = {
     {6U, 1U, true}, /* write_register */
     {8U, 1U, false}, /* diagnostics */
     {15U, 32U, false}, /* write_coils */
-    {16U, 4U, false} /* write_registers */
+    {16U, 4U, false}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile hitachi_l200_modbus_profile = {
@@ -54,7 +54,7 @@ enum {
     HITACHI_L200_EXCEPTION_ADDRESS_NOT_FOUND = 0x02U, /* Address not found */
     HITACHI_L200_EXCEPTION_DATA_FORMAT_WRONG = 0x03U, /* Data format wrong */
     HITACHI_L200_EXCEPTION_VALUE_OUT_OF_RANGE = 0x21U, /* Value out of range */
-    HITACHI_L200_EXCEPTION_NOT_AVAILABLE = 0x22U /* Not available */
+    HITACHI_L200_EXCEPTION_NOT_AVAILABLE = 0x22U, /* Not available */
 };
 
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
@@ -63,12 +63,12 @@ enum {
 
 static const fieldscribe_modbus_reading hitachi_l200_coils_blocks[] = {
     {1U, 0x0000U, 11U}, /* run_command..digital_input_5 */
-    {1U, 0x000DU, 18U} /* running..checksum_error */
+    {1U, 0x000DU, 18U}, /* running..checksum_error */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_status_blocks[] = {
     {3U, 0x0001U, 2U}, /* network_frequency_setpoint..inverter_status */
-    {3U, 0x0004U, 1U} /* network_process_value */
+    {3U, 0x0004U, 1U}, /* network_process_value */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_monitor_d_blocks[] = {
@@ -85,13 +85,13 @@ static const fieldscribe_modbus_reading hitachi_l200_monitor_d_blocks[] = {
     {3U, 0x1001U, 3U}, /* d001..d003 */
     {3U, 0x1004U, 4U}, /* d004..d006 */
     {3U, 0x100BU, 1U}, /* d013 */
-    {3U, 0x100DU, 4U} /* d016..d017 */
+    {3U, 0x100DU, 4U}, /* d016..d017 */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_basic_f_blocks[] = {
     {3U, 0x1013U, 4U}, /* F002..F003 */
     {3U, 0x1017U, 1U}, /* F004 */
-    {3U, 0x1500U, 4U} /* F202..F203 */
+    {3U, 0x1500U, 4U}, /* F202..F203 */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_standard_a_blocks[] = {
@@ -142,7 +142,7 @@ static const fieldscribe_modbus_reading hitachi_l200_standard_a_blocks[] = {
     {3U, 0x1516U, 2U}, /* A261..A262 */
     {3U, 0x1519U, 3U}, /* A293..A294 */
     {3U, 0x151DU, 1U}, /* A295 */
-    {3U, 0x151FU, 1U} /* A296 */
+    {3U, 0x151FU, 1U}, /* A296 */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_fine_tuning_b_blocks[] = {
@@ -157,7 +157,7 @@ static const fieldscribe_modbus_reading hitachi_l200_fine_tuning_b_blocks[] = {
     {3U, 0x10D9U, 1U}, /* b091 */
     {3U, 0x10F4U, 2U}, /* b130..b131 */
     {3U, 0x1525U, 4U}, /* b212..b222 */
-    {3U, 0x1529U, 2U} /* b223..b228 */
+    {3U, 0x1529U, 2U}, /* b223..b228 */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_control_c_blocks[] = {
@@ -182,14 +182,14 @@ static const fieldscribe_modbus_reading hitachi_l200_control_c_blocks[] = {
     {3U, 0x1157U, 1U}, /* C149 */
     {3U, 0x1530U, 4U}, /* C201..C204 */
     {3U, 0x1534U, 1U}, /* C205 */
-    {3U, 0x1538U, 1U} /* C241 */
+    {3U, 0x1538U, 1U}, /* C241 */
 };
 
 static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
     {3U, 0x1164U, 2U}, /* H003..H004 */
     {3U, 0x1167U, 1U}, /* H006 */
     {3U, 0x153FU, 2U}, /* H203..H204 */
-    {3U, 0x1542U, 1U} /* H206 */
+    {3U, 0x1542U, 1U}, /* H206 */
 };
 
 /* ---- Commands ---- */

@@ -30,7 +30,7 @@ static const fieldscribe_modbus_function jumo_controller_modbus_functions[] = {
     {3U, 32U, false}, /* read_holding_registers */
     {4U, 32U, false}, /* read_input_registers */
     {6U, 1U, true}, /* write_register */
-    {16U, 32U, true} /* write_registers */
+    {16U, 32U, true}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
@@ -49,7 +49,7 @@ static const fieldscribe_modbus_profile jumo_controller_modbus_profile = {
 enum {
     JUMO_CONTROLLER_EXCEPTION_INVALID_FUNCTION = 0x01U, /* Invalid function */
     JUMO_CONTROLLER_EXCEPTION_INVALID_PARAMETER_ADDRESS = 0x02U, /* Invalid parameter address */
-    JUMO_CONTROLLER_EXCEPTION_WRITE_REFUSED = 0x08U /* Write refused */
+    JUMO_CONTROLLER_EXCEPTION_WRITE_REFUSED = 0x08U, /* Write refused */
 };
 
 /* ---- Reads that bring a group in as few requests as the device allows ---- */
@@ -62,17 +62,17 @@ static const fieldscribe_modbus_reading jumo_controller_process_data_blocks[] = 
     {3U, 0x0025U, 3U}, /* control_contacts..binary_output_control */
     {3U, 0x005BU, 4U}, /* program_run_time..program_remaining_time */
     {3U, 0x0061U, 4U}, /* section_run_time..section_remaining_time */
-    {3U, 0x0067U, 8U} /* timer_1_run_time..timer_4_run_time */
+    {3U, 0x0067U, 8U}, /* timer_1_run_time..timer_4_run_time */
 };
 
 static const fieldscribe_modbus_reading jumo_controller_examples_blocks[] = {
     {3U, 0x00CEU, 2U}, /* value_00ce */
     {3U, 0x3014U, 2U}, /* Pb1 */
-    {3U, 0x3100U, 4U} /* setpoint_1..setpoint_2 */
+    {3U, 0x3100U, 4U}, /* setpoint_1..setpoint_2 */
 };
 
 static const fieldscribe_modbus_reading jumo_controller_command_words_blocks[] = {
-    {3U, 0x006FU, 4U} /* program_controller_commands..timer_commands */
+    {3U, 0x006FU, 4U}, /* program_controller_commands..timer_commands */
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */

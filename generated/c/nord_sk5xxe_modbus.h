@@ -32,7 +32,7 @@ static const fieldscribe_modbus_function nord_sk5xxe_modbus_functions[] = {
     {15U, 1968U, true}, /* write_coils */
     {3U, 125U, false}, /* read_holding_registers */
     {6U, 1U, true}, /* write_register */
-    {16U, 123U, true} /* write_registers */
+    {16U, 123U, true}, /* write_registers */
 };
 
 static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
@@ -52,7 +52,7 @@ static const fieldscribe_modbus_profile nord_sk5xxe_modbus_profile = {
 
 static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
     {3U, 0x0C80U, 6U}, /* P050[1]..P050[6] */
-    {3U, 0x0CC0U, 6U} /* P051[1]..P051[6] */
+    {3U, 0x0CC0U, 6U}, /* P051[1]..P051[6] */
 };
 
 /* ---- Commands ---- */

@@ -23,6 +23,10 @@
 #endif
 
 #define SIEMENS_MM4_DESCRIPTION_VERSION "1.0.0"
+#define SIEMENS_MM4_DESCRIPTION_VERSION_MAJOR 1U
+#define SIEMENS_MM4_DESCRIPTION_VERSION_MINOR 0U
+#define SIEMENS_MM4_DESCRIPTION_VERSION_PATCH 0U
+#define SIEMENS_MM4_DESCRIPTION_VERSION_NUMBER 1000000UL /* to compare: 1.2.3 is 1002003 */
 #define SIEMENS_MM4_DESCRIPTION_DIGEST "fd2e41451c46fad0"
 #define SIEMENS_MM4_DESCRIPTION 0xfd2e4145U /* for #if */
 
@@ -46,7 +50,7 @@ typedef fieldscribe_real siemens_mm4_real;
 /* The cyclic telegrams, and how many words each has. */
 enum {
     SIEMENS_MM4_TELEGRAM_TASK = 0,
-    SIEMENS_MM4_TELEGRAM_ANSWER = 1
+    SIEMENS_MM4_TELEGRAM_ANSWER = 1,
 };
 #define SIEMENS_MM4_TELEGRAM_TASK_WORDS 8U
 #define SIEMENS_MM4_TELEGRAM_ANSWER_WORDS 8U
@@ -60,7 +64,7 @@ enum {
 
 enum {
     SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2 = 2,
-    SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT = 3
+    SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT = 3,
 };
 static const fieldscribe_name siemens_mm4_user_access_level_names[] = {
     {SIEMENS_MM4_USER_ACCESS_LEVEL_LEVEL_2, "level_2"}, {SIEMENS_MM4_USER_ACCESS_LEVEL_EXPERT, "expert"}
@@ -122,7 +126,7 @@ static inline int32_t siemens_mm4_inverter_status_word_decode(uint16_t raw) { re
 
 enum {
     SIEMENS_MM4_COMMAND_SOURCE_USS_RS232 = 4,
-    SIEMENS_MM4_COMMAND_SOURCE_USS_RS485 = 5
+    SIEMENS_MM4_COMMAND_SOURCE_USS_RS485 = 5,
 };
 static const fieldscribe_name siemens_mm4_command_source_names[] = {
     {SIEMENS_MM4_COMMAND_SOURCE_USS_RS232, "uss_rs232"}, {SIEMENS_MM4_COMMAND_SOURCE_USS_RS485, "uss_rs485"}
@@ -176,7 +180,7 @@ static inline uint32_t siemens_mm4_p0731_source_from_words(const uint16_t words[
 
 enum {
     SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232 = 4,
-    SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485 = 5
+    SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485 = 5,
 };
 static const fieldscribe_name siemens_mm4_main_setpoint_source_names[] = {
     {SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS232, "uss_rs232"}, {SIEMENS_MM4_MAIN_SETPOINT_SOURCE_USS_RS485, "uss_rs485"}
@@ -277,7 +281,7 @@ static inline uint32_t siemens_mm4_dc_braking_source_from_words(const uint16_t w
 { return fieldscribe_join32(words[0], words[1]); }
 
 enum {
-    SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED = 1
+    SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED = 1,
 };
 static const fieldscribe_name siemens_mm4_output_phase_sequence_names[] = {
     {SIEMENS_MM4_OUTPUT_PHASE_SEQUENCE_REVERSED, "reversed"}
@@ -319,7 +323,7 @@ static inline fieldscribe_real siemens_mm4_reference_frequency_decode(uint32_t r
 
 enum {
     SIEMENS_MM4_USS_NORMALISATION_BY_REFERENCE_FREQUENCY = 0,
-    SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ = 1
+    SIEMENS_MM4_USS_NORMALISATION_HUNDREDTHS_OF_HERTZ = 1,
 };
 static const char *const siemens_mm4_uss_normalisation_names[] = {
     "by_reference_frequency", "hundredths_of_hertz"
@@ -473,7 +477,7 @@ enum {
     SIEMENS_MM4_USS_PKW_LENGTH_NONE = 0,
     SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3 = 3,
     SIEMENS_MM4_USS_PKW_LENGTH_WORDS_4 = 4,
-    SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE = 127
+    SIEMENS_MM4_USS_PKW_LENGTH_VARIABLE = 127,
 };
 static const fieldscribe_name siemens_mm4_uss_pkw_length_names[] = {
     {SIEMENS_MM4_USS_PKW_LENGTH_NONE, "none"}, {SIEMENS_MM4_USS_PKW_LENGTH_WORDS_3, "words_3"},
@@ -490,13 +494,13 @@ static inline const char *siemens_mm4_uss_pkw_length_name(int32_t raw)
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX 0U
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MAX 127
-static const fieldscribe_range siemens_mm4_uss_pkw_length_index_0_ranges[] = {
+static const fieldscribe_range siemens_mm4_ranges_32e3334e[] = {
     {0, 0}, {3, 4}, {127, 127}
 };
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_check(uint16_t raw)
 {
-    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_uss_pkw_length_index_0_ranges,
-        FIELDSCRIBE_COUNT(siemens_mm4_uss_pkw_length_index_0_ranges)));
+    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_ranges_32e3334e,
+        FIELDSCRIBE_COUNT(siemens_mm4_ranges_32e3334e)));
 }
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_encode(int32_t value, uint16_t *raw)
 {
@@ -513,8 +517,8 @@ static inline int32_t siemens_mm4_uss_pkw_length_index_0_decode(uint16_t raw) { 
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MAX 127
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_check(uint16_t raw)
 {
-    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_uss_pkw_length_index_0_ranges,
-        FIELDSCRIBE_COUNT(siemens_mm4_uss_pkw_length_index_0_ranges)));
+    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_ranges_32e3334e,
+        FIELDSCRIBE_COUNT(siemens_mm4_ranges_32e3334e)));
 }
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_encode(int32_t value, uint16_t *raw)
 {
@@ -901,13 +905,25 @@ static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw;
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_ADDRESS 0x0001U
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_DECIMALS 5
+/* The raw numbers of other points. */
+typedef struct siemens_mm4_main_actual_value_with {
+    uint16_t uss_normalisation_raw;
+    uint32_t reference_frequency_raw;
+} siemens_mm4_main_actual_value_with;
+static inline fieldscribe_rule siemens_mm4_main_actual_value_rule(const siemens_mm4_main_actual_value_with *with)
+{
+    return (with->uss_normalisation_raw == 0)
+        ? fieldscribe_rule_f32(fieldscribe_rule_of(16384, 1, 0, 1), with->reference_frequency_raw, true)
+        : ((with->uss_normalisation_raw == 1) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)));
+}
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
-    uint16_t raw, const siemens_mm4_main_setpoint_with *with, int64_t *count)
-{ return fieldscribe_decode_count(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 100000, count); }
+    uint16_t raw, const siemens_mm4_main_actual_value_with *with, int64_t *count)
+{ return fieldscribe_decode_count(siemens_mm4_main_actual_value_rule(with), (int64_t)raw, 100000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
-    uint16_t raw, const siemens_mm4_main_setpoint_with *with, double *value)
-{ return fieldscribe_decode_value(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, value); }
+    uint16_t raw, const siemens_mm4_main_actual_value_with *with, double *value)
+{ return fieldscribe_decode_value(siemens_mm4_main_actual_value_rule(with), (int64_t)raw, value); }
 #endif
 
 /*

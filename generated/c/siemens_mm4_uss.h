@@ -44,7 +44,7 @@ enum {
     SIEMENS_MM4_TASK_STORE_ARRAY_WORD = 12, /* Store array word */
     SIEMENS_MM4_TASK_STORE_DOUBLE_WORD = 13, /* Store double word */
     SIEMENS_MM4_TASK_STORE_WORD = 14, /* Store word */
-    SIEMENS_MM4_TASK_TEXT = 15 /* Text */
+    SIEMENS_MM4_TASK_TEXT = 15, /* Text */
 };
 
 /* The name of a number; NULL for one that has none. */
@@ -106,7 +106,7 @@ enum {
     SIEMENS_MM4_RESPONSE_UNUSED_RESPONSE_12 = 12, /* Unused response 12 */
     SIEMENS_MM4_RESPONSE_RESERVED_RESPONSE_13 = 13, /* Reserved response 13 */
     SIEMENS_MM4_RESPONSE_RESERVED_RESPONSE_14 = 14, /* Reserved response 14 */
-    SIEMENS_MM4_RESPONSE_TEXT_ANSWER = 15 /* Text answer */
+    SIEMENS_MM4_RESPONSE_TEXT_ANSWER = 15, /* Text answer */
 };
 
 /* The name of a number; NULL for one that has none. */
@@ -168,7 +168,7 @@ enum {
     SIEMENS_MM4_ERROR_NO_LOWER_LIMIT = 200, /* No lower limit */
     SIEMENS_MM4_ERROR_NO_UPPER_LIMIT = 201, /* No upper limit */
     SIEMENS_MM4_ERROR_NOT_SHOWN_ON_PANEL = 203, /* Not shown on panel */
-    SIEMENS_MM4_ERROR_ACCESS_LEVEL_TOO_LOW = 204 /* Access level too low */
+    SIEMENS_MM4_ERROR_ACCESS_LEVEL_TOO_LOW = 204, /* Access level too low */
 };
 
 /* The name of a number; NULL for one that has none. */
@@ -229,7 +229,7 @@ static const fieldscribe_uss_task siemens_mm4_uss_tasks[] = {
     {SIEMENS_MM4_TASK_STORE_ARRAY_WORD, 0x0010U},
     {SIEMENS_MM4_TASK_STORE_DOUBLE_WORD, 0x0004U},
     {SIEMENS_MM4_TASK_STORE_WORD, 0x0002U},
-    {SIEMENS_MM4_TASK_TEXT, 0x0000U}
+    {SIEMENS_MM4_TASK_TEXT, 0x0000U},
 };
 
 /* How many words the parameter part may have. */

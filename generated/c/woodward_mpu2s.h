@@ -23,6 +23,10 @@
 #endif
 
 #define WOODWARD_MPU2S_DESCRIPTION_VERSION "1.0.0"
+#define WOODWARD_MPU2S_DESCRIPTION_VERSION_MAJOR 1U
+#define WOODWARD_MPU2S_DESCRIPTION_VERSION_MINOR 0U
+#define WOODWARD_MPU2S_DESCRIPTION_VERSION_PATCH 0U
+#define WOODWARD_MPU2S_DESCRIPTION_VERSION_NUMBER 1000000UL /* to compare: 1.2.3 is 1002003 */
 #define WOODWARD_MPU2S_DESCRIPTION_DIGEST "ba0912039ad5dd84"
 #define WOODWARD_MPU2S_DESCRIPTION 0xba091203U /* for #if */
 
@@ -45,7 +49,7 @@ typedef fieldscribe_real woodward_mpu2s_real;
 
 /* The cyclic telegrams, and how many words each has. */
 enum {
-    WOODWARD_MPU2S_TELEGRAM_VISUALISATION = 0
+    WOODWARD_MPU2S_TELEGRAM_VISUALISATION = 0,
 };
 #define WOODWARD_MPU2S_TELEGRAM_VISUALISATION_WORDS 69U
 
@@ -321,17 +325,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_ADDRESS 0x000FU
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l3_l1_rule(int8_t generator_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l3_l1_rule(generator_voltage_exponent_raw),
         (int64_t)raw, 10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l3_l1_rule(generator_voltage_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -340,17 +349,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_ADDRESS 0x0010U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l1_n_rule(int8_t generator_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l1_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, 10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l1_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -359,17 +373,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_ADDRESS 0x0011U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l2_n_rule(int8_t generator_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, 10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -378,17 +397,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_ADDRESS 0x0012U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l3_n_rule(int8_t generator_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l3_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, 10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l3_n_rule(generator_voltage_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -397,17 +421,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_ADDRESS 0x0013U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l1_l2_rule(int8_t generator_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l1_l2_rule(generator_voltage_exponent_raw),
         (int64_t)raw, 10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l1_l2_rule(generator_voltage_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -442,17 +471,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_ADDRESS 0x0016U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_DECIMALS 3
+static inline fieldscribe_rule woodward_mpu2s_generator_current_l2_rule(int8_t generator_current_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l2_rule(generator_current_exponent_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l2_rule(generator_current_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -461,17 +495,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_ADDRESS 0x0017U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_DECIMALS 3
+static inline fieldscribe_rule woodward_mpu2s_generator_current_l3_rule(int8_t generator_current_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l3_rule(generator_current_exponent_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l3_rule(generator_current_exponent_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -509,7 +548,7 @@ static inline int32_t woodward_mpu2s_load_sharing_participants_decode(uint16_t r
 
 enum {
     WOODWARD_MPU2S_SUPPLY_PRESENCE_ABSENT = 0,
-    WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT = 255
+    WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT = 255,
 };
 static const fieldscribe_name woodward_mpu2s_supply_presence_names[] = {
     {WOODWARD_MPU2S_SUPPLY_PRESENCE_ABSENT, "absent"}, {WOODWARD_MPU2S_SUPPLY_PRESENCE_PRESENT, "present"}
@@ -582,17 +621,22 @@ static inline uint16_t woodward_mpu2s_busbar_state_insert(uint16_t word, uint8_t
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_ADDRESS 0x0021U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l2_l3_rule(int8_t mains_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l2_l3_rule(mains_voltage_exponent_raw), (int64_t)raw,
         10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l2_l3_rule(mains_voltage_exponent_raw), (int64_t)raw,
         value);
 }
 #endif
@@ -601,17 +645,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_ADDRESS 0x0022U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l3_l1_rule(int8_t mains_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l3_l1_rule(mains_voltage_exponent_raw), (int64_t)raw,
         10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l3_l1_rule(mains_voltage_exponent_raw), (int64_t)raw,
         value);
 }
 #endif
@@ -620,17 +669,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_ADDRESS 0x0023U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l1_n_rule(int8_t mains_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         value);
 }
 #endif
@@ -639,17 +693,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_ADDRESS 0x0024U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l2_n_rule(int8_t mains_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l2_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l2_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         value);
 }
 #endif
@@ -658,17 +717,22 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_ADDRESS 0x0025U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_DECIMALS 4
+static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l3_n_rule(int8_t mains_voltage_exponent_raw)
+{
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
+        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l3_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         10000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
+    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l3_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
         value);
 }
 #endif
@@ -1276,11 +1340,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 8),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 6, 5), 65535));
 }
+static inline fieldscribe_rule woodward_mpu2s_generator_voltage_setpoint_400v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1289,7 +1356,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1297,7 +1364,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1306,7 +1373,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -1321,12 +1388,17 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_voltage_setpoint_100v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 16),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 5, 16));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_rated_voltage_100v_rule(uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1335,7 +1407,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1343,7 +1415,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1352,7 +1424,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -1367,12 +1439,17 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
 #define WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_voltage_setpoint_400v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 8),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 6, 5), 65535));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_rated_voltage_400v_rule(uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1381,7 +1458,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -1389,7 +1466,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
@@ -1398,7 +1475,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -1415,7 +1492,7 @@ static inline int32_t woodward_mpu2s_generator_current_transformer_ratio_decode(
 
 enum {
     WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SINGLE_PHASE = 0,
-    WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_THREE_PHASE = 1
+    WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_THREE_PHASE = 1,
 };
 static const char *const woodward_mpu2s_power_measurement_phases_names[] = {
     "single_phase", "three_phase"
@@ -1489,7 +1566,7 @@ static inline int16_t woodward_mpu2s_generator_power_setpoint_2_from_words(const
 
 enum {
     WOODWARD_MPU2S_SWITCH2_OFF = 0,
-    WOODWARD_MPU2S_SWITCH2_ON = 3
+    WOODWARD_MPU2S_SWITCH2_ON = 3,
 };
 static const fieldscribe_name woodward_mpu2s_switch2_names[] = {
     {WOODWARD_MPU2S_SWITCH2_OFF, "off"}, {WOODWARD_MPU2S_SWITCH2_ON, "on"}
@@ -1975,7 +2052,7 @@ static inline uint16_t woodward_mpu2s_control_by_interface_x1_x5_insert(uint16_t
 
 enum {
     WOODWARD_MPU2S_BREAKER_LOGIC_EXTERNAL = 0,
-    WOODWARD_MPU2S_BREAKER_LOGIC_PARALLEL = 1
+    WOODWARD_MPU2S_BREAKER_LOGIC_PARALLEL = 1,
 };
 static const char *const woodward_mpu2s_breaker_logic_names[] = {
     "external", "parallel"
@@ -2022,7 +2099,7 @@ static inline fieldscribe_real woodward_mpu2s_load_ramp_maximum_time_decode(uint
 
 enum {
     WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_PULSE = 0,
-    WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_CONSTANT = 1
+    WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_CONSTANT = 1,
 };
 static const char *const woodward_mpu2s_generator_breaker_signal_logic_names[] = {
     "pulse", "constant"
@@ -2047,7 +2124,7 @@ static inline uint16_t woodward_mpu2s_generator_breaker_signal_logic_insert(uint
 
 enum {
     WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_CLOSED = 0,
-    WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_OPEN = 1
+    WOODWARD_MPU2S_CONTACT_LOGIC_NORMALLY_OPEN = 1,
 };
 static const char *const woodward_mpu2s_contact_logic_names[] = {
     "normally_closed", "normally_open"
@@ -2206,7 +2283,7 @@ static inline int32_t woodward_mpu2s_generator_breaker_pick_up_time_decode(uint1
 
 enum {
     WOODWARD_MPU2S_OFF_ON_OFF = 0,
-    WOODWARD_MPU2S_OFF_ON_ON = 1
+    WOODWARD_MPU2S_OFF_ON_ON = 1,
 };
 static const char *const woodward_mpu2s_off_on_names[] = {
     "off", "on"
@@ -2663,7 +2740,7 @@ static inline uint16_t woodward_mpu2s_inverse_time_overcurrent_insert(uint16_t w
 enum {
     WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_NORMAL_INVERSE = 0,
     WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_VERY_INVERSE = 1,
-    WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_EXTREMELY_INVERSE = 2
+    WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_EXTREMELY_INVERSE = 2,
 };
 static const char *const woodward_mpu2s_inverse_time_overcurrent_characteristic_names[] = {
     "normal_inverse", "very_inverse", "extremely_inverse"
@@ -3014,11 +3091,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
+static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3028,15 +3108,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3046,8 +3127,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3065,11 +3146,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
+static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3079,15 +3163,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3097,8 +3182,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3134,12 +3219,18 @@ static inline fieldscribe_real woodward_mpu2s_generator_overvoltage_1_delay_deco
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3149,15 +3240,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3167,8 +3259,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3182,12 +3274,18 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3197,15 +3295,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3215,8 +3314,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3271,12 +3370,18 @@ static inline uint16_t woodward_mpu2s_generator_undervoltage_monitoring_insert(u
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3286,15 +3391,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3304,8 +3410,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3319,12 +3425,18 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3334,15 +3446,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3352,8 +3465,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3389,12 +3502,18 @@ static inline fieldscribe_real woodward_mpu2s_generator_undervoltage_1_delay_dec
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3404,15 +3523,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3422,8 +3542,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3437,12 +3557,18 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(
     uint16_t raw, uint16_t generator_voltage_factor_raw)
-{ return woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(raw, generator_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
+}
+static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(
+    uint16_t generator_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3452,15 +3578,16 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), value,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3470,8 +3597,8 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -3686,11 +3813,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 13, 10), 65535));
 }
+static inline fieldscribe_rule woodward_mpu2s_mains_overvoltage_threshold_400v_rule(uint16_t mains_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3700,7 +3829,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3708,7 +3837,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw), value,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3718,7 +3847,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -3753,12 +3882,17 @@ static inline fieldscribe_real woodward_mpu2s_mains_overvoltage_delay_decode(uin
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_check(
     uint16_t raw, uint16_t mains_voltage_factor_raw)
-{ return woodward_mpu2s_mains_overvoltage_threshold_100v_check(raw, mains_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
+        fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 3, 8));
+}
+static inline fieldscribe_rule woodward_mpu2s_mains_undervoltage_threshold_100v_rule(uint16_t mains_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3768,7 +3902,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3776,7 +3910,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3786,7 +3920,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -3801,12 +3935,17 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
 #define WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_check(
     uint16_t raw, uint16_t mains_voltage_factor_raw)
-{ return woodward_mpu2s_mains_overvoltage_threshold_400v_check(raw, mains_voltage_factor_raw); }
+{
+    return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
+        fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 13, 10), 65535));
+}
+static inline fieldscribe_rule woodward_mpu2s_mains_undervoltage_threshold_400v_rule(uint16_t mains_voltage_factor_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
+        woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw), count, 1000,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3816,7 +3955,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_count(woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw),
         (int64_t)raw, 1000, count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
@@ -3824,7 +3963,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
+        woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw), value,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -3834,7 +3973,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
+    return fieldscribe_decode_value(woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw),
         (int64_t)raw, value);
 }
 #endif
@@ -3877,7 +4016,7 @@ static inline uint16_t woodward_mpu2s_phase_shift_monitoring_insert(uint16_t wor
 
 enum {
     WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_THREE_PHASE = 0,
-    WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SINGLE_AND_THREE_PHASE = 1
+    WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_SINGLE_AND_THREE_PHASE = 1,
 };
 static const char *const woodward_mpu2s_phase_shift_monitoring_phases_names[] = {
     "three_phase", "single_and_three_phase"
@@ -4139,7 +4278,7 @@ enum {
     WOODWARD_MPU2S_INPUT_DELAY_S_10 = 6, /* 10 s */
     WOODWARD_MPU2S_INPUT_DELAY_S_20 = 7, /* 20 s */
     WOODWARD_MPU2S_INPUT_DELAY_S_50 = 8, /* 50 s */
-    WOODWARD_MPU2S_INPUT_DELAY_S_100 = 9 /* 100 s */
+    WOODWARD_MPU2S_INPUT_DELAY_S_100 = 9, /* 100 s */
 };
 static const fieldscribe_name woodward_mpu2s_input_delay_names[] = {
     {WOODWARD_MPU2S_INPUT_DELAY_MS_100, "ms_100"}, {WOODWARD_MPU2S_INPUT_DELAY_MS_200, "ms_200"},
@@ -4195,7 +4334,7 @@ enum {
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_0 = 0,
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_1 = 1,
     WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_2 = 2,
-    WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_3 = 3
+    WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_3 = 3,
 };
 static const fieldscribe_name woodward_mpu2s_fault_class_names[] = {
     {WOODWARD_MPU2S_FAULT_CLASS_FAULT_CLASS_0, "fault_class_0"},
@@ -4545,7 +4684,7 @@ enum {
     WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_ACTIVE_POWER = 19,
     WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_APPARENT_CURRENT_L1 = 20,
     WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_COS_PHI = 21,
-    WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_REACTIVE_POWER = 22
+    WOODWARD_MPU2S_ANALOG_SOURCE_MAINS_REACTIVE_POWER = 22,
 };
 static const char *const woodward_mpu2s_analog_source_names[] = {
     "inactive", "generator_active_power", "generator_cos_phi", "generator_frequency", "generator_reactive_power",
@@ -4569,7 +4708,7 @@ static inline int32_t woodward_mpu2s_analog_output_1_source_decode(uint16_t raw)
 
 enum {
     WOODWARD_MPU2S_CURRENT_RANGE_MA_4_20 = 0,
-    WOODWARD_MPU2S_CURRENT_RANGE_MA_0_20 = 1
+    WOODWARD_MPU2S_CURRENT_RANGE_MA_0_20 = 1,
 };
 static const char *const woodward_mpu2s_current_range_names[] = {
     "ma_4_20", "ma_0_20"
@@ -4658,18 +4797,37 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
+static inline fieldscribe_rule woodward_mpu2s_analog_output_1_value_at_100_percent_rule(
+    uint16_t analog_output_1_source_raw)
+{
+    return (analog_output_1_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_1_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_1_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode_count(
     int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, 100, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw), (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
@@ -4680,14 +4838,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode(
     double value, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode(
     int16_t raw, uint16_t analog_output_1_source_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -4781,18 +4939,37 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
+static inline fieldscribe_rule woodward_mpu2s_analog_output_2_value_at_100_percent_rule(
+    uint16_t analog_output_2_source_raw)
+{
+    return (analog_output_2_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((analog_output_2_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((analog_output_2_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
+}
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode_count(
     int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, 100, count);
+    return fieldscribe_decode_count(
+        woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw), (int64_t)raw, 100, count);
 }
 static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
@@ -4803,14 +4980,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode(
     double value, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
     return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode(
     int16_t raw, uint16_t analog_output_2_source_raw, double *value)
 {
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, value);
+    return fieldscribe_decode_value(
+        woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw), (int64_t)raw, value);
 }
 #endif
 
@@ -4914,7 +5091,7 @@ enum {
     WOODWARD_MPU2S_RELAY_EVENT_MAINS_COUNTER_CLOCKWISE_FIELD = 95,
     WOODWARD_MPU2S_RELAY_EVENT_ENGINE_ENABLE = 96,
     WOODWARD_MPU2S_RELAY_EVENT_ACKNOWLEDGE_KEY_PRESSED = 97,
-    WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT = 98
+    WOODWARD_MPU2S_RELAY_EVENT_COMMON_FAULT = 98,
 };
 static const fieldscribe_name woodward_mpu2s_relay_event_names[] = {
     {WOODWARD_MPU2S_RELAY_EVENT_FAULT_CLASS_1, "fault_class_1"},

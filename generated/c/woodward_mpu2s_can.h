@@ -49,7 +49,7 @@ static const fieldscribe_can_message woodward_mpu2s_message_visualisation = {
         {FIELDSCRIBE_CAN_WORD, 2U},
         {FIELDSCRIBE_CAN_WORD, 3U},
         {FIELDSCRIBE_CAN_WORD, 4U},
-        {FIELDSCRIBE_CAN_WORD, 5U}
+        {FIELDSCRIBE_CAN_WORD, 5U},
     }
 };
 
@@ -65,7 +65,7 @@ static const fieldscribe_can_message woodward_mpu2s_message_read_request = {
         {FIELDSCRIBE_CAN_CONSTANT, 0x00U},
         {FIELDSCRIBE_CAN_CONSTANT, 0x00U},
         {FIELDSCRIBE_CAN_XOR, 0x15U},
-        {FIELDSCRIBE_CAN_XOR, 0x2AU}
+        {FIELDSCRIBE_CAN_XOR, 0x2AU},
     }
 };
 
@@ -81,7 +81,7 @@ static const fieldscribe_can_message woodward_mpu2s_message_write_request = {
         {FIELDSCRIBE_CAN_RAW, 8U},
         {FIELDSCRIBE_CAN_RAW, 0U},
         {FIELDSCRIBE_CAN_XOR, 0x15U},
-        {FIELDSCRIBE_CAN_XOR, 0x2AU}
+        {FIELDSCRIBE_CAN_XOR, 0x2AU},
     }
 };
 
@@ -97,7 +97,7 @@ static const fieldscribe_can_message woodward_mpu2s_message_read_answer = {
         {FIELDSCRIBE_CAN_RAW, 8U},
         {FIELDSCRIBE_CAN_RAW, 0U},
         {FIELDSCRIBE_CAN_XOR, 0x15U},
-        {FIELDSCRIBE_CAN_XOR, 0x2AU}
+        {FIELDSCRIBE_CAN_XOR, 0x2AU},
     }
 };
 
@@ -113,7 +113,7 @@ static const fieldscribe_can_message woodward_mpu2s_message_write_answer = {
         {FIELDSCRIBE_CAN_RAW, 8U},
         {FIELDSCRIBE_CAN_RAW, 0U},
         {FIELDSCRIBE_CAN_XOR, 0x15U},
-        {FIELDSCRIBE_CAN_XOR, 0x2AU}
+        {FIELDSCRIBE_CAN_XOR, 0x2AU},
     }
 };
 
@@ -133,81 +133,305 @@ static const fieldscribe_can_telegram woodward_mpu2s_telegram_visualisation = {
 
 #define WOODWARD_MPU2S_PARAMETERS_ACCESS_GROUP_COUNT 1U
 static const uint16_t woodward_mpu2s_parameters_access_group[] = {
-    0x01F4U
+    0x01F4U, /* password_level_2 */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_GENERAL_GROUP_COUNT 17U
 static const uint16_t woodward_mpu2s_parameters_general_group[] = {
-    0x000BU, 0x000CU, 0x0009U, 0x0001U, 0x01F2U, 0x01F3U, 0x011AU, 0x0003U, 0x01FBU, 0x000AU, 0x0128U, 0x0002U,
-    0x0015U, 0x0007U, 0x0047U, 0x0045U, 0x0046U
+    0x000BU, /* generator_frequency_setpoint */
+    0x000CU, /* generator_rated_frequency */
+    0x0009U, /* generator_voltage_transformer_secondary_100v */
+    0x0001U, /* generator_voltage_transformer_primary */
+    0x01F2U, /* busbar_voltage_transformer_secondary_100v */
+    0x01F3U, /* busbar_voltage_transformer_primary */
+    0x011AU, /* mains_voltage_transformer_secondary_100v */
+    0x0003U, /* mains_voltage_transformer_primary */
+    0x01FBU, /* generator_voltage_factor */
+    0x000AU, /* generator_voltage_setpoint_100v */
+    0x0128U, /* generator_rated_voltage_100v */
+    0x0002U, /* generator_current_transformer_ratio */
+    0x0015U, /* power_measurement_phases */
+    0x0007U, /* generator_rated_power */
+    0x0047U, /* generator_rated_current */
+    0x0045U, /* generator_power_setpoint_1 */
+    0x0046U, /* generator_power_setpoint_2 */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_CONTROLLERS_GROUP_COUNT 20U
 static const uint16_t woodward_mpu2s_parameters_controllers_group[] = {
-    0x0013U, 0x0039U, 0x01F1U, 0x002CU, 0x002DU, 0x002EU, 0x0025U, 0x0026U, 0x0027U, 0x000DU, 0x0028U, 0x002AU,
-    0x0043U, 0x0049U, 0x004AU, 0x002FU, 0x0031U, 0x0032U, 0x004CU, 0x004BU
+    0x0013U, /* frequency_controller */
+    0x0039U, /* frequency_controller_start_frequency */
+    0x01F1U, /* frequency_controller_start_delay */
+    0x002CU, /* frequency_controller_dead_band */
+    0x002DU, /* frequency_controller_pulse_time */
+    0x002EU, /* frequency_controller_proportional_gain */
+    0x0025U, /* voltage_controller_dead_band */
+    0x0026U, /* voltage_controller_pulse_time */
+    0x0027U, /* voltage_controller_proportional_gain */
+    0x000DU, /* cos_phi_controller_setpoint */
+    0x0028U, /* cos_phi_controller_dead_band */
+    0x002AU, /* cos_phi_controller_proportional_gain */
+    0x0043U, /* active_power_controller_ramp */
+    0x0049U, /* active_power_controller_maximum */
+    0x004AU, /* active_power_controller_minimum */
+    0x002FU, /* active_power_controller_dead_band */
+    0x0031U, /* active_power_controller_proportional_gain */
+    0x0032U, /* active_power_controller_sensitivity_reduction */
+    0x004CU, /* part_load_lead_setpoint */
+    0x004BU, /* part_load_lead_time */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_BREAKER_GROUP_COUNT 5U
 static const uint16_t woodward_mpu2s_parameters_breaker_group[] = {
-    0x00C9U, 0x0010U, 0x008DU, 0x0015U, 0x00F8U
+    0x00C9U, /* control_by_interface_x1_x5 */
+    0x0010U, /* breaker_logic */
+    0x008DU, /* load_ramp_maximum_time */
+    0x0015U, /* generator_breaker_signal_logic */
+    0x00F8U, /* generator_breaker_open_relay_logic */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_SYNCHRONISATION_GROUP_COUNT 14U
 static const uint16_t woodward_mpu2s_parameters_synchronisation_group[] = {
-    0x001AU, 0x001BU, 0x001CU, 0x0135U, 0x001FU, 0x0020U, 0x0015U, 0x0022U, 0x0013U, 0x001DU, 0x001EU, 0x008EU,
-    0x0011U, 0x00F8U
+    0x001AU, /* synchronisation_frequency_difference_maximum */
+    0x001BU, /* synchronisation_frequency_difference_minimum */
+    0x001CU, /* synchronisation_voltage_difference_maximum */
+    0x0135U, /* synchronisation_voltage_difference_minimum */
+    0x001FU, /* synchronisation_pulse_time */
+    0x0020U, /* generator_breaker_pick_up_time */
+    0x0015U, /* synchronisation_time_monitoring */
+    0x0022U, /* synchronisation_time_monitoring_delay */
+    0x0013U, /* dead_bus_start */
+    0x001DU, /* dead_bus_start_frequency_difference_maximum */
+    0x001EU, /* dead_bus_start_voltage_difference_maximum */
+    0x008EU, /* dead_bus_start_maximum_time */
+    0x0011U, /* generator_breaker_monitoring */
+    0x00F8U, /* automatic_breaker_unlocking */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_MONITORING_GENERATOR_GROUP_COUNT 36U
 static const uint16_t woodward_mpu2s_parameters_monitoring_generator_group[] = {
-    0x000FU, 0x0070U, 0x0071U, 0x019EU, 0x007EU, 0x0072U, 0x0073U, 0x0074U, 0x0075U, 0x0076U, 0x0077U, 0x01ACU,
-    0x01ADU, 0x00F8U, 0x012AU, 0x012BU, 0x012CU, 0x012DU, 0x012EU, 0x0136U, 0x0068U, 0x0069U, 0x0120U, 0x0121U,
-    0x006AU, 0x006BU, 0x0122U, 0x0123U, 0x006CU, 0x006DU, 0x0124U, 0x0125U, 0x006EU, 0x006FU, 0x0126U, 0x0127U
+    0x000FU, /* generator_overload_monitoring */
+    0x0070U, /* overload_threshold_parallel_operation */
+    0x0071U, /* overload_delay_parallel_operation */
+    0x019EU, /* overload_threshold_isolated_operation */
+    0x007EU, /* overload_delay_isolated_operation */
+    0x0072U, /* reverse_power_threshold */
+    0x0073U, /* reverse_power_delay */
+    0x0074U, /* unbalanced_load_threshold */
+    0x0075U, /* unbalanced_load_delay */
+    0x0076U, /* overcurrent_1_threshold */
+    0x0077U, /* overcurrent_1_delay */
+    0x01ACU, /* overcurrent_2_threshold */
+    0x01ADU, /* overcurrent_2_delay */
+    0x00F8U, /* inverse_time_overcurrent */
+    0x012AU, /* inverse_time_overcurrent_characteristic */
+    0x012BU, /* inverse_time_overcurrent_tp */
+    0x012CU, /* inverse_time_overcurrent_ip */
+    0x012DU, /* inverse_time_overcurrent_istart */
+    0x012EU, /* inverse_time_overcurrent_voltage_knee */
+    0x0136U, /* generator_overfrequency_monitoring */
+    0x0068U, /* generator_overfrequency_1_threshold */
+    0x0069U, /* generator_overfrequency_1_delay */
+    0x0120U, /* generator_overfrequency_2_threshold */
+    0x0121U, /* generator_overfrequency_2_delay */
+    0x006AU, /* generator_underfrequency_1_threshold */
+    0x006BU, /* generator_underfrequency_1_delay */
+    0x0122U, /* generator_underfrequency_2_threshold */
+    0x0123U, /* generator_underfrequency_2_delay */
+    0x006CU, /* generator_overvoltage_1_threshold_100v */
+    0x006DU, /* generator_overvoltage_1_delay */
+    0x0124U, /* generator_overvoltage_2_threshold_100v */
+    0x0125U, /* generator_overvoltage_2_delay */
+    0x006EU, /* generator_undervoltage_1_threshold_100v */
+    0x006FU, /* generator_undervoltage_1_delay */
+    0x0126U, /* generator_undervoltage_2_threshold_100v */
+    0x0127U, /* generator_undervoltage_2_delay */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_MONITORING_MAINS_GROUP_COUNT 13U
 static const uint16_t woodward_mpu2s_parameters_monitoring_mains_group[] = {
-    0x000FU, 0x0057U, 0x0058U, 0x0059U, 0x005AU, 0x01FCU, 0x005BU, 0x005CU, 0x005DU, 0x005EU, 0x0015U, 0x0055U,
-    0x0056U
+    0x000FU, /* mains_frequency_monitoring */
+    0x0057U, /* mains_overfrequency_threshold */
+    0x0058U, /* mains_overfrequency_delay */
+    0x0059U, /* mains_underfrequency_threshold */
+    0x005AU, /* mains_underfrequency_delay */
+    0x01FCU, /* mains_voltage_factor */
+    0x005BU, /* mains_overvoltage_threshold_100v */
+    0x005CU, /* mains_overvoltage_delay */
+    0x005DU, /* mains_undervoltage_threshold_100v */
+    0x005EU, /* mains_undervoltage_delay */
+    0x0015U, /* phase_shift_monitoring_phases */
+    0x0055U, /* phase_shift_threshold_single_phase */
+    0x0056U, /* phase_shift_threshold_three_phase */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_MONITORING_POWER_GROUP_COUNT 9U
 static const uint16_t woodward_mpu2s_parameters_monitoring_power_group[] = {
-    0x00F8U, 0x012FU, 0x0132U, 0x0130U, 0x0131U, 0x0133U, 0x0134U, 0x0089U, 0x01A3U
+    0x00F8U, /* reactive_power_monitoring */
+    0x012FU, /* reactive_power_threshold_inductive */
+    0x0132U, /* reactive_power_delay_inductive */
+    0x0130U, /* reactive_power_threshold_capacitive */
+    0x0131U, /* reactive_power_delay_capacitive */
+    0x0133U, /* earth_fault_threshold */
+    0x0134U, /* earth_fault_delay */
+    0x0089U, /* battery_undervoltage_threshold */
+    0x01A3U, /* battery_undervoltage_delay */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_INPUTS_GROUP_COUNT 8U
 static const uint16_t woodward_mpu2s_parameters_inputs_group[] = {
-    0x007DU, 0x0194U, 0x007FU, 0x0082U, 0x0195U, 0x0087U, 0x0196U, 0x0088U
+    0x007DU, /* digital_inputs_1_to_4_logic */
+    0x0194U, /* digital_inputs_1_to_4_delay */
+    0x007FU, /* digital_inputs_1_to_4_engine_delay */
+    0x0082U, /* digital_inputs_1_to_4_fault_class */
+    0x0195U, /* digital_inputs_5_to_8_delay */
+    0x0087U, /* digital_inputs_5_to_8_fault_class */
+    0x0196U, /* digital_inputs_9_to_12_delay */
+    0x0088U, /* digital_inputs_9_to_12_fault_class */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_TEXTS_GROUP_COUNT 96U
 static const uint16_t woodward_mpu2s_parameters_texts_group[] = {
-    0x02E3U, 0x02E2U, 0x02E1U, 0x02E0U, 0x02DFU, 0x02DEU, 0x02DDU, 0x02DCU, 0x02EBU, 0x02EAU, 0x02E9U, 0x02E8U,
-    0x02E7U, 0x02E6U, 0x02E5U, 0x02E4U, 0x02F3U, 0x02F2U, 0x02F1U, 0x02F0U, 0x02EFU, 0x02EEU, 0x02EDU, 0x02ECU,
-    0x02FBU, 0x02FAU, 0x02F9U, 0x02F8U, 0x02F7U, 0x02F6U, 0x02F5U, 0x02F4U, 0x0303U, 0x0302U, 0x0301U, 0x0300U,
-    0x02FFU, 0x02FEU, 0x02FDU, 0x02FCU, 0x030BU, 0x030AU, 0x0309U, 0x0308U, 0x0307U, 0x0306U, 0x0305U, 0x0304U,
-    0x0313U, 0x0312U, 0x0311U, 0x0310U, 0x030FU, 0x030EU, 0x030DU, 0x030CU, 0x031BU, 0x031AU, 0x0319U, 0x0318U,
-    0x0317U, 0x0316U, 0x0315U, 0x0314U, 0x0323U, 0x0322U, 0x0321U, 0x0320U, 0x031FU, 0x031EU, 0x031DU, 0x031CU,
-    0x032BU, 0x032AU, 0x0329U, 0x0328U, 0x0327U, 0x0326U, 0x0325U, 0x0324U, 0x0333U, 0x0332U, 0x0331U, 0x0330U,
-    0x032FU, 0x032EU, 0x032DU, 0x032CU, 0x033BU, 0x033AU, 0x0339U, 0x0338U, 0x0337U, 0x0336U, 0x0335U, 0x0334U
+    0x02E3U, /* fault_text_terminal_62 */
+    0x02E2U, /* fault_text_terminal_62 */
+    0x02E1U, /* fault_text_terminal_62 */
+    0x02E0U, /* fault_text_terminal_62 */
+    0x02DFU, /* fault_text_terminal_62 */
+    0x02DEU, /* fault_text_terminal_62 */
+    0x02DDU, /* fault_text_terminal_62 */
+    0x02DCU, /* fault_text_terminal_62 */
+    0x02EBU, /* fault_text_terminal_63 */
+    0x02EAU, /* fault_text_terminal_63 */
+    0x02E9U, /* fault_text_terminal_63 */
+    0x02E8U, /* fault_text_terminal_63 */
+    0x02E7U, /* fault_text_terminal_63 */
+    0x02E6U, /* fault_text_terminal_63 */
+    0x02E5U, /* fault_text_terminal_63 */
+    0x02E4U, /* fault_text_terminal_63 */
+    0x02F3U, /* fault_text_terminal_64 */
+    0x02F2U, /* fault_text_terminal_64 */
+    0x02F1U, /* fault_text_terminal_64 */
+    0x02F0U, /* fault_text_terminal_64 */
+    0x02EFU, /* fault_text_terminal_64 */
+    0x02EEU, /* fault_text_terminal_64 */
+    0x02EDU, /* fault_text_terminal_64 */
+    0x02ECU, /* fault_text_terminal_64 */
+    0x02FBU, /* fault_text_terminal_65 */
+    0x02FAU, /* fault_text_terminal_65 */
+    0x02F9U, /* fault_text_terminal_65 */
+    0x02F8U, /* fault_text_terminal_65 */
+    0x02F7U, /* fault_text_terminal_65 */
+    0x02F6U, /* fault_text_terminal_65 */
+    0x02F5U, /* fault_text_terminal_65 */
+    0x02F4U, /* fault_text_terminal_65 */
+    0x0303U, /* fault_text_terminal_66 */
+    0x0302U, /* fault_text_terminal_66 */
+    0x0301U, /* fault_text_terminal_66 */
+    0x0300U, /* fault_text_terminal_66 */
+    0x02FFU, /* fault_text_terminal_66 */
+    0x02FEU, /* fault_text_terminal_66 */
+    0x02FDU, /* fault_text_terminal_66 */
+    0x02FCU, /* fault_text_terminal_66 */
+    0x030BU, /* fault_text_terminal_67 */
+    0x030AU, /* fault_text_terminal_67 */
+    0x0309U, /* fault_text_terminal_67 */
+    0x0308U, /* fault_text_terminal_67 */
+    0x0307U, /* fault_text_terminal_67 */
+    0x0306U, /* fault_text_terminal_67 */
+    0x0305U, /* fault_text_terminal_67 */
+    0x0304U, /* fault_text_terminal_67 */
+    0x0313U, /* fault_text_terminal_68 */
+    0x0312U, /* fault_text_terminal_68 */
+    0x0311U, /* fault_text_terminal_68 */
+    0x0310U, /* fault_text_terminal_68 */
+    0x030FU, /* fault_text_terminal_68 */
+    0x030EU, /* fault_text_terminal_68 */
+    0x030DU, /* fault_text_terminal_68 */
+    0x030CU, /* fault_text_terminal_68 */
+    0x031BU, /* fault_text_terminal_69 */
+    0x031AU, /* fault_text_terminal_69 */
+    0x0319U, /* fault_text_terminal_69 */
+    0x0318U, /* fault_text_terminal_69 */
+    0x0317U, /* fault_text_terminal_69 */
+    0x0316U, /* fault_text_terminal_69 */
+    0x0315U, /* fault_text_terminal_69 */
+    0x0314U, /* fault_text_terminal_69 */
+    0x0323U, /* fault_text_terminal_70 */
+    0x0322U, /* fault_text_terminal_70 */
+    0x0321U, /* fault_text_terminal_70 */
+    0x0320U, /* fault_text_terminal_70 */
+    0x031FU, /* fault_text_terminal_70 */
+    0x031EU, /* fault_text_terminal_70 */
+    0x031DU, /* fault_text_terminal_70 */
+    0x031CU, /* fault_text_terminal_70 */
+    0x032BU, /* fault_text_terminal_71 */
+    0x032AU, /* fault_text_terminal_71 */
+    0x0329U, /* fault_text_terminal_71 */
+    0x0328U, /* fault_text_terminal_71 */
+    0x0327U, /* fault_text_terminal_71 */
+    0x0326U, /* fault_text_terminal_71 */
+    0x0325U, /* fault_text_terminal_71 */
+    0x0324U, /* fault_text_terminal_71 */
+    0x0333U, /* fault_text_terminal_72 */
+    0x0332U, /* fault_text_terminal_72 */
+    0x0331U, /* fault_text_terminal_72 */
+    0x0330U, /* fault_text_terminal_72 */
+    0x032FU, /* fault_text_terminal_72 */
+    0x032EU, /* fault_text_terminal_72 */
+    0x032DU, /* fault_text_terminal_72 */
+    0x032CU, /* fault_text_terminal_72 */
+    0x033BU, /* fault_text_terminal_73 */
+    0x033AU, /* fault_text_terminal_73 */
+    0x0339U, /* fault_text_terminal_73 */
+    0x0338U, /* fault_text_terminal_73 */
+    0x0337U, /* fault_text_terminal_73 */
+    0x0336U, /* fault_text_terminal_73 */
+    0x0335U, /* fault_text_terminal_73 */
+    0x0334U, /* fault_text_terminal_73 */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_ANALOG_GROUP_COUNT 7U
 static const uint16_t woodward_mpu2s_parameters_analog_group[] = {
-    0x00C0U, 0x0010U, 0x00C1U, 0x00C2U, 0x00C3U, 0x00C4U, 0x00C5U
+    0x00C0U, /* analog_output_1_source */
+    0x0010U, /* analog_output_1_current_range */
+    0x00C1U, /* analog_output_1_value_at_0_percent */
+    0x00C2U, /* analog_output_1_value_at_100_percent */
+    0x00C3U, /* analog_output_2_source */
+    0x00C4U, /* analog_output_2_value_at_0_percent */
+    0x00C5U, /* analog_output_2_value_at_100_percent */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_RELAYS_GROUP_COUNT 21U
 static const uint16_t woodward_mpu2s_parameters_relays_group[] = {
-    0x01B4U, 0x01B5U, 0x01B6U, 0x01B7U, 0x01B8U, 0x01B9U, 0x01BAU, 0x01BBU, 0x01BCU, 0x01BDU, 0x01BEU, 0x01BFU,
-    0x01C0U, 0x01C1U, 0x01C2U, 0x01C3U, 0x01C4U, 0x01C5U, 0x01C6U, 0x01C7U, 0x01C8U
+    0x01B4U, /* relay_1_event_1 */
+    0x01B5U, /* relay_1_event_2 */
+    0x01B6U, /* relay_1_event_3 */
+    0x01B7U, /* relay_2_event_1 */
+    0x01B8U, /* relay_2_event_2 */
+    0x01B9U, /* relay_2_event_3 */
+    0x01BAU, /* relay_3_event_1 */
+    0x01BBU, /* relay_3_event_2 */
+    0x01BCU, /* relay_3_event_3 */
+    0x01BDU, /* relay_4_event_1 */
+    0x01BEU, /* relay_4_event_2 */
+    0x01BFU, /* relay_4_event_3 */
+    0x01C0U, /* relay_5_event_1 */
+    0x01C1U, /* relay_5_event_2 */
+    0x01C2U, /* relay_5_event_3 */
+    0x01C3U, /* relay_6_event_1 */
+    0x01C4U, /* relay_6_event_2 */
+    0x01C5U, /* relay_6_event_3 */
+    0x01C6U, /* relay_7_event_1 */
+    0x01C7U, /* relay_7_event_2 */
+    0x01C8U, /* relay_7_event_3 */
 };
 
 #define WOODWARD_MPU2S_PARAMETERS_OPERATION_GROUP_COUNT 4U
 static const uint16_t woodward_mpu2s_parameters_operation_group[] = {
-    0x0012U, 0x00C9U, 0x007AU, 0x0019U
+    0x0012U, /* automatic_idle_control */
+    0x00C9U, /* shutdown */
+    0x007AU, /* engine_monitoring_delay */
+    0x0019U, /* monitoring_start_frequency */
 };
 
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */

@@ -52,6 +52,10 @@ class Span:
         line, column = self.at
         return Span(self.file, line, column + columns, self.width if width is None else width)
 
+    def in_file(self, name: str) -> Span:
+        """The same place in a file that has another name."""
+        return Span(name, *self.at, self.width)
+
     def _facts(self) -> tuple[str, tuple[int, int], int]:
         return self.file, self.at, self.width
 
@@ -108,6 +112,14 @@ class Report:
         for finding in self._findings:
             elsewhere = (finding.span.file, finding.span.at) != (span.file, span.at)
             result._add(finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding)
+        return result
+
+    def in_files(self, name_of: Callable[[str], str]) -> Report:
+        """The same findings with other names of their files."""
+        result = Report()
+        for finding in self._findings:
+            related = tuple((span.in_file(name_of(span.file)), text) for span, text in finding.related)
+            result._add(finding._replace(span=finding.span.in_file(name_of(finding.span.file)), related=related))
         return result
 
     @property

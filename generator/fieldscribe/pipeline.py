@@ -24,10 +24,11 @@ DEVICE_FILE = "device.yaml"
 
 
 class Models(NamedTuple):
-    """A whole device, and the same as code may know it."""
+    """A whole device, the same as code may know it, and where its version stands."""
 
     whole: Device
     plain: Device
+    version: Span
 
 
 class TargetError(Exception):
@@ -94,7 +95,7 @@ def load_models(device_file: Path, report: Report, inputs: Inputs | None = None)
     `inputs` remembers the files that were read, each with a checksum.
     """
     subject = _loaded(device_file, report, inputs)
-    return None if subject is None else Models(*subject.models)
+    return None if subject is None else Models(*subject.models, subject.scope.header.span("version"))
 
 
 def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Subject | None:
@@ -105,7 +106,7 @@ def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> 
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return subject
+    return None if own.has_errors else subject
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
@@ -124,7 +125,19 @@ def load_subject(device_file: Path, report: Report) -> Subject | None:
     from fieldscribe.language.files import read_files
 
     files = read_files(device_file, report)
-    return None if files is None else _checked(files, report)
+    subject = None if files is None else _checked(files, report)
+    return None if report.has_errors else subject
+
+
+def load_so_far(device_file: Path, report: Report) -> Subject | None:
+    """As `load_subject`, but also with errors: then what is sound of it. None where the head lacks too much."""
+    from fieldscribe.language.files import read_files
+
+    own = Report()
+    files = read_files(device_file, own)
+    subject = None if files is None else _checked(files, own)
+    report.extend(own)
+    return subject
 
 
 def load_outline(device_file: Path, report: Report) -> tuple[Map, list[Draft]] | None:
@@ -166,7 +179,8 @@ def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
         yield path, (templates_dir() / template).read_text("utf-8")
 
 
-def _checked(files: Files, report: Report) -> Subject | None:
+def _checked(files: Files, report: Report) -> Subject:
+    """The parts of a device, resolved and checked; with errors they are not to be compiled."""
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.bus import bus_of
     from fieldscribe.resolve.commands import commands_of
@@ -192,4 +206,4 @@ def _checked(files: Files, report: Report) -> Subject | None:
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
     subject = Subject(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
     run_checks(subject)
-    return None if report.has_errors else subject
+    return subject

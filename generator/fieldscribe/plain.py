@@ -86,13 +86,18 @@ def digest(device: Device) -> str:
 
 def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
     """A device and the same as code may know it, both with their digest."""
+    digest = checksum_of(replace(plain, digest=""))
+    return replace(device, digest=digest), replace(plain, digest=digest)
+
+
+def checksum_of(device: Device) -> str:
+    """A checksum that differs wherever a fact of the device does, be it for people."""
     from hashlib import sha256
 
     checksum = sha256()
-    for text in _texts(replace(plain, digest="")):
+    for text in _texts(device):
         checksum.update(text)
-    digest = checksum.hexdigest()
-    return replace(device, digest=digest), replace(plain, digest=digest)
+    return checksum.hexdigest()
 
 
 def _texts(plain: Device) -> Iterator[bytes]:

@@ -120,9 +120,11 @@ def documented(package: Package, vector: Vector) -> bool:
 
 def block(package: Package, vector: Vector) -> bool:
     """A planned read."""
-    block = package.device.BLOCKS[vector["group"]][vector["index"]]
-    found = {"space": block.space, "function": block.function, "address": block.address, "count": block.count}
-    return all(vector[key] == value for key, value in found.items())
+    return any(
+        (vector["space"], vector["function"], vector["address"], vector["count"])
+        == (block.space, block.function, block.address, block.count)
+        for block in package.device.BLOCKS[vector["group"]]
+    )
 
 
 def group(package: Package, vector: Vector) -> bool:

@@ -46,6 +46,9 @@ def run(folder: Path, device: str, vectors: Path, show: int = 0) -> tuple[Counte
     if file.counts != dict(passed + failed):
         shown.append({"kind": "other counts than the file says"})
         failed["incomplete"] += 1
+    if file.head[2:] != [package.module.__version__, package.module.__digest__]:
+        shown.append({"kind": "another version or digest than the file's"})
+        failed["of another description"] += 1
     for reason in _whole(package):
         (failed if reason else passed)["runtime"] += 1
         shown += [{"kind": "runtime", "reason": reason}] if reason else []

@@ -12,7 +12,7 @@ from typing import Any
 import fieldscribe
 import pytest
 from fieldscribe.export import export_model
-from fieldscribe.export.rules import ExportError, bound_of, use_of
+from fieldscribe.export.rules import bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in
@@ -22,27 +22,15 @@ DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
 POINT_KEYS = (
     *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
-    *("places", "type", "words", "access", "bits", "variant", "when", "since", "until", "record", "set", "repeat"),
-    *(
-        "format",
-        "unit",
-        "display",
-        "default",
-        "step",
-        "special",
-        "fixed",
-        "changes",
-        "together",
-        "scale",
-        "raw",
-        "enum",
-        "open",
-    ),
-    *("flags", "digits", "encoding", "persistence", "conditions", "title", "source", "errata", "generated"),
+    *("places", "written", "type", "untyped", "words", "access", "bits", "variant", "when", "since", "until", "record"),
+    *("set", "repeat", "format", "unit", "unit_name", "quantity", "display", "decimals", "default", "step", "special"),
+    *("special_of", "fixed", "changes", "changes_with", "together", "scale", "raw", "enum", "enum_name", "open"),
+    *("flags", "digits", "encoding", "persistence", "conditions", "title", "note", "source", "errata", "was"),
+    *("reserved", "generated", "reason"),
 )
 TOP_KEYS = (
-    *("format", "device", "version", "family", "documents", "variants", "limits", "points", "commands", "messages"),
-    *("telegrams", "frames", "codes", "errata"),
+    *("format", "device", "version", "family", "vendor", "model", "title", "note", "documents", "variants", "limits"),
+    *("groups", "points", "commands", "messages", "telegrams", "frames", "codes", "errata"),
 )
 
 
@@ -98,7 +86,9 @@ def test_a_scaled_point() -> None:
         "addresses": [4136],
         "references": {"modicon": 4137, "reference": 404137},
         "places": [{"for": "read", "space": "holding", "address": 4136, "function": None}],
+        "written": None,
         "type": "u16",
+        "untyped": None,
         "words": 1,
         "access": "rw",
         "bits": None,
@@ -111,16 +101,22 @@ def test_a_scaled_point() -> None:
         "repeat": None,
         "format": None,
         "unit": "Hz",
+        "unit_name": "hertz",
+        "quantity": "frequency",
         "display": None,
+        "decimals": 1,
         "default": 500,
         "step": None,
         "special": [],
+        "special_of": "",
         "fixed": {},
         "changes": None,
+        "changes_with": [],
         "together": None,
         "scale": [{"when": None, "num": "10", "den": "1", "offset": "0", "uses": []}],
         "raw": {"ranges": [[0, 4000]], "values": None},
         "enum": None,
+        "enum_name": None,
         "open": False,
         "flags": [],
         "digits": None,
@@ -128,9 +124,13 @@ def test_a_scaled_point() -> None:
         "persistence": "enter",
         "conditions": [],
         "title": {"en": "Base frequency", "de": "Basisfrequenz"},
+        "note": {},
         "source": {"document": "manual", "section": "Gruppe A", "page": None, "line": 780},
         "errata": ["a020_wire"],
+        "was": ["main_frequency"],
+        "reserved": False,
         "generated": True,
+        "reason": None,
     }
 
 
@@ -144,21 +144,41 @@ def test_words_enums_flags_and_specials() -> None:
     assert (source["open"], _point("analog_filter")["open"]) == (False, True)
     assert _point("analog_filter")["enum"]["17"]["quantity"] == "500 ms"
     assert _point("status_word")["flags"] == [
-        {"bits": [0, 0], "name": "ready", "values": {"1": {"name": "ready", "title": {"en": "Ready", "de": "Bereit"}}}},
-        {"bits": [3, 3], "name": "fault", "values": {"0": {"name": "fault", "title": {"en": "Fault"}}}},
+        {
+            "bits": [0, 0],
+            "name": "ready",
+            "title": {"en": "Ready", "de": "Bereit"},
+            "active": 1,
+            "values": {"1": {"name": "ready", "title": {"en": "Ready", "de": "Bereit"}}},
+        },
+        {
+            "bits": [3, 3],
+            "name": "fault",
+            "title": {"en": "Fault"},
+            "active": 0,
+            "values": {"0": {"name": "fault", "title": {"en": "Fault"}}},
+        },
         {
             "bits": [5, 4],
             "name": "mode",
+            "title": {"en": "Mode"},
+            "active": 1,
             "values": {
                 "0": {"name": "stop", "title": {"en": "stop"}},
                 "3": {"name": "run", "title": {"en": "run"}},
             },
         },
     ]
-    no_sensor = {"raw": [32767, 32767], "name": "no_sensor", "no_value": True, "writable": False}
+    no_sensor = {
+        "raw": [32767, 32767],
+        "name": "no_sensor",
+        "title": {"en": "No sensor"},
+        "no_value": True,
+        "writable": False,
+    }
     assert _point("temperature")["special"] == [no_sensor]
     assert _point("upper_limit")["special"] == [
-        {"raw": [0, 0], "name": "inactive", "no_value": False, "writable": True}
+        {"raw": [0, 0], "name": "inactive", "title": {"en": "Inactive"}, "no_value": False, "writable": True}
     ]
     assert _point("acceleration_time")["step"] == [{"from": 1, "step": 1}, {"from": 10000, "step": 10}]
 
@@ -168,10 +188,10 @@ def test_no_value_and_a_span_of_special_codes() -> None:
     errors = Special(0xFF00, 0xFFFF, "error", titles("Error"), False)
     exported: Any = export_model(sample_device((point("level", 1, specials=(no_value, errors)),)))
     assert exported["points"][0]["special"] == [
-        {"raw": [32768, 32768], "name": "no_value", "no_value": True, "writable": False},
-        {"raw": [65280, 65535], "name": "error", "no_value": False, "writable": False},
+        {"raw": [32768, 32768], "name": "no_value", "title": {"en": "No value"}, "no_value": True, "writable": False},
+        {"raw": [65280, 65535], "name": "error", "title": {"en": "Error"}, "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 3
+    assert exported["format"] == 4
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 
@@ -211,10 +231,18 @@ def test_variants_frames_errata_and_what_is_only_documented() -> None:
     assert _model()["frames"] == [
         {
             "name": "write_base",
+            "framing": "rtu",
+            "title": {"en": "Write 50 Hz"},
             "bytes": "05 06 10 28 01 F4 A8 54",
+            "corrected": "05 06 10 28 01 F4 0C 91",
             "direction": "request",
+            "answers": None,
             "meaning": {"base_frequency": 500},
             "valid": False,
+            "can_id": None,
+            "pkw": None,
+            "source": {"document": "manual", "section": "Gruppe A", "page": None, "line": 780},
+            "errata": ["write_crc"],
         }
     ]
     assert [one["point"] for one in _model()["errata"]] == ["base_frequency", "setpoint_display", None]
@@ -263,10 +291,17 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
 
 
-@pytest.mark.parametrize("factor", [value_of("other", intercept=5), value_of("other", slope=99, ten_to=True)])
-def test_what_the_format_cannot_say_is_refused(factor: Factor) -> None:
-    with pytest.raises(ExportError, match=r"other\.raw"):
-        use_of(factor, point("other", 1))
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (value_of("other", intercept=5), {"times": 1, "plus": 5, "power": 1}),
+        (value_of("other", -1, slope=99, ten_to=True), {"times": 99, "plus": 0, "ten_to": -1}),
+        (value_of("other", intercept=2000, ten_to=True), {"times": 1, "plus": 2000, "ten_to": 1}),
+    ],
+)
+def test_a_factor_that_is_no_plain_multiple_is_said_with_all_its_numbers(factor: Factor, said: dict[str, int]) -> None:
+    constant, uses = use_of(factor, point("other", 1))
+    assert (constant, uses) == (Fraction(1), [{"point": "other", "part": "raw", **said}])
 
 
 def test_computed_ends_as_expressions() -> None:

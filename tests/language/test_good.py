@@ -209,7 +209,7 @@ def test_what_repeats() -> None:
     assert point("acceleration_set_3").title == {"en": "Third acceleration"}
     assert [point(item).set for item in ("acceleration", "acceleration_set_2", "acceleration_set_3")] == [1, 2, 3]
     assert point("acceleration").was == ("ramp_up",)
-    assert point("acceleration_set_2").was == ()
+    assert point("acceleration_set_2").was == ("ramp_up_set_2",)
 
 
 def test_inheritance() -> None:

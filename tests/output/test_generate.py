@@ -19,7 +19,7 @@ from support.strange_files import KINDS, put
 
 DOCS = [
     *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
-    "manifest/hitachi_l200.json",
+    *("manifest/hitachi_l200.facts.json", "manifest/hitachi_l200.json"),
 ]
 
 

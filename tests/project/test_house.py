@@ -43,7 +43,7 @@ ROOMS = (
     ("checks", "checks"),
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
-    ("what talks to people", "conversation audit export importing finding"),
+    ("what talks to people", "conversation audit export differences importing finding"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
     ("a person at work on a description", "working"),
@@ -52,7 +52,6 @@ ROOMS = (
 """The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""
 
 NAMES_A_FAMILY = {
-    "export": "`can_id` is a key of the published contract",
     "language.keys.files": "an example of a whole file",
     "language.keys.meaning": "an example of an enum",
     "language.keys.places": "examples of whole files and messages",

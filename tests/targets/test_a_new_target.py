@@ -75,7 +75,12 @@ def test_it_is_named(compiler: Compiler) -> None:
     assert "vectors, toy" in " ".join(compiler.run("generate", "--help").stdout.split())
     compiler.describe()
     listed = compiler.run("generate", ".", "--out", "made", "--target", "toy", "--list-outputs").stdout.splitlines()
-    assert listed == ["made/manifest/made_up.json", "made/toy/made_up.csv", "made/toy/spaces.csv"]
+    assert listed == [
+        "made/manifest/made_up.facts.json",
+        "made/manifest/made_up.json",
+        "made/toy/made_up.csv",
+        "made/toy/spaces.csv",
+    ]
 
 
 def test_its_names_are_checked(compiler: Compiler) -> None:

@@ -4279,6 +4279,10 @@ int main(int argc, char **argv)
     fieldscribe_suite suite;
     suite.device = "hitachi_l200";
     suite.version = HITACHI_L200_DESCRIPTION_VERSION;
+    suite.major = HITACHI_L200_DESCRIPTION_VERSION_MAJOR;
+    suite.minor = HITACHI_L200_DESCRIPTION_VERSION_MINOR;
+    suite.patch = HITACHI_L200_DESCRIPTION_VERSION_PATCH;
+    suite.number = HITACHI_L200_DESCRIPTION_VERSION_NUMBER;
     suite.digest = HITACHI_L200_DESCRIPTION_DIGEST;
     suite.statuses = statuses;
     suite.adapters = adapters;

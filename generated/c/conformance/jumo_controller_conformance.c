@@ -528,6 +528,10 @@ int main(int argc, char **argv)
     fieldscribe_suite suite;
     suite.device = "jumo_controller";
     suite.version = JUMO_CONTROLLER_DESCRIPTION_VERSION;
+    suite.major = JUMO_CONTROLLER_DESCRIPTION_VERSION_MAJOR;
+    suite.minor = JUMO_CONTROLLER_DESCRIPTION_VERSION_MINOR;
+    suite.patch = JUMO_CONTROLLER_DESCRIPTION_VERSION_PATCH;
+    suite.number = JUMO_CONTROLLER_DESCRIPTION_VERSION_NUMBER;
     suite.digest = JUMO_CONTROLLER_DESCRIPTION_DIGEST;
     suite.statuses = statuses;
     suite.adapters = adapters;

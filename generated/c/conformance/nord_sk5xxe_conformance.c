@@ -371,6 +371,10 @@ int main(int argc, char **argv)
     fieldscribe_suite suite;
     suite.device = "nord_sk5xxe";
     suite.version = NORD_SK5XXE_DESCRIPTION_VERSION;
+    suite.major = NORD_SK5XXE_DESCRIPTION_VERSION_MAJOR;
+    suite.minor = NORD_SK5XXE_DESCRIPTION_VERSION_MINOR;
+    suite.patch = NORD_SK5XXE_DESCRIPTION_VERSION_PATCH;
+    suite.number = NORD_SK5XXE_DESCRIPTION_VERSION_NUMBER;
     suite.digest = NORD_SK5XXE_DESCRIPTION_DIGEST;
     suite.statuses = statuses;
     suite.adapters = adapters;

@@ -17,9 +17,9 @@ static inline const siemens_mm4_main_setpoint_with *with_main_setpoint(fieldscri
     return &with;
 }
 
-static inline const siemens_mm4_main_setpoint_with *with_main_actual_value(fieldscribe_vector *v)
+static inline const siemens_mm4_main_actual_value_with *with_main_actual_value(fieldscribe_vector *v)
 {
-    static siemens_mm4_main_setpoint_with with;
+    static siemens_mm4_main_actual_value_with with;
     with.uss_normalisation_raw = (uint16_t)fieldscribe_with(v, "uss_normalisation");
     with.reference_frequency_raw = (uint32_t)fieldscribe_with(v, "reference_frequency");
     return &with;
@@ -1155,6 +1155,10 @@ int main(int argc, char **argv)
     fieldscribe_suite suite;
     suite.device = "siemens_mm4";
     suite.version = SIEMENS_MM4_DESCRIPTION_VERSION;
+    suite.major = SIEMENS_MM4_DESCRIPTION_VERSION_MAJOR;
+    suite.minor = SIEMENS_MM4_DESCRIPTION_VERSION_MINOR;
+    suite.patch = SIEMENS_MM4_DESCRIPTION_VERSION_PATCH;
+    suite.number = SIEMENS_MM4_DESCRIPTION_VERSION_NUMBER;
     suite.digest = SIEMENS_MM4_DESCRIPTION_DIGEST;
     suite.statuses = statuses;
     suite.adapters = adapters;

@@ -8012,6 +8012,10 @@ int main(int argc, char **argv)
     fieldscribe_suite suite;
     suite.device = "woodward_mpu2s";
     suite.version = WOODWARD_MPU2S_DESCRIPTION_VERSION;
+    suite.major = WOODWARD_MPU2S_DESCRIPTION_VERSION_MAJOR;
+    suite.minor = WOODWARD_MPU2S_DESCRIPTION_VERSION_MINOR;
+    suite.patch = WOODWARD_MPU2S_DESCRIPTION_VERSION_PATCH;
+    suite.number = WOODWARD_MPU2S_DESCRIPTION_VERSION_NUMBER;
     suite.digest = WOODWARD_MPU2S_DESCRIPTION_DIGEST;
     suite.statuses = statuses;
     suite.adapters = adapters;

@@ -134,3 +134,6 @@ __all__ = [
     "TripReset",
     "VfCharacteristic",
 ]
+
+__version__ = "1.0.0"
+__digest__ = "e9443fb4e82d8e794cdf5782d994c40691c8b88999b01c4f73067b500f8d0351"

@@ -42,3 +42,6 @@ __all__ = [
     "ProgramStatus",
     "TimerCommands",
 ]
+
+__version__ = "1.0.0"
+__digest__ = "e96a1334326c820339ea53ac31ae6eee69c0e284bc3ae73788ae00fe1fedfbca"

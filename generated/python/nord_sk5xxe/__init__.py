@@ -30,3 +30,6 @@ __all__ = [
     "StatusWord",
     "StatusWordParameterSet",
 ]
+
+__version__ = "1.0.0"
+__digest__ = "fec6133144bd7c5ea18112ba4af418eb93ae97e847eb97be64158de3a39418be"

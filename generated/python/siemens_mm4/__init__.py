@@ -64,3 +64,6 @@ __all__ = [
     "UssRs485AnswerSourceIndex2",
     "UssRs485AnswerSourceIndex3",
 ]
+
+__version__ = "1.0.0"
+__digest__ = "fd2e41451c46fad078c37757acd71000f7c0ee24030f2dd78a6fee946cf48572"

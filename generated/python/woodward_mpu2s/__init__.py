@@ -254,3 +254,6 @@ __all__ = [
     "WoodwardMpu2s",
     "WoodwardMpu2sAsync",
 ]
+
+__version__ = "1.0.0"
+__digest__ = "ba0912039ad5dd8421c169f30287c7deedfb86cef8f9445b5af7349ae969b835"

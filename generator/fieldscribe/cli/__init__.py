@@ -36,6 +36,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "diff": "say what changed between two descriptions, whom it breaks, and which step the version must take",
     "list": "list the devices there are, or the points of one",
     "search": "find words in titles, codes, sections, names, flags, labels and numbers of all devices",
     "completion": "print what makes a shell complete commands, options, devices and points",

@@ -19,9 +19,14 @@ HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)
+  fieldscribe generate --check --strict-version
+
+what a version said when it was generated first is kept beside the output; when facts changed since then and the version
+was not raised by the step that `fieldscribe diff` asks for, a warning says which one, until it is
 
 a device with an error, or with somebody else's file in its way, writes nothing; the others are written
-ends with 1 when there is such a device, and with --check when anything is stale"""
+ends with 1 when there is such a device, with --check when anything is stale, and with --strict-version when a version
+was not raised enough"""
 
 
 def add_where(parser: ArgumentParser) -> None:
@@ -46,6 +51,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_paths(parser)
     add_where(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
+    parser.add_argument(
+        "--strict-version", action="store_true", help="with --check: a version that was not raised enough is an error"
+    )
+    parser.add_argument(
+        "--unreleased",
+        action="store_true",
+        help="nobody has the present versions yet: take what they say now as what they said, without a warning",
+    )
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
@@ -71,11 +84,15 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.pipeline import find_devices
 
     targets = targets_of(arguments)
+    if arguments.strict_version and not arguments.check:
+        return usage_error("--strict-version is for --check", "write `generate --check --strict-version`")
+    if arguments.unreleased and (arguments.check or arguments.list_outputs):
+        return usage_error("--unreleased writes what versions say; --check and --list-outputs write nothing")
     report = Report()
     device_files = find_devices(description_paths(arguments.paths), report)
     writes = not (arguments.check or arguments.list_outputs)
     memory = Memory(arguments.out, targets, device_files) if writes and not report.has_errors else None
-    known = memory.outputs() if memory and not arguments.depfile else None
+    known = memory.outputs() if memory and not (arguments.depfile or arguments.unreleased) else None
     if known is not None:
         from fieldscribe.output.result import Result
 
@@ -96,7 +113,8 @@ def _compiled(
     from fieldscribe.cli import show_traceback
     from fieldscribe.output.generation import Generation
 
-    generation = Generation(arguments.out, targets, report, show_traceback)
+    strict, unreleased = arguments.strict_version, arguments.unreleased
+    generation = Generation(arguments.out, targets, report, show_traceback, strict=strict, unreleased=unreleased)
     generation.load(device_files)
     if arguments.list_outputs:
         generation.list_outputs()

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.export.rules import PointsByName
-    from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
+    from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Group, Message, Point, Telegram
 
-FORMAT = 3
+FORMAT = 4
 """The version of the exported shape."""
 
 
 def export_model(device: Device) -> dict[str, object]:
-    """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`. Raises ExportError."""
+    """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`."""
     by_name: PointsByName = {name: point for point in device.points for name in (point.item, point.name)}
     directions = {telegram.name: telegram.direction for telegram in device.telegrams}
     return {
@@ -32,14 +32,19 @@ def export_model(device: Device) -> dict[str, object]:
         "device": device.id,
         "version": device.version,
         "family": device.family,
+        "vendor": device.vendor,
+        "model": device.model,
+        "title": dict(device.title),
+        "note": dict(device.note),
         "documents": [_document(document) for document in device.documents],
         "variants": {axis: list(values) for axis, values in device.variants.items()},
         "limits": _limits(device),
+        "groups": [_group(group) for group in device.groups],
         "points": [_point(device, point, by_name, directions) for point in device.points],
         "commands": [_command(command) for command in device.commands],
         "messages": [_message(message) for message in device.messages],
         "telegrams": [_telegram(telegram) for telegram in device.telegrams],
-        "frames": [_frame(frame) for frame in device.frames],
+        "frames": [_frame(frame, device.family) for frame in device.frames],
         "codes": _codes(device.bus),
         "errata": [_erratum(erratum) for erratum in device.errata],
     }
@@ -82,20 +87,38 @@ def _limits(device: Device) -> dict[str, object]:
         "most": {str(function.number): function.most for function in bus.functions if function.most is not None},
         "gaps": {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
         "timing": dict(bus.timing),
+        "note": dict(bus.note),
     }
-    for each_family in sorted(families(), key=lambda each_family: each_family.name == device.family):
-        part: Any = each_family.part("export")
-        if part is not None:
-            limits |= part.limits(bus if each_family.name == device.family else None)
+    limits |= _own_facts("limits", device.family, bus)
     schema = json.loads(Path(__file__).with_name("schema.json").read_text("utf-8"))
     order = schema["$defs"]["limits"]["required"]
     return {key: limits.pop(key) for key in order} | limits
+
+
+def _own_facts(kind: str, own_family: str, thing: object) -> dict[str, object]:
+    """What families alone know of a thing; keys of other families stand there empty."""
+    facts: dict[str, object] = {}
+    for each_family in sorted(families(), key=lambda each_family: each_family.name == own_family):
+        facts_of = getattr(each_family.part("export"), kind, None)
+        if facts_of is not None:
+            facts |= facts_of(thing if each_family.name == own_family else None)
+    return facts
+
+
+def _group(group: Group) -> dict[str, object]:
+    return {
+        "name": group.name,
+        "title": dict(group.title),
+        "note": dict(group.note),
+        "source": source_of(group.source),
+    }
 
 
 def _command(command: Command) -> dict[str, object]:
     return {
         "name": command.name,
         "title": dict(command.title),
+        "note": dict(command.note),
         "space": command.space,
         "address": command.address,
         "function": command.function,
@@ -112,7 +135,7 @@ def _message(message: Message) -> dict[str, object]:
         "title": dict(message.title),
         "direction": message.direction,
         "answers": message.answers,
-        "can_id": message.identifier,
+        "identifier": message.identifier,
         "adds_unit": message.adds_unit,
         "layout": [{"holds": role.kind, "number": role.number} for role in message.roles],
         "source": source_of(message.source),
@@ -130,13 +153,20 @@ def _telegram(telegram: Telegram) -> dict[str, object]:
     }
 
 
-def _frame(frame: Frame) -> dict[str, object]:
+def _frame(frame: Frame, own_family: str) -> dict[str, object]:
     return {
         "name": frame.name,
+        "framing": frame.framing,
+        "title": dict(frame.title),
         "bytes": frame.printed.hex(" ").upper(),
+        "corrected": frame.corrected.hex(" ").upper(),
         "direction": frame.direction,
+        "answers": frame.answers,
         "meaning": dict(frame.meaning),
         "valid": frame.valid,
+        **dict(sorted(_own_facts("frame", own_family, frame).items())),
+        "source": source_of(frame.source),
+        "errata": list(frame.errata),
     }
 
 
@@ -153,6 +183,7 @@ def _code(code: Code) -> dict[str, object]:
     return {
         "name": code.name,
         "title": dict(code.title),
+        "broadcast": code.broadcast,
         "answers": list(code.answers),
         "refusals": list(code.refusals),
     }

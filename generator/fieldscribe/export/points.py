@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.existence import Comparison, Condition
-    from fieldscribe.model import Allowed, Entry, Enum, Flag, Point, Source, Special
+    from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096
 """Longer lists of single numbers are exported as ranges only."""
@@ -24,6 +24,7 @@ def export_point(
 
     `direction` is that of its telegram; `tasks` are the purposes and functions that its family has for it.
     """
+    enum = point.enum if point.digits is None else point.digits.enum
     return {
         "name": point.name,
         "code": point.code,
@@ -36,7 +37,9 @@ def export_point(
         "addresses": list(point.addresses),
         "references": dict(point.references),
         "places": _places(point, tasks),
+        "written": None if point.write_place is None else _written(point.write_place),
         "type": point.type if point.untyped is None else None,
+        "untyped": point.untyped,
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),
@@ -49,16 +52,22 @@ def export_point(
         "repeat": _repeat(point),
         "format": None,
         "unit": point.unit.symbol,
+        "unit_name": point.unit.name,
+        "quantity": point.unit.quantity,
         "display": None if point.display is None else {"decimals": point.display},
+        "decimals": point.decimals,
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
         "special": [_special(special) for special in point.specials],
+        "special_of": point.specials_of,
         "fixed": {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         "changes": point.changes,
+        "changes_with": list(point.changes_with),
         "together": None,
         "scale": scale_of(point, by_name),
         "raw": _raw(point),
         "enum": None if point.enum is None else _names(point.enum),
+        "enum_name": None if enum is None else enum.name,
         "open": _is_open(point.enum),
         "flags": [_flag(flag) for flag in point.flags],
         "digits": None if point.digits is None else {"count": point.digits.count, "enum": _names(point.digits.enum)},
@@ -66,9 +75,13 @@ def export_point(
         "persistence": point.keeps,
         "conditions": list(point.conditions),
         "title": dict(point.title),
+        "note": dict(point.note),
         "source": source_of(point.source),
         "errata": list(point.errata),
+        "was": list(point.was),
+        "reserved": point.reserved,
         "generated": point.generated,
+        "reason": point.reason,
     }
 
 
@@ -107,10 +120,15 @@ def _places(point: Point, tasks: Sequence[tuple[str, int]]) -> list[dict[str, ob
     ]
 
 
+def _written(place: Place) -> dict[str, object]:
+    return {"addresses": list(place.addresses), "references": dict(place.references)}
+
+
 def _special(special: Special) -> dict[str, object]:
     return {
         "raw": [special.low, special.high],
         "name": special.name,
+        "title": dict(special.title),
         "no_value": special.no_value,
         "writable": special.writable,
     }
@@ -162,4 +180,10 @@ def _flag(flag: Flag) -> dict[str, object]:
     }
     if not values and flag.width == 1:
         values = {str(flag.active): {"name": flag.name, "title": dict(flag.title)}}
-    return {"bits": [flag.low + flag.width - 1, flag.low], "name": flag.name, "values": values}
+    return {
+        "bits": [flag.low + flag.width - 1, flag.low],
+        "name": flag.name,
+        "title": dict(flag.title),
+        "active": flag.active,
+        "values": values,
+    }

@@ -16,11 +16,11 @@ _MOST_DIGITS = 1000
 
 
 class ExportError(ValueError):
-    """The format cannot express this rule without changing its meaning."""
+    """A form cannot say the device without changing its meaning."""
 
 
 def scale_of(point: Point, by_name: PointsByName) -> list[dict[str, object]] | None:
-    """The cases of a scale: `raw = value * num / den + offset`, `uses` beside `num`. Raises ExportError."""
+    """The cases of a scale: `raw = value * num / den + offset`, `uses` beside `num`."""
     if point.scale is None:
         return None
     cases: list[dict[str, object]] = []
@@ -39,7 +39,7 @@ def scale_of(point: Point, by_name: PointsByName) -> list[dict[str, object]] | N
 
 
 def rule_of(rule: Linear, by_name: PointsByName) -> tuple[Fraction, list[dict[str, object]]]:
-    """The constant of a rule, which those of its factors are multiplied into, and its uses. Raises ExportError."""
+    """The constant of a rule, which those of its factors are multiplied into, and its uses."""
     ratio, uses = rule.ratio, []
     for factor in rule.factors:
         constant, used = use_of(factor, by_name[factor.point])
@@ -49,9 +49,9 @@ def rule_of(rule: Linear, by_name: PointsByName) -> tuple[Fraction, list[dict[st
 
 
 def use_of(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, object]]]:
-    """A run-time factor as a constant times `point`'s raw number or value. Raises ExportError.
+    """A run-time factor as a constant times `point`'s raw number or value.
 
-    `raw * slope + intercept` is the raw number itself, a multiple of the value, or a multiple of the raw number.
+    `raw * slope + intercept` is said as the raw number, as a multiple of the value or of the raw number, or as it is.
     """
     if factor.ten_to:
         return _power_of_ten(factor, point)
@@ -64,7 +64,7 @@ def use_of(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, objec
         return multiple**factor.power, [_use(factor, "value", "power", factor.power)]
     if factor.intercept == 0:
         return Fraction(factor.slope) ** factor.power, [_use(factor, "raw", "power", factor.power)]
-    raise _unsayable(factor)
+    return Fraction(1), [_whole_use(factor, "power")]
 
 
 def bound_of(bound: Bound, is_low: bool, point: Point) -> int | str:
@@ -83,17 +83,15 @@ def _power_of_ten(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str
     rule = fixed_rule(point)
     if factor.slope not in (1, -1) and rule is not None and Fraction(rule.factor, rule.divisor) == factor.slope:
         rest = factor.intercept - Fraction(rule.add, rule.divisor)
-        if rest.denominator == 1:
+        if rest.denominator == 1 and abs(rest) <= _MOST_DIGITS:
             return _ten_to(factor, int(rest)), [_use(factor, "value", "ten_to", factor.power)]
-    if not 1 <= abs(factor.slope) <= _MOST_REPEATS:
-        raise _unsayable(factor)
+    if not 1 <= abs(factor.slope) <= _MOST_REPEATS or abs(factor.intercept) > _MOST_DIGITS:
+        return Fraction(1), [_whole_use(factor, "ten_to")]
     sign = 1 if factor.slope > 0 else -1
     return _ten_to(factor, factor.intercept), [_use(factor, "raw", "ten_to", sign * factor.power)] * abs(factor.slope)
 
 
 def _ten_to(factor: Factor, exponent: int) -> Fraction:
-    if abs(exponent) > _MOST_DIGITS:
-        raise _unsayable(factor)
     return Fraction(10) ** (exponent * factor.power)
 
 
@@ -101,9 +99,9 @@ def _use(factor: Factor, part: str, kind: str, sign: int) -> dict[str, object]:
     return {"point": factor.point, "part": part, kind: sign}
 
 
-def _unsayable(factor: Factor) -> ExportError:
-    inner = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
-    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({inner})")
+def _whole_use(factor: Factor, kind: str) -> dict[str, object]:
+    """A factor with all its numbers, where it is no plain multiple."""
+    return {"point": factor.point, "part": "raw", "times": factor.slope, "plus": factor.intercept, kind: factor.power}
 
 
 def _limit(rule: Linear) -> str:

@@ -22,6 +22,7 @@ from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, S
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
 from fieldscribe.model.shape import Shape
+from fieldscribe.model.version import Version
 
 __all__ = [
     "NOWHERE",
@@ -65,5 +66,6 @@ __all__ = [
     "TypeInfo",
     "Unit",
     "Variant",
+    "Version",
     "item_of",
 ]

@@ -43,6 +43,8 @@ class Manifests:
         self._of: dict[str, Targets] = {}
         self._users: dict[str, dict[tuple[str, str], Digests]] = {}
         for place in sorted((out / FOLDER).glob("*.json")):
+            if "." in place.stem:
+                continue  # facts of a device; no device has a dot in its name
             self.settle(place.stem, read_manifest(place))
 
     def of(self, device: str) -> Targets:

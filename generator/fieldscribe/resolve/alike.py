@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Fact = TypeVar("Fact")
 
-_IDENTITY = own(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "write_at", "each"}
+_IDENTITY = own(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "was", "write_at", "each"}
 """What tells one point from another, and decides about nothing else."""
 
 _NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))

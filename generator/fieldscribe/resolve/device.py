@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
     from fieldscribe.resolve.subject import Subject
 
+_NO_VERSION = "0.0.0"
+"""Of a device whose version has a finding: its names are compared all the same."""
+
 
 def build_device(subject: Subject) -> tuple[Device, Device]:
     """The model of a device without findings, and the same as code may know it; neither has its digest yet."""
@@ -39,7 +42,7 @@ def _device(subject: Subject, resolved: Iterable[Resolved]) -> Device:
     points = with_exponents(_with_errata(subject, [entry.point for entry in resolved]))
     return Device(
         id=str(header["device"]),
-        version=str(header.get("version", "")),
+        version=str(header.get("version", _NO_VERSION)),
         vendor=str(header.get("vendor", "")),
         model=str(header.get("model", "")),
         title=titles(header.get("title")),

@@ -123,6 +123,18 @@ class Draft:
         """What this element adds to the name of its row, such as `_set_2`."""
         return "" if self.element is None else self.element.suffix
 
+    def called(self, row: str) -> str:
+        """The name of this point if its row, or the member of its record, were called so."""
+        if self.use is not None:
+            return f"{self.use['name']}_{row}"
+        first = self.row["name"]
+        return f"{row}{self.name.removeprefix(first)}"
+
+    @property
+    def row(self) -> Map:
+        """The row that the point comes from, also where a further set has facts of its own."""
+        return next((layer for layer in self.layers if "name" in layer), self.own)
+
     @property
     def code(self) -> str | None:
         """The manual's short name."""

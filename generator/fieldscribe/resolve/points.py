@@ -94,7 +94,7 @@ class _Points:
             draft.record,
             draft.set_number,
             None if draft.element is None else draft.element.index,
-            () if old_names is None else tuple([f"{name}{draft.suffix}" for name in old_names]),
+            () if old_names is None else tuple(map(draft.called, old_names)),
             (),
         )
 

@@ -96,6 +96,13 @@ class Subject:
         return sound_device(self) if self.report.has_errors else self.devices[1]
 
     @property
+    def so_far(self) -> Device:
+        """The whole device; of one with errors what is sound."""
+        from fieldscribe.resolve.device import sound_device
+
+        return sound_device(self) if self.report.has_errors else self.devices[0]
+
+    @property
     def report(self) -> Report:
         """Where findings go."""
         return self.scope.report

@@ -81,6 +81,10 @@ typedef struct fieldscribe_adapter {
 typedef struct fieldscribe_suite {
     const char *device;
     const char *version;
+    unsigned long major; /* the version as numbers, and as one number */
+    unsigned long minor;
+    unsigned long patch;
+    unsigned long number;
     const char *digest;
     const fieldscribe_status_name *statuses;
     const fieldscribe_adapter *adapters;
@@ -1032,6 +1036,15 @@ static bool fieldscribe_declare(
     return true;
 }
 
+/* Whether the suite's text and numbers say that version. */
+static bool fieldscribe_has_version(const fieldscribe_suite *suite, const char *version)
+{
+    char numbers[64];
+    (void)snprintf(numbers, sizeof numbers, "%lu.%lu.%lu", suite->major, suite->minor, suite->patch);
+    return strcmp(version, suite->version) == 0 && strcmp(version, numbers) == 0 &&
+        suite->number == suite->major * 1000000UL + suite->minor * 1000UL + suite->patch;
+}
+
 /* Takes a line of the head; false when it is none. */
 static bool fieldscribe_take_head(fieldscribe_file *file, char *text)
 {
@@ -1043,7 +1056,7 @@ static bool fieldscribe_take_head(fieldscribe_file *file, char *text)
     count = fieldscribe_split(text, parts, sizeof parts / sizeof parts[0]);
     if (parts[0][0] == 'v') {
         file->fits = count == 5U && fieldscribe_pattern(parts[1]) == (uint64_t)FIELDSCRIBE_FORMAT &&
-            strcmp(parts[2], file->v.suite->device) == 0 && strcmp(parts[3], file->v.suite->version) == 0 &&
+            strcmp(parts[2], file->v.suite->device) == 0 && fieldscribe_has_version(file->v.suite, parts[3]) &&
             strlen(file->v.suite->digest) == 16U && strncmp(parts[4], file->v.suite->digest, 16U) == 0;
     } else if (parts[0][0] == 's' && file->set_count < (size_t)FIELDSCRIBE_SETS_MOST) {
         file->fits = fieldscribe_declare(file, &file->sets[file->set_count], parts, count, 2U) && file->fits;

@@ -1013,6 +1013,7 @@ pub fn exchanged<T, E>(
 pub fn main(
     default: &str,
     device: [&str; 3],
+    [major, minor, patch, number]: [u32; 4],
     run: impl Fn(&str, &Vector) -> Option<Outcome>,
     check: impl Fn(),
 ) -> ExitCode {
@@ -1037,6 +1038,8 @@ pub fn main(
             "vectors" => {
                 assert_eq!(parts[1], "2", "{path} is of another format");
                 assert_eq!(parts[2..], device, "{path} is of another description");
+                assert_eq!(parts[3], format!("{major}.{minor}.{patch}"));
+                assert_eq!(number, (major * 1000 + minor) * 1000 + patch);
             }
             "set" => sets.push(Shape::new(&parts[1..], false)),
             "kind" => kinds.push(Shape::new(&parts[1..], true)),

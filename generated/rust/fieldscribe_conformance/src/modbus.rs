@@ -191,12 +191,12 @@ pub fn block(vector: &Vector, blocks: &[(&str, &[Block])]) -> Outcome {
     let group = blocks
         .iter()
         .find(|(name, _)| *name == vector.text("group"));
-    let index = usize::from(vector.raw::<u16>("index"));
-    let block = group.and_then(|(_, blocks)| blocks.get(index));
+    let (space, address) = (vector.text("space"), vector.raw("address"));
+    let is_there =
+        |block: &&Block| (space.as_str(), address) == (block.space.name(), block.address);
+    let block = group.and_then(|(_, blocks)| blocks.iter().find(is_there));
     let block = block.ok_or_else(|| "there is no such block".to_owned())?;
-    same(vector.text("space").as_str(), block.space.name())?;
     same(vector.raw("function"), block.function)?;
-    same(vector.raw("address"), block.address)?;
     same(vector.raw("count"), block.count)
 }
 

@@ -76,60 +76,259 @@ pub const DEVICE: &str = "hitachi_l200";
 /// The version of the description.
 pub const VERSION: &str = "1.0.0";
 
+/// The major number of the version.
+pub const VERSION_MAJOR: u32 = 1;
+
+/// The minor number of the version.
+pub const VERSION_MINOR: u32 = 0;
+
+/// The patch number of the version.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The version as one number, to compare: 1.2.3 is `1_002_003`.
+pub const VERSION_NUMBER: u32 = 1_000_000;
+
 /// What the description says, as a digest.
 pub const DIGEST: &str = "e9443fb4e82d8e794cdf5782d994c40691c8b88999b01c4f73067b500f8d0351";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].
 pub const POINTS: &[PointInfo] = runtime::point_table! { points:
-    RunCommand DirectionCommand ExternalTrip TripReset DigitalInput1 DigitalInput2 DigitalInput3
-    DigitalInput4 DigitalInput5 Running DirectionStatus Ready Alarm PidDeviation Overload
-    FrequencyArrivalInAcceleration FrequencyArrivalAtConstantSpeed RunMode DataWrite CrcError
-    OverrunError FramingError ParityError ChecksumError NetworkFrequencySetpoint InverterStatus
-    NetworkProcessValue OutputFrequency MotorCurrent RotationDirection ScaledProcessValue DigitalInputs
-    DigitalOutputs OutputVoltage RunTime PowerOnTime TripCount Trip1Error Trip1OutputFrequency
-    Trip1MotorCurrent Trip1DcBusVoltage Trip1RunTime Trip1PowerOnTime Trip2Error Trip2OutputFrequency
-    Trip2MotorCurrent Trip2DcBusVoltage Trip2RunTime Trip2PowerOnTime Trip3Error Trip3OutputFrequency
-    Trip3MotorCurrent Trip3DcBusVoltage Trip3RunTime Trip3PowerOnTime AccelerationTime
-    AccelerationTimeSet2 DecelerationTime DecelerationTimeSet2 MotorDirection FrequencySource
-    FrequencySourceSet2 RunSource RunSourceSet2 MotorRatedFrequency MotorRatedFrequencySet2
-    MaximumFrequency MaximumFrequencySet2 AtTerminalSelection InputOMinimumFrequency
-    InputOMaximumFrequency InputOMinimumSetpoint InputOMaximumSetpoint InputOStartCondition
-    AnalogInputFilter BaseFrequency BaseFrequencySet2 FixedFrequency1 FixedFrequency2 FixedFrequency3
-    FixedFrequency4 FixedFrequency5 FixedFrequency6 FixedFrequency7 FixedFrequency8 FixedFrequency9
-    FixedFrequency10 FixedFrequency11 FixedFrequency12 FixedFrequency13 FixedFrequency14
-    FixedFrequency15 JogFrequency JogStopMode BoostMode BoostModeSet2 ManualBoost ManualBoostSet2
-    ManualBoostFrequency ManualBoostFrequencySet2 VfCharacteristic VfCharacteristicSet2
-    OutputVoltageSetting OutputVoltageSettingSet2 DcBrakeEnable DcBrakeFrequency DcBrakeDelay
-    DcBrakeTorque DcBrakeTime DcBrakeTrigger UpperFrequencyLimit UpperFrequencyLimitSet2
-    LowerFrequencyLimit LowerFrequencyLimitSet2 JumpFrequency1 JumpFrequency1Width JumpFrequency2
-    JumpFrequency2Width JumpFrequency3 JumpFrequency3Width PidEnable PidProportionalGain PidIntegralTime
-    PidDerivativeTime PidDisplayFactor PidProcessValueSource PidInversion PidOutputLimit AvrMode
-    MotorVoltage AccelerationTime2 DecelerationTime2 DecelerationTime2Set2 Ramp2Selection
-    Ramp2SelectionSet2 AccelerationChangeFrequency AccelerationChangeFrequencySet2
-    DecelerationChangeFrequency DecelerationChangeFrequencySet2 AccelerationCurve DecelerationCurve
-    InputOiMinimumFrequency InputOiMaximumFrequency InputOiMinimumSetpoint InputOiMaximumSetpoint
-    InputOiStartCondition CalculationInputA CalculationInputB CalculationOperator FrequencyOffset
-    FrequencyOffsetSign PotentiometerMinimumFrequency PotentiometerMaximumFrequency
-    PotentiometerMinimumSetpoint PotentiometerMaximumSetpoint PotentiometerStartCondition RestartMode
-    AllowedPowerFailureTime RestartDelay PowerFailureTripAtStandstill PowerFailureRestarts
-    MotorProtectionLevel MotorProtectionLevelSet2 MotorProtectionCharacteristic
-    MotorProtectionCharacteristicSet2 CurrentLimitMode CurrentLimitModeSet2 CurrentLimitLevel
-    CurrentLimitLevelSet2 CurrentLimitTime CurrentLimitTimeSet2 CurrentLimitSource
-    CurrentLimitSourceSet2 ParameterLock AnalogOutputGain StartFrequency CarrierFrequency
-    InitializationMode FrequencyDisplayFactor StopKeyLock CoastRestartMode NetworkDisplay StopMode
-    OvervoltageDecelerationEnable OvervoltageDecelerationLevel200v OvervoltageDecelerationLevel400v
-    DigitalInput1Function DigitalInput1FunctionSet2 DigitalInput2Function DigitalInput2FunctionSet2
-    DigitalInput3Function DigitalInput3FunctionSet2 DigitalInput4Function DigitalInput4FunctionSet2
-    DigitalInput5Function DigitalInput5FunctionSet2 DigitalInput1Contact DigitalInput2Contact
-    DigitalInput3Contact DigitalInput4Contact DigitalInput5Contact DigitalOutput11Function
-    DigitalOutput12Function RelayOutputFunction AnalogOutputSource DigitalOutput11Contact
-    DigitalOutput12Contact RelayOutputContact OverloadAlarmLevel OverloadAlarmLevelSet2
-    ArrivalFrequencyAcceleration ArrivalFrequencyDeceleration PidDeviationLevel
-    PidProcessValueUpperLimit PidProcessValueLowerLimit InputOCalibration InputOiCalibration
-    ThermistorInputCalibration AnalogOutputOffset MotorPotentiometerMemory ResetMode LogicInputA
-    LogicInputB LogicOperator DigitalOutput11OnDelay DigitalOutput11OffDelay DigitalOutput12OnDelay
-    DigitalOutput12OffDelay RelayOutputOnDelay RelayOutputOffDelay MotorPower MotorPowerSet2 MotorPoles
-    MotorPolesSet2 StabilizationConstant StabilizationConstantSet2
+    RunCommand
+    DirectionCommand
+    ExternalTrip
+    TripReset
+    DigitalInput1
+    DigitalInput2
+    DigitalInput3
+    DigitalInput4
+    DigitalInput5
+    Running
+    DirectionStatus
+    Ready
+    Alarm
+    PidDeviation
+    Overload
+    FrequencyArrivalInAcceleration
+    FrequencyArrivalAtConstantSpeed
+    RunMode
+    DataWrite
+    CrcError
+    OverrunError
+    FramingError
+    ParityError
+    ChecksumError
+    NetworkFrequencySetpoint
+    InverterStatus
+    NetworkProcessValue
+    OutputFrequency
+    MotorCurrent
+    RotationDirection
+    ScaledProcessValue
+    DigitalInputs
+    DigitalOutputs
+    OutputVoltage
+    RunTime
+    PowerOnTime
+    TripCount
+    Trip1Error
+    Trip1OutputFrequency
+    Trip1MotorCurrent
+    Trip1DcBusVoltage
+    Trip1RunTime
+    Trip1PowerOnTime
+    Trip2Error
+    Trip2OutputFrequency
+    Trip2MotorCurrent
+    Trip2DcBusVoltage
+    Trip2RunTime
+    Trip2PowerOnTime
+    Trip3Error
+    Trip3OutputFrequency
+    Trip3MotorCurrent
+    Trip3DcBusVoltage
+    Trip3RunTime
+    Trip3PowerOnTime
+    AccelerationTime
+    AccelerationTimeSet2
+    DecelerationTime
+    DecelerationTimeSet2
+    MotorDirection
+    FrequencySource
+    FrequencySourceSet2
+    RunSource
+    RunSourceSet2
+    MotorRatedFrequency
+    MotorRatedFrequencySet2
+    MaximumFrequency
+    MaximumFrequencySet2
+    AtTerminalSelection
+    InputOMinimumFrequency
+    InputOMaximumFrequency
+    InputOMinimumSetpoint
+    InputOMaximumSetpoint
+    InputOStartCondition
+    AnalogInputFilter
+    BaseFrequency
+    BaseFrequencySet2
+    FixedFrequency1
+    FixedFrequency2
+    FixedFrequency3
+    FixedFrequency4
+    FixedFrequency5
+    FixedFrequency6
+    FixedFrequency7
+    FixedFrequency8
+    FixedFrequency9
+    FixedFrequency10
+    FixedFrequency11
+    FixedFrequency12
+    FixedFrequency13
+    FixedFrequency14
+    FixedFrequency15
+    JogFrequency
+    JogStopMode
+    BoostMode
+    BoostModeSet2
+    ManualBoost
+    ManualBoostSet2
+    ManualBoostFrequency
+    ManualBoostFrequencySet2
+    VfCharacteristic
+    VfCharacteristicSet2
+    OutputVoltageSetting
+    OutputVoltageSettingSet2
+    DcBrakeEnable
+    DcBrakeFrequency
+    DcBrakeDelay
+    DcBrakeTorque
+    DcBrakeTime
+    DcBrakeTrigger
+    UpperFrequencyLimit
+    UpperFrequencyLimitSet2
+    LowerFrequencyLimit
+    LowerFrequencyLimitSet2
+    JumpFrequency1
+    JumpFrequency1Width
+    JumpFrequency2
+    JumpFrequency2Width
+    JumpFrequency3
+    JumpFrequency3Width
+    PidEnable
+    PidProportionalGain
+    PidIntegralTime
+    PidDerivativeTime
+    PidDisplayFactor
+    PidProcessValueSource
+    PidInversion
+    PidOutputLimit
+    AvrMode
+    MotorVoltage
+    AccelerationTime2
+    DecelerationTime2
+    DecelerationTime2Set2
+    Ramp2Selection
+    Ramp2SelectionSet2
+    AccelerationChangeFrequency
+    AccelerationChangeFrequencySet2
+    DecelerationChangeFrequency
+    DecelerationChangeFrequencySet2
+    AccelerationCurve
+    DecelerationCurve
+    InputOiMinimumFrequency
+    InputOiMaximumFrequency
+    InputOiMinimumSetpoint
+    InputOiMaximumSetpoint
+    InputOiStartCondition
+    CalculationInputA
+    CalculationInputB
+    CalculationOperator
+    FrequencyOffset
+    FrequencyOffsetSign
+    PotentiometerMinimumFrequency
+    PotentiometerMaximumFrequency
+    PotentiometerMinimumSetpoint
+    PotentiometerMaximumSetpoint
+    PotentiometerStartCondition
+    RestartMode
+    AllowedPowerFailureTime
+    RestartDelay
+    PowerFailureTripAtStandstill
+    PowerFailureRestarts
+    MotorProtectionLevel
+    MotorProtectionLevelSet2
+    MotorProtectionCharacteristic
+    MotorProtectionCharacteristicSet2
+    CurrentLimitMode
+    CurrentLimitModeSet2
+    CurrentLimitLevel
+    CurrentLimitLevelSet2
+    CurrentLimitTime
+    CurrentLimitTimeSet2
+    CurrentLimitSource
+    CurrentLimitSourceSet2
+    ParameterLock
+    AnalogOutputGain
+    StartFrequency
+    CarrierFrequency
+    InitializationMode
+    FrequencyDisplayFactor
+    StopKeyLock
+    CoastRestartMode
+    NetworkDisplay
+    StopMode
+    OvervoltageDecelerationEnable
+    OvervoltageDecelerationLevel200v
+    OvervoltageDecelerationLevel400v
+    DigitalInput1Function
+    DigitalInput1FunctionSet2
+    DigitalInput2Function
+    DigitalInput2FunctionSet2
+    DigitalInput3Function
+    DigitalInput3FunctionSet2
+    DigitalInput4Function
+    DigitalInput4FunctionSet2
+    DigitalInput5Function
+    DigitalInput5FunctionSet2
+    DigitalInput1Contact
+    DigitalInput2Contact
+    DigitalInput3Contact
+    DigitalInput4Contact
+    DigitalInput5Contact
+    DigitalOutput11Function
+    DigitalOutput12Function
+    RelayOutputFunction
+    AnalogOutputSource
+    DigitalOutput11Contact
+    DigitalOutput12Contact
+    RelayOutputContact
+    OverloadAlarmLevel
+    OverloadAlarmLevelSet2
+    ArrivalFrequencyAcceleration
+    ArrivalFrequencyDeceleration
+    PidDeviationLevel
+    PidProcessValueUpperLimit
+    PidProcessValueLowerLimit
+    InputOCalibration
+    InputOiCalibration
+    ThermistorInputCalibration
+    AnalogOutputOffset
+    MotorPotentiometerMemory
+    ResetMode
+    LogicInputA
+    LogicInputB
+    LogicOperator
+    DigitalOutput11OnDelay
+    DigitalOutput11OffDelay
+    DigitalOutput12OnDelay
+    DigitalOutput12OffDelay
+    RelayOutputOnDelay
+    RelayOutputOffDelay
+    MotorPower
+    MotorPowerSet2
+    MotorPoles
+    MotorPolesSet2
+    StabilizationConstant
+    StabilizationConstantSet2
 };
 
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:

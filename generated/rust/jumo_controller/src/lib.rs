@@ -66,15 +66,47 @@ pub const DEVICE: &str = "jumo_controller";
 /// The version of the description.
 pub const VERSION: &str = "1.0.0";
 
+/// The major number of the version.
+pub const VERSION_MAJOR: u32 = 1;
+
+/// The minor number of the version.
+pub const VERSION_MINOR: u32 = 0;
+
+/// The patch number of the version.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The version as one number, to compare: 1.2.3 is `1_002_003`.
+pub const VERSION_NUMBER: u32 = 1_000_000;
+
 /// What the description says, as a digest.
 pub const DIGEST: &str = "e96a1334326c820339ea53ac31ae6eee69c0e284bc3ae73788ae00fe1fedfbca";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].
 pub const POINTS: &[PointInfo] = runtime::point_table! { points:
-    ProgramStatus ControllerStatus BinaryOutputs BinaryInputs ControlContacts BinarySignals
-    BinaryOutputControl ProgramRunTime ProgramRemainingTime SectionRunTime SectionRemainingTime
-    Timer1RunTime Timer2RunTime Timer3RunTime Timer4RunTime Setpoint1 Setpoint2 ProportionalBand1Set2
-    Value0077 Value00ce ProgramControllerCommands ControllerCommands OperationCommands TimerCommands
+    ProgramStatus
+    ControllerStatus
+    BinaryOutputs
+    BinaryInputs
+    ControlContacts
+    BinarySignals
+    BinaryOutputControl
+    ProgramRunTime
+    ProgramRemainingTime
+    SectionRunTime
+    SectionRemainingTime
+    Timer1RunTime
+    Timer2RunTime
+    Timer3RunTime
+    Timer4RunTime
+    Setpoint1
+    Setpoint2
+    ProportionalBand1Set2
+    Value0077
+    Value00ce
+    ProgramControllerCommands
+    ControllerCommands
+    OperationCommands
+    TimerCommands
 };
 
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:

@@ -67,13 +67,35 @@ pub const DEVICE: &str = "nord_sk5xxe";
 /// The version of the description.
 pub const VERSION: &str = "1.0.0";
 
+/// The major number of the version.
+pub const VERSION_MAJOR: u32 = 1;
+
+/// The minor number of the version.
+pub const VERSION_MINOR: u32 = 0;
+
+/// The patch number of the version.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The version as one number, to compare: 1.2.3 is `1_002_003`.
+pub const VERSION_NUMBER: u32 = 1_000_000;
+
 /// What the description says, as a digest.
 pub const DIGEST: &str = "fec6133144bd7c5ea18112ba4af418eb93ae97e847eb97be64158de3a39418be";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].
 pub const POINTS: &[PointInfo] = runtime::point_table! { points:
-    ControlWord Setpoint1 Setpoint2 Setpoint3 Setpoint4 Setpoint5 StatusWord ActualValue1 ActualValue2
-    ActualValue3 ActualValue4 ActualValue5
+    ControlWord
+    Setpoint1
+    Setpoint2
+    Setpoint3
+    Setpoint4
+    Setpoint5
+    StatusWord
+    ActualValue1
+    ActualValue2
+    ActualValue3
+    ActualValue4
+    ActualValue5
 };
 
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:

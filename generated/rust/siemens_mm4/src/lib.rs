@@ -63,21 +63,65 @@ pub const DEVICE: &str = "siemens_mm4";
 /// The version of the description.
 pub const VERSION: &str = "1.0.0";
 
+/// The major number of the version.
+pub const VERSION_MAJOR: u32 = 1;
+
+/// The minor number of the version.
+pub const VERSION_MINOR: u32 = 0;
+
+/// The patch number of the version.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The version as one number, to compare: 1.2.3 is `1_002_003`.
+pub const VERSION_NUMBER: u32 = 1_000_000;
+
 /// What the description says, as a digest.
 pub const DIGEST: &str = "fd2e41451c46fad078c37757acd71000f7c0ee24030f2dd78a6fee946cf48572";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].
 pub const POINTS: &[PointInfo] = runtime::point_table! { points:
-    UserAccessLevel InverterStatusWord CommandSource P0731Source MainSetpointSource MaximumFrequency
-    JogTimeSelectionSource DcBrakingSource OutputPhaseSequence ReferenceFrequency UssNormalisationRs485
-    UssNormalisationRs232 UssBaudRateIndex0 UssBaudRateIndex1 UssSlaveAddressIndex0
-    UssSlaveAddressIndex1 UssPzdLengthIndex0Mm410 UssPzdLengthIndex0Mm420 UssPzdLengthIndex0Mm430
-    UssPzdLengthIndex0Mm440 UssPzdLengthIndex1Mm410 UssPzdLengthIndex1Mm420 UssPzdLengthIndex1Mm430
-    UssPzdLengthIndex1Mm440 UssPkwLengthIndex0 UssPkwLengthIndex1 UssTelegramOffTimeIndex0
-    UssTelegramOffTimeIndex1 UssRs232AnswerSourceIndex0 UssRs232AnswerSourceIndex1
-    UssRs232AnswerSourceIndex2 UssRs232AnswerSourceIndex3 UssRs485AnswerSourceIndex0
-    UssRs485AnswerSourceIndex1 UssRs485AnswerSourceIndex2 UssRs485AnswerSourceIndex3 ControlWord
-    MainSetpoint SecondControlWord StatusWord MainActualValue SecondStatusWord
+    UserAccessLevel
+    InverterStatusWord
+    CommandSource
+    P0731Source
+    MainSetpointSource
+    MaximumFrequency
+    JogTimeSelectionSource
+    DcBrakingSource
+    OutputPhaseSequence
+    ReferenceFrequency
+    UssNormalisationRs485
+    UssNormalisationRs232
+    UssBaudRateIndex0
+    UssBaudRateIndex1
+    UssSlaveAddressIndex0
+    UssSlaveAddressIndex1
+    UssPzdLengthIndex0Mm410
+    UssPzdLengthIndex0Mm420
+    UssPzdLengthIndex0Mm430
+    UssPzdLengthIndex0Mm440
+    UssPzdLengthIndex1Mm410
+    UssPzdLengthIndex1Mm420
+    UssPzdLengthIndex1Mm430
+    UssPzdLengthIndex1Mm440
+    UssPkwLengthIndex0
+    UssPkwLengthIndex1
+    UssTelegramOffTimeIndex0
+    UssTelegramOffTimeIndex1
+    UssRs232AnswerSourceIndex0
+    UssRs232AnswerSourceIndex1
+    UssRs232AnswerSourceIndex2
+    UssRs232AnswerSourceIndex3
+    UssRs485AnswerSourceIndex0
+    UssRs485AnswerSourceIndex1
+    UssRs485AnswerSourceIndex2
+    UssRs485AnswerSourceIndex3
+    ControlWord
+    MainSetpoint
+    SecondControlWord
+    StatusWord
+    MainActualValue
+    SecondStatusWord
 };
 
 /// What the telegrams need to know of the device.

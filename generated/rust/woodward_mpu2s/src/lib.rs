@@ -94,83 +94,291 @@ pub const DEVICE: &str = "woodward_mpu2s";
 /// The version of the description.
 pub const VERSION: &str = "1.0.0";
 
+/// The major number of the version.
+pub const VERSION_MAJOR: u32 = 1;
+
+/// The minor number of the version.
+pub const VERSION_MINOR: u32 = 0;
+
+/// The patch number of the version.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The version as one number, to compare: 1.2.3 is `1_002_003`.
+pub const VERSION_NUMBER: u32 = 1_000_000;
+
 /// What the description says, as a digest.
 pub const DIGEST: &str = "ba0912039ad5dd8421c169f30287c7deedfb86cef8f9445b5af7349ae969b835";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].
 pub const POINTS: &[PointInfo] = runtime::point_table! { points:
-    TelegramIdentification GeneratorFrequency GeneratorActivePower GeneratorPowerExponent
-    GeneratorVoltageExponent PresentActivePowerSetpoint ActivePowerSetpointFactor BusbarVoltageL1L2
-    MainsVoltageL1L2 PresentFaultClasses ControlRegister2 ControlRegister1 InternalFaults8
-    InternalFaults6 GeneratorVoltageL2L3 GeneratorVoltageL3L1 GeneratorVoltageL1N GeneratorVoltageL2N
-    GeneratorVoltageL3N GeneratorVoltageL1L2 GeneratorCurrentL1 GeneratorCurrentL2 GeneratorCurrentL3
-    GeneratorCosPhi LoadSharingParticipants MainsState GeneratorState GeneratorCurrentExponent
-    BusbarFrequency BusbarState MainsVoltageL2L3 MainsVoltageL3L1 MainsVoltageL1N MainsVoltageL2N
-    MainsVoltageL3N MainsFrequency MainsVoltageExponent BusbarVoltageExponent OperatingHours
-    HoursUntilMaintenance EngineStartCounter GeneratorActiveEnergy BatteryVoltage InternalFaults1
-    InternalFaults2 InternalFaults3 InternalFaults4 InternalFaults5 DigitalInputFaults1To8
-    DigitalInputFaults9To16 InternalFaults7 PasswordLevel2 GeneratorFrequencySetpoint
-    GeneratorRatedFrequency GeneratorVoltageTransformerSecondary100v
-    GeneratorVoltageTransformerSecondary400v GeneratorVoltageTransformerPrimary
-    BusbarVoltageTransformerSecondary100v BusbarVoltageTransformerSecondary400v
-    BusbarVoltageTransformerPrimary MainsVoltageTransformerSecondary100v
-    MainsVoltageTransformerSecondary400v MainsVoltageTransformerPrimary GeneratorVoltageFactor
-    GeneratorVoltageSetpoint100v GeneratorVoltageSetpoint400v GeneratorRatedVoltage100v
-    GeneratorRatedVoltage400v GeneratorCurrentTransformerRatio PowerMeasurementPhases
-    GeneratorRatedPower GeneratorRatedCurrent GeneratorPowerSetpoint1 GeneratorPowerSetpoint2
-    FrequencyController FrequencyControllerStartFrequency FrequencyControllerStartDelay
-    FrequencyControllerDeadBand FrequencyControllerPulseTime FrequencyControllerProportionalGain
-    VoltageController VoltageControllerDeadBand VoltageControllerPulseTime
-    VoltageControllerProportionalGain CosPhiController CosPhiControllerSetpoint CosPhiControllerDeadBand
-    CosPhiControllerProportionalGain ActivePowerController ActivePowerControllerRamp
-    ActivePowerControllerMaximum ActivePowerControllerMinimum ActivePowerControllerDeadBand
-    ActivePowerControllerProportionalGain ActivePowerControllerSensitivityReduction PartLoadLeadSetpoint
-    PartLoadLeadTime ControlByInterfaceX1X5 BreakerLogic LoadRampMaximumTime GeneratorBreakerSignalLogic
-    GeneratorBreakerOpenRelayLogic SynchronisationFrequencyDifferenceMaximum
-    SynchronisationFrequencyDifferenceMinimum SynchronisationVoltageDifferenceMaximum
-    SynchronisationVoltageDifferenceMinimum SynchronisationPulseTime GeneratorBreakerPickUpTime
-    SynchronisationTimeMonitoring SynchronisationTimeMonitoringDelay DeadBusStart
-    DeadBusStartFrequencyDifferenceMaximum DeadBusStartVoltageDifferenceMaximum DeadBusStartMaximumTime
-    GeneratorBreakerMonitoring AutomaticBreakerUnlocking GeneratorOverloadMonitoring
-    OverloadThresholdParallelOperation OverloadDelayParallelOperation OverloadThresholdIsolatedOperation
-    OverloadDelayIsolatedOperation GeneratorReversePowerMonitoring ReversePowerThreshold
-    ReversePowerDelay GeneratorUnbalancedLoadMonitoring UnbalancedLoadThreshold UnbalancedLoadDelay
-    GeneratorOvercurrentMonitoring Overcurrent1Threshold Overcurrent1Delay Overcurrent2Threshold
-    Overcurrent2Delay InverseTimeOvercurrent InverseTimeOvercurrentCharacteristic
-    InverseTimeOvercurrentTp InverseTimeOvercurrentIp InverseTimeOvercurrentIstart
-    InverseTimeOvercurrentVoltageDependence InverseTimeOvercurrentVoltageKnee
-    GeneratorOverfrequencyMonitoring GeneratorOverfrequency1Threshold GeneratorOverfrequency1Delay
-    GeneratorOverfrequency2Threshold GeneratorOverfrequency2Delay GeneratorUnderfrequencyMonitoring
-    GeneratorUnderfrequency1Threshold GeneratorUnderfrequency1Delay GeneratorUnderfrequency2Threshold
-    GeneratorUnderfrequency2Delay GeneratorOvervoltageMonitoring GeneratorOvervoltage1Threshold100v
-    GeneratorOvervoltage1Threshold400v GeneratorOvervoltage1Delay GeneratorOvervoltage2Threshold100v
-    GeneratorOvervoltage2Threshold400v GeneratorOvervoltage2Delay GeneratorUndervoltageMonitoring
-    GeneratorUndervoltage1Threshold100v GeneratorUndervoltage1Threshold400v GeneratorUndervoltage1Delay
-    GeneratorUndervoltage2Threshold100v GeneratorUndervoltage2Threshold400v GeneratorUndervoltage2Delay
-    MainsFrequencyMonitoring MainsOverfrequencyThreshold MainsOverfrequencyDelay
-    MainsUnderfrequencyThreshold MainsUnderfrequencyDelay MainsVoltageMonitoring MainsVoltageFactor
-    MainsOvervoltageThreshold100v MainsOvervoltageThreshold400v MainsOvervoltageDelay
-    MainsUndervoltageThreshold100v MainsUndervoltageThreshold400v MainsUndervoltageDelay
-    PhaseShiftMonitoring PhaseShiftMonitoringPhases PhaseShiftThresholdSinglePhase
-    PhaseShiftThresholdThreePhase ReactivePowerMonitoring ReactivePowerThresholdInductive
-    ReactivePowerDelayInductive ReactivePowerThresholdCapacitive ReactivePowerDelayCapacitive
-    EarthFaultMonitoring EarthFaultThreshold EarthFaultDelay BatteryUndervoltageThreshold
-    BatteryUndervoltageDelay DigitalInputs1To4Logic DigitalInputs1To4Delay DigitalInputs1To4EngineDelay
-    DigitalInputs1To4FaultClass DigitalInputs5To8Logic DigitalInputs5To8Delay
-    DigitalInputs5To8EngineDelay DigitalInputs5To8FaultClass DigitalInputs9To12Logic
-    DigitalInputs9To12Delay DigitalInputs9To12EngineDelay DigitalInputs9To12FaultClass
-    FaultTextTerminal62 FaultTextTerminal63 FaultTextTerminal64 FaultTextTerminal65 FaultTextTerminal66
-    FaultTextTerminal67 FaultTextTerminal68 FaultTextTerminal69 FaultTextTerminal70 FaultTextTerminal71
-    FaultTextTerminal72 FaultTextTerminal73 AnalogOutput1Source AnalogOutput1CurrentRange
-    AnalogOutput1ValueAt0Percent AnalogOutput1ValueAt100Percent AnalogOutput2Source
-    AnalogOutput2CurrentRange AnalogOutput2ValueAt0Percent AnalogOutput2ValueAt100Percent Relay1Event1
-    Relay1Logic1 Relay1Event2 Relay1Logic2 Relay1Event3 Relay1Logic3 Relay2Event1 Relay2Logic1
-    Relay2Event2 Relay2Logic2 Relay2Event3 Relay2Logic3 Relay3Event1 Relay3Logic1 Relay3Event2
-    Relay3Logic2 Relay3Event3 Relay3Logic3 Relay4Event1 Relay4Logic1 Relay4Event2 Relay4Logic2
-    Relay4Event3 Relay4Logic3 Relay5Event1 Relay5Logic1 Relay5Event2 Relay5Logic2 Relay5Event3
-    Relay5Logic3 Relay6Event1 Relay6Logic1 Relay6Event2 Relay6Logic2 Relay6Event3 Relay6Logic3
-    Relay7Event1 Relay7Logic1 Relay7Event2 Relay7Logic2 Relay7Event3 Relay7Logic3 AutomaticIdleControl
-    Shutdown EngineMonitoringDelay MonitoringStartFrequency
+    TelegramIdentification
+    GeneratorFrequency
+    GeneratorActivePower
+    GeneratorPowerExponent
+    GeneratorVoltageExponent
+    PresentActivePowerSetpoint
+    ActivePowerSetpointFactor
+    BusbarVoltageL1L2
+    MainsVoltageL1L2
+    PresentFaultClasses
+    ControlRegister2
+    ControlRegister1
+    InternalFaults8
+    InternalFaults6
+    GeneratorVoltageL2L3
+    GeneratorVoltageL3L1
+    GeneratorVoltageL1N
+    GeneratorVoltageL2N
+    GeneratorVoltageL3N
+    GeneratorVoltageL1L2
+    GeneratorCurrentL1
+    GeneratorCurrentL2
+    GeneratorCurrentL3
+    GeneratorCosPhi
+    LoadSharingParticipants
+    MainsState
+    GeneratorState
+    GeneratorCurrentExponent
+    BusbarFrequency
+    BusbarState
+    MainsVoltageL2L3
+    MainsVoltageL3L1
+    MainsVoltageL1N
+    MainsVoltageL2N
+    MainsVoltageL3N
+    MainsFrequency
+    MainsVoltageExponent
+    BusbarVoltageExponent
+    OperatingHours
+    HoursUntilMaintenance
+    EngineStartCounter
+    GeneratorActiveEnergy
+    BatteryVoltage
+    InternalFaults1
+    InternalFaults2
+    InternalFaults3
+    InternalFaults4
+    InternalFaults5
+    DigitalInputFaults1To8
+    DigitalInputFaults9To16
+    InternalFaults7
+    PasswordLevel2
+    GeneratorFrequencySetpoint
+    GeneratorRatedFrequency
+    GeneratorVoltageTransformerSecondary100v
+    GeneratorVoltageTransformerSecondary400v
+    GeneratorVoltageTransformerPrimary
+    BusbarVoltageTransformerSecondary100v
+    BusbarVoltageTransformerSecondary400v
+    BusbarVoltageTransformerPrimary
+    MainsVoltageTransformerSecondary100v
+    MainsVoltageTransformerSecondary400v
+    MainsVoltageTransformerPrimary
+    GeneratorVoltageFactor
+    GeneratorVoltageSetpoint100v
+    GeneratorVoltageSetpoint400v
+    GeneratorRatedVoltage100v
+    GeneratorRatedVoltage400v
+    GeneratorCurrentTransformerRatio
+    PowerMeasurementPhases
+    GeneratorRatedPower
+    GeneratorRatedCurrent
+    GeneratorPowerSetpoint1
+    GeneratorPowerSetpoint2
+    FrequencyController
+    FrequencyControllerStartFrequency
+    FrequencyControllerStartDelay
+    FrequencyControllerDeadBand
+    FrequencyControllerPulseTime
+    FrequencyControllerProportionalGain
+    VoltageController
+    VoltageControllerDeadBand
+    VoltageControllerPulseTime
+    VoltageControllerProportionalGain
+    CosPhiController
+    CosPhiControllerSetpoint
+    CosPhiControllerDeadBand
+    CosPhiControllerProportionalGain
+    ActivePowerController
+    ActivePowerControllerRamp
+    ActivePowerControllerMaximum
+    ActivePowerControllerMinimum
+    ActivePowerControllerDeadBand
+    ActivePowerControllerProportionalGain
+    ActivePowerControllerSensitivityReduction
+    PartLoadLeadSetpoint
+    PartLoadLeadTime
+    ControlByInterfaceX1X5
+    BreakerLogic
+    LoadRampMaximumTime
+    GeneratorBreakerSignalLogic
+    GeneratorBreakerOpenRelayLogic
+    SynchronisationFrequencyDifferenceMaximum
+    SynchronisationFrequencyDifferenceMinimum
+    SynchronisationVoltageDifferenceMaximum
+    SynchronisationVoltageDifferenceMinimum
+    SynchronisationPulseTime
+    GeneratorBreakerPickUpTime
+    SynchronisationTimeMonitoring
+    SynchronisationTimeMonitoringDelay
+    DeadBusStart
+    DeadBusStartFrequencyDifferenceMaximum
+    DeadBusStartVoltageDifferenceMaximum
+    DeadBusStartMaximumTime
+    GeneratorBreakerMonitoring
+    AutomaticBreakerUnlocking
+    GeneratorOverloadMonitoring
+    OverloadThresholdParallelOperation
+    OverloadDelayParallelOperation
+    OverloadThresholdIsolatedOperation
+    OverloadDelayIsolatedOperation
+    GeneratorReversePowerMonitoring
+    ReversePowerThreshold
+    ReversePowerDelay
+    GeneratorUnbalancedLoadMonitoring
+    UnbalancedLoadThreshold
+    UnbalancedLoadDelay
+    GeneratorOvercurrentMonitoring
+    Overcurrent1Threshold
+    Overcurrent1Delay
+    Overcurrent2Threshold
+    Overcurrent2Delay
+    InverseTimeOvercurrent
+    InverseTimeOvercurrentCharacteristic
+    InverseTimeOvercurrentTp
+    InverseTimeOvercurrentIp
+    InverseTimeOvercurrentIstart
+    InverseTimeOvercurrentVoltageDependence
+    InverseTimeOvercurrentVoltageKnee
+    GeneratorOverfrequencyMonitoring
+    GeneratorOverfrequency1Threshold
+    GeneratorOverfrequency1Delay
+    GeneratorOverfrequency2Threshold
+    GeneratorOverfrequency2Delay
+    GeneratorUnderfrequencyMonitoring
+    GeneratorUnderfrequency1Threshold
+    GeneratorUnderfrequency1Delay
+    GeneratorUnderfrequency2Threshold
+    GeneratorUnderfrequency2Delay
+    GeneratorOvervoltageMonitoring
+    GeneratorOvervoltage1Threshold100v
+    GeneratorOvervoltage1Threshold400v
+    GeneratorOvervoltage1Delay
+    GeneratorOvervoltage2Threshold100v
+    GeneratorOvervoltage2Threshold400v
+    GeneratorOvervoltage2Delay
+    GeneratorUndervoltageMonitoring
+    GeneratorUndervoltage1Threshold100v
+    GeneratorUndervoltage1Threshold400v
+    GeneratorUndervoltage1Delay
+    GeneratorUndervoltage2Threshold100v
+    GeneratorUndervoltage2Threshold400v
+    GeneratorUndervoltage2Delay
+    MainsFrequencyMonitoring
+    MainsOverfrequencyThreshold
+    MainsOverfrequencyDelay
+    MainsUnderfrequencyThreshold
+    MainsUnderfrequencyDelay
+    MainsVoltageMonitoring
+    MainsVoltageFactor
+    MainsOvervoltageThreshold100v
+    MainsOvervoltageThreshold400v
+    MainsOvervoltageDelay
+    MainsUndervoltageThreshold100v
+    MainsUndervoltageThreshold400v
+    MainsUndervoltageDelay
+    PhaseShiftMonitoring
+    PhaseShiftMonitoringPhases
+    PhaseShiftThresholdSinglePhase
+    PhaseShiftThresholdThreePhase
+    ReactivePowerMonitoring
+    ReactivePowerThresholdInductive
+    ReactivePowerDelayInductive
+    ReactivePowerThresholdCapacitive
+    ReactivePowerDelayCapacitive
+    EarthFaultMonitoring
+    EarthFaultThreshold
+    EarthFaultDelay
+    BatteryUndervoltageThreshold
+    BatteryUndervoltageDelay
+    DigitalInputs1To4Logic
+    DigitalInputs1To4Delay
+    DigitalInputs1To4EngineDelay
+    DigitalInputs1To4FaultClass
+    DigitalInputs5To8Logic
+    DigitalInputs5To8Delay
+    DigitalInputs5To8EngineDelay
+    DigitalInputs5To8FaultClass
+    DigitalInputs9To12Logic
+    DigitalInputs9To12Delay
+    DigitalInputs9To12EngineDelay
+    DigitalInputs9To12FaultClass
+    FaultTextTerminal62
+    FaultTextTerminal63
+    FaultTextTerminal64
+    FaultTextTerminal65
+    FaultTextTerminal66
+    FaultTextTerminal67
+    FaultTextTerminal68
+    FaultTextTerminal69
+    FaultTextTerminal70
+    FaultTextTerminal71
+    FaultTextTerminal72
+    FaultTextTerminal73
+    AnalogOutput1Source
+    AnalogOutput1CurrentRange
+    AnalogOutput1ValueAt0Percent
+    AnalogOutput1ValueAt100Percent
+    AnalogOutput2Source
+    AnalogOutput2CurrentRange
+    AnalogOutput2ValueAt0Percent
+    AnalogOutput2ValueAt100Percent
+    Relay1Event1
+    Relay1Logic1
+    Relay1Event2
+    Relay1Logic2
+    Relay1Event3
+    Relay1Logic3
+    Relay2Event1
+    Relay2Logic1
+    Relay2Event2
+    Relay2Logic2
+    Relay2Event3
+    Relay2Logic3
+    Relay3Event1
+    Relay3Logic1
+    Relay3Event2
+    Relay3Logic2
+    Relay3Event3
+    Relay3Logic3
+    Relay4Event1
+    Relay4Logic1
+    Relay4Event2
+    Relay4Logic2
+    Relay4Event3
+    Relay4Logic3
+    Relay5Event1
+    Relay5Logic1
+    Relay5Event2
+    Relay5Logic2
+    Relay5Event3
+    Relay5Logic3
+    Relay6Event1
+    Relay6Logic1
+    Relay6Event2
+    Relay6Logic2
+    Relay6Event3
+    Relay6Logic3
+    Relay7Event1
+    Relay7Logic1
+    Relay7Event2
+    Relay7Logic2
+    Relay7Event3
+    Relay7Logic3
+    AutomaticIdleControl
+    Shutdown
+    EngineMonitoringDelay
+    MonitoringStartFrequency
 };
 
 /// What the messages need to know of the device.

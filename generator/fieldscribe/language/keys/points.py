@@ -136,7 +136,7 @@ WHICH = (
         [{"voltage=400V": {"range": "660..780"}}],
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
-    Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1), own=True),
+    Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1)),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key(

@@ -15,7 +15,7 @@ from fieldscribe.targets.c.literals import (
     unsigned,
 )
 from fieldscribe.targets.c.places import fixed_number, fixes
-from fieldscribe.targets.c.rules import rule_name, rule_of
+from fieldscribe.targets.c.rules import rule_of
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.views import Function
@@ -58,11 +58,6 @@ class Writer:
         """The function that tells whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.words, self.scope))
-        if self.point.allowed.moves and self.special is None:
-            own = f"{self.name}_check"
-            owner = self.scope.tables.setdefault(("check", *parameters, status), own)
-            if owner != own:
-                status = called(owner, "raw", *self.scope.passed(self.point.limit_arguments))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
@@ -183,10 +178,9 @@ class Writer:
         point, scope = self.point, self.scope
         if point.writable:
             yield self.check()
-        if rule_name(point, scope) == f"{self.name}_rule":
-            parameters = scope.parameters(point, point.scale_arguments)
-            body = f"return {rule_of(point, scope)};"
-            yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
+        parameters = scope.parameters(point, point.scale_arguments)
+        body = f"return {rule_of(point, scope)};"
+        yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
         tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
         counts = point.decimals is not None
         if point.writable and counts:
@@ -211,9 +205,8 @@ class Writer:
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
         """The call that gives the rule, in a function with these arguments."""
-        name = rule_name(self.point, self.scope)
         self.scope.grouped = len(arguments) > 1
-        return called(name, *self.scope.passed(self.point.scale_arguments))
+        return called(f"{self.name}_rule", *self.scope.passed(self.point.scale_arguments))
 
     def _by_rule(self, tail: str, to: str, core: str, *, floating: bool = False) -> Function:
         point = self.point

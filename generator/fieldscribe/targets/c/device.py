@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.model import Version
 from fieldscribe.names import upper
 from fieldscribe.records import replace
 from fieldscribe.targets.c.comments import comment_text, laid_out
@@ -40,6 +41,7 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
         prefix=scope.prefix,
         upper=scope.upper,
         version=device.version,
+        numbers=Version.of(device.version),
         digest=device.digest[:16],
         telegrams=tuple(
             TelegramView(telegram.name, name, number, f"{name}_WORDS", telegram.words)
@@ -140,7 +142,7 @@ def _function_tails(view: PointView) -> list[str]:
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
-    tails += ["_rule"] if view.rules else []
+    tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.splits else []
     tails += ["_extract", "_insert"] if view.bits else []
     return [*tails, *view.flags, *codes]

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 _OWN = Owner("target", "what the header needs")
 
 _TYPES = ("status", "real")
-_MACROS = ("H", "DESCRIPTION_VERSION", "DESCRIPTION_DIGEST", "DESCRIPTION")
+_VERSION = tuple(f"DESCRIPTION_VERSION{tail}" for tail in ("", "_MAJOR", "_MINOR", "_PATCH", "_NUMBER"))
+_MACROS = ("H", *_VERSION, "DESCRIPTION_DIGEST", "DESCRIPTION")
 _HEADERS = frozenset(
     {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
     | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
@@ -86,13 +87,17 @@ def _owner_of(owner: Owner, blank: str, item: str) -> Owner:
 
 def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
     owner = Owner("point", shown.words.item)
-    names = [*(name for name, _ in shown.defines), *function_names(shown), *(table.name for table in shown.tables)]
+    own = [table.name for table in shown.tables if table.name.startswith(f"{shown.function}_")]
+    names = [*(name for name, _ in shown.defines), *function_names(shown), *own]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:
             names.remove(name)  # only once: another use of the name in the same point is a clash
     yield owner, [*names, f"{shown.function}_with"] if shown.fields else names
     yield from parts
+    for table in shown.tables:
+        if table.name not in own:
+            yield Owner("table of ranges", table.name), (table.name,)
     if shown.special is not None and shown.special.codes is not None and point.shared_codes:
         codes, shared = shown.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]

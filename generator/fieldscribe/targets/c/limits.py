@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from zlib import crc32
 
 from fieldscribe.model import Bound, Interval, Limit, Point
 from fieldscribe.targets.c.literals import bare, hexadecimal, unsigned
@@ -75,10 +76,13 @@ def has_ranges_table(point: Point) -> bool:
 
 
 def ranges_table(point: Point, scope: HeaderScope) -> str:
-    """The name of the table of a point's ranges, which points that have the same share; empty where none is needed."""
+    """The table of a point's ranges, which points that have the same share; empty where none is needed.
+
+    It is named by what it holds: one more point that uses it leaves the lines of the others as they are.
+    """
     if not has_ranges_table(point):
         return ""
-    return scope.tables.setdefault(point.allowed.fixed, f"{scope.prefix}_{point.item}_ranges")
+    return f"{scope.prefix}_ranges_{crc32(repr(point.allowed.fixed).encode()):08x}"
 
 
 def _bounds_without_codes(point: Point) -> tuple[int, int]:

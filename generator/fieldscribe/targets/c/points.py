@@ -12,7 +12,6 @@ from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
-from fieldscribe.targets.c.rules import rule_name
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import special_view
 from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
@@ -30,8 +29,7 @@ def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: b
     """The view of a generated point; it may be the first that has the names of its numbers, or its special codes."""
     name, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
     shape = shape_of(point)
-    several = len(point.arguments) > 1
-    arguments = point.arguments if several and scope.struct(point) == f"{name}_with" else ()
+    arguments = point.arguments if len(point.arguments) > 1 else ()
     return PointView(
         words=words,
         function=name,
@@ -49,7 +47,6 @@ def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: b
         special=special_view(point, words, scope, is_first=first_codes),
         scale_arguments=point.scale_arguments,
         limit_arguments=point.limit_arguments,
-        rules=shape == "ruled" and rule_name(point, scope) == f"{name}_rule",
         splits=has_words(point),
         bits=point.bits is not None,
         flags=tuple(f"_{flag.name}" for flag in point.flags if flag.width > 1),
@@ -107,9 +104,9 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
     if point.text is not None:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
         yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
-    elif ranges_table(point, scope) == f"{name}_ranges":
+    elif (table := ranges_table(point, scope)) and scope.tables.setdefault(table, name) == name:
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
-        yield TableView("fieldscribe_range", f"{name}_ranges", "", tuple(rows))
+        yield TableView("fieldscribe_range", table, "", tuple(rows))
 
 
 def _enum_view(point: Point, words: Words, scope: HeaderScope) -> EnumView:

@@ -14,12 +14,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scope import HeaderScope
 
 
-def rule_name(point: Point, scope: HeaderScope) -> str:
-    """The function that gives the rule of a point; points with the same rule share it."""
-    struct = tuple(scope.parameters(point, point.scale_arguments))
-    return scope.tables.setdefault((struct, rule_of(point, scope)), f"{scope.prefix}_{point.item}_rule")
-
-
 def rule_of(point: Point, scope: HeaderScope) -> str:
     """The expression for the rule of a point: its cases, by the raw numbers of other points."""
     rules, depth = "", 0

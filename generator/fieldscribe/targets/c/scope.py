@@ -21,8 +21,8 @@ class HeaderScope:
     """The state while the header of a device is built.
 
     `errata` are the ids of errata that change a fact, `digits` the names of enums of decimal digits, `spaces` the space
-    of each group whose points all have the same. `tables` are the names of tables by their contents. `grouped` says
-    that the function being written gets the raw numbers of other points in a struct.
+    of each group whose points all have the same. `tables` are the tables that several points share, each with the first
+    of them. `grouped` says that the function being written gets the raw numbers of other points in a struct.
     """
 
     prefix: str
@@ -32,7 +32,7 @@ class HeaderScope:
     digits: frozenset[str]
     spaces: Mapping[str, str | None]
     grouped: bool = False
-    tables: dict[object, str] = field(default_factory=dict)
+    tables: dict[str, str] = field(default_factory=dict)
 
     @property
     def points(self) -> Mapping[str, Point]:
@@ -40,8 +40,8 @@ class HeaderScope:
         return self.lowered.points
 
     def struct(self, point: Point) -> str:
-        """The struct for the raw numbers that a point needs; points that need the same ones share it."""
-        return self.tables.setdefault(("with", point.arguments), f"{self.prefix}_{point.item}_with")
+        """The struct for the raw numbers that a point needs."""
+        return f"{self.prefix}_{point.item}_with"
 
     def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
         """The parameter for the raw numbers of other points: a number, or a struct if there are several."""

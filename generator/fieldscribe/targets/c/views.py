@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
+    from fieldscribe.model import Version
     from fieldscribe.targets.c.words import Words
 
 Define = tuple[str, str]
@@ -92,7 +93,6 @@ class PointView:
     special: SpecialView | None
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
-    rules: bool
     splits: bool
     bits: bool
     flags: tuple[str, ...]
@@ -140,6 +140,7 @@ class DeviceView:
     prefix: str
     upper: str
     version: str
+    numbers: Version
     digest: str
     statuses: tuple[str, ...]
     telegrams: tuple[TelegramView, ...]

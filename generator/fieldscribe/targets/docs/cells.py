@@ -10,7 +10,7 @@ from fieldscribe.model import Source
 from fieldscribe.text import markdown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Container, Sequence
 
 _BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
 """What most cells are made of, and Markdown escapes nothing of it."""
@@ -21,19 +21,26 @@ _ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
-def table(columns: Iterable[tuple[str, Iterable[str]]]) -> str:
-    """The lines of a table whose columns are finished Markdown, without empty columns; empty if none is left."""
-    kept = [(head, cells) for head, cells in columns if any(cells)]
+def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Container[str] = ()) -> str:
+    """The lines of a table of finished Markdown; empty without rows.
+
+    Columns where nothing stands are left out, but for those that are there always: where most rows say nothing, the
+    first that does would change the lines of all others. For the same reason nothing is padded.
+    """
+    kept = (
+        [
+            (head, cells)
+            for head, cells in zip(heads, zip(*rows, strict=True), strict=True)
+            if head in always or any(cells)
+        ]
+        if rows
+        else []
+    )
     if not kept:
         return ""
-    heads, columns_kept = zip(*kept, strict=True)
-    rows = [" | ".join(row) for row in (heads, ("---",) * len(kept), *zip(*columns_kept, strict=True))]
-    return "| " + " |\n| ".join(rows) + " |\n"
-
-
-def by_rows(heads: Iterable[str], rows: Sequence[Sequence[str]]) -> str:
-    """The lines of a table of these rows, without empty columns; empty without rows."""
-    return table(zip(heads, zip(*rows, strict=True), strict=True)) if rows else ""
+    heads_kept, columns = zip(*kept, strict=True)
+    lines = [" | ".join(row) for row in (heads_kept, ("---",) * len(kept), *zip(*columns, strict=True))]
+    return "| " + " |\n| ".join(lines) + " |\n"
 
 
 def cell(text: str) -> str:

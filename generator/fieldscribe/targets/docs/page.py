@@ -163,7 +163,7 @@ def _entries(enum: Enum) -> str:
 def _frames(scope: Scope) -> str:
     rows = [_frame_row(scope, frame) for frame in scope.device.frames]
     heads = ("Name", "Title", "Framing", "Direction", "Answers", "Printed", "Correct", "Meaning", "Errata", "Source")
-    return by_rows(heads, rows)
+    return by_rows(heads, rows, always=heads)
 
 
 def _frame_row(scope: Scope, frame: Frame) -> tuple[str, ...]:
@@ -205,7 +205,8 @@ def _errata(device: Device) -> str:
         )
         for erratum in device.errata
     ]
-    return by_rows(("Erratum", "Points", "Where", "Printed", "Taken", "Why", "Certainty", "Source"), rows)
+    heads = ("Erratum", "Points", "Where", "Printed", "Taken", "Why", "Certainty", "Source")
+    return by_rows(heads, rows, always=heads)
 
 
 def _where(erratum: Erratum) -> str:

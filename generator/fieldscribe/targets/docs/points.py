@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Group, Point
     from fieldscribe.targets.docs.subjects import Scope, Subject
 
+_FACTS = ("Type", "Access", "Range", "Raw range", "Scale", "Default", "Remarks", "Source")
+
 
 @dataclass(frozen=True, slots=True)
 class FlagsView:
@@ -100,9 +102,9 @@ class _Rows:
         heads = (
             *("Code", "Name", "Title", "Space", "Wire address", "Index"),
             *(cell(key.capitalize()) for key in references),
-            *("Type", "Access", "Range", "Raw range", "Scale", "Default", "Remarks", "Source"),
+            *_FACTS,
         )
-        return by_rows(heads, [self._row(subject, references, with_space) for subject in subjects])
+        return by_rows(heads, [self._row(subject, references, with_space) for subject in subjects], always=_FACTS)
 
     def flags(self, subjects: Sequence[Subject]) -> Iterator[FlagsView]:
         """The tables of bits of those points that have named ones."""

@@ -9,7 +9,7 @@ from fieldscribe.resources import runtime_files
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
 from fieldscribe.targets.python.names import device_name_taken, identifiers
-from fieldscribe.text import python_doc
+from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -35,7 +35,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     enums = enums_view(device, names, render)
     folder = f"python/{names.package}"
     shown = {"uses": uses(device, names.device_class, "")}
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, "view": names})
+    said = {"version": python_string(device.version), "digest": python_string(device.digest)}
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, **said, "view": names})
     yield f"{folder}/py.typed", ""
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})

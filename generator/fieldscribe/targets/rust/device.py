@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.model import Version
 from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.example import example_of, example_uses
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import Item, binding, in_lines
+from fieldscribe.targets.rust.layout import Item, binding
+from fieldscribe.targets.rust.literals import integer
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CrateScope
-
-_SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
 
 def head(device: Device, comment: str) -> str:
@@ -60,11 +59,12 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
     first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
     structs = tuple(arguments_views(scope))
+    version = Version.of(device.version)
     of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
     return {
         "head": head(device, "//"),
-        "table": in_lines(subject.name for subject in scope.subjects),
+        "table": tuple(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "codes": tuple(shared_views(scope)),
@@ -81,9 +81,10 @@ def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
         "id_literal": rust_string(device.id),
-        "version_literal": rust_string(device.version),
+        "version": rust_string(device.version),
+        "version_parts": [(name, upper(name), integer(number)) for name, number in version._asdict().items()],
+        "version_number": integer(version.number),
         "digest_literal": rust_string(device.digest),
-        "package_version": device.version if _SEMANTIC.fullmatch(device.version) else "0.0.0",
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
         "family": device.family,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
 _WIDTH = 100
 _ARRAY_WIDTH = 60
@@ -123,18 +123,6 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
             lines.append("    ")
         lines[-1] += text
     return tuple(lines)
-
-
-def in_lines(names: Iterable[str]) -> list[str]:
-    """Names in as few lines as possible."""
-    lines, line = [], ""
-    for name in names:
-        if len(line) + len(name) >= _WIDTH and line:
-            lines.append(line)
-            line = name
-        else:
-            line = f"{line} {name}" if line else name
-    return [*lines, line] if line else lines
 
 
 def chained(steps: Sequence[str]) -> Lines:

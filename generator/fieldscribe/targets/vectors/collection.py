@@ -17,7 +17,7 @@ from fieldscribe.targets.vectors.sheets import Sheets
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from fieldscribe.model import Bus, Device
+    from fieldscribe.model import Bus, Device, Point
     from fieldscribe.targets.vectors.exchanges import Wire
 
 
@@ -40,14 +40,18 @@ class OfFamily:
 
 
 def collect(device: Device) -> Lines:
-    """All vectors of a device: its points in the author's order, then its frames and blocks."""
+    """All vectors of a device: its points by address, then its frames and blocks.
+
+    What is tried in depth, or with bad answers, is tried at the first of all that are alike. New points have mostly
+    addresses behind those of old ones, wherever they stand in the description: the old ones keep their vectors.
+    """
     family_part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
     lines = Lines(rows(family_part.KINDS))
     oracle = Oracle({point.name: point for point in reversed(device.points)})
     meanings = Meanings()
     sheets = Sheets(lines, oracle, meanings)
     identities = Identities(lines, device.variants)
-    points = {point.item: point for point in device.points if point.generated}
+    points = {point.item: point for point in sorted(device.points, key=_place) if point.generated}
     exchanges = [Exchanges(lines, oracle, meanings, points, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
@@ -76,6 +80,11 @@ def collect(device: Device) -> Lines:
         )
     family_part.frames(lines, device)
     return lines
+
+
+def _place(point: Point) -> tuple[bool, str, int]:
+    """What orders points; those without an address come last."""
+    return not point.addresses, point.space, min(point.addresses, default=0)
 
 
 _MANY = 200

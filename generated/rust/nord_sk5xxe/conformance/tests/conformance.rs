@@ -265,5 +265,11 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run, frames::check)
+    let version = [
+        device::VERSION_MAJOR,
+        device::VERSION_MINOR,
+        device::VERSION_PATCH,
+        device::VERSION_NUMBER,
+    ];
+    runner::main(&default, device, version, run, frames::check)
 }

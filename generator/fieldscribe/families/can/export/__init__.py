@@ -4,16 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.facts import CanBus, of_bus
+from fieldscribe.families.can.facts import CanBus, identifier_of, of_bus
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Device
+    from fieldscribe.model import Bus, Device, Frame
+
+LIMIT_CLASSES = {"bitrate": "wire", "identifier_bits": "wire"}
+"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+
+FRAME_CLASSES = {"can_id": "docs"}
+"""The same for worked examples."""
 
 
 def limits(bus: Bus | None) -> dict[str, object]:
     """The family's own facts of a bus; empty values for a bus of another family."""
     can_bus = CanBus() if bus is None else of_bus(bus)
     return {"bitrate": can_bus.bitrate, "identifier_bits": can_bus.identifier_bits}
+
+
+def frame(frame: Frame | None) -> dict[str, object]:
+    """The identifier of a worked example; of a frame of another family what stands for nothing."""
+    return {"can_id": None if frame is None else identifier_of(frame)}
 
 
 def export(form: str, device: Device, unit: int | None) -> bytes:

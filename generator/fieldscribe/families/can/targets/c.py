@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 _BYTES = 8
-_IN_A_ROW = 12
 
 
 NAMED_CODES: tuple[str, ...] = ()
@@ -73,7 +72,7 @@ class GroupView:
     array: str
     count_name: str
     count: str
-    lines: list[str]
+    rows: list[tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,17 +202,16 @@ def _request_and_answer(device: Device, *, writes: bool) -> tuple[Message | None
 
 def _groups(device: Device, scope: HeaderScope) -> Iterator[GroupView]:
     for group in device.groups:
-        addresses: dict[int, None] = {}
+        first_with: dict[int, str] = {}
         for point in device.points:
             if point.generated and point.readable and point.group == group.name and point.space == "parameter":
-                addresses.update(dict.fromkeys(point.addresses))
-        if addresses:
+                for address in point.addresses:
+                    first_with.setdefault(address, point.item)
+        if first_with:
             name = f"{scope.prefix}_{group.name}_group"
             count = f"{scope.upper}_{upper(group.name)}_GROUP_COUNT"
-            numbers = list(map(hexadecimal, addresses))
-            rows = [", ".join(numbers[first : first + _IN_A_ROW]) for first in range(0, len(numbers), _IN_A_ROW)]
-            lines = [*(f"{row}," for row in rows[:-1]), rows[-1]]
-            yield GroupView(group.name, name, count, f"{len(addresses)}U", lines)
+            rows = [(hexadecimal(address), item) for address, item in first_with.items()]
+            yield GroupView(group.name, name, count, f"{len(rows)}U", rows)
 
 
 def _fits(point: Point, words: int) -> bool:

@@ -24,7 +24,7 @@ KINDS = {
     "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
     "printed_build": "frame:note status:word bytes:bytes?",
     "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
-    "block": "group:word index:int space:word function:int address:int count:int",
+    "block": "group:word space:word function:int address:int count:int",
 }
 """The kinds of vectors for frames and batched reads."""
 
@@ -351,10 +351,10 @@ def printed(lines: Lines, device: Device) -> None:
 
 
 def blocks(lines: Lines, device: Device) -> None:
-    """The vectors of batched reads, group by group."""
+    """The vectors of batched reads, group by group; a block is known by its place, not by how many come before."""
     for group, blocks_of_group in device.blocks.items():
-        for index, block in enumerate(blocks_of_group):
-            lines.add("block", group, index, block.space, block.function, block.address, block.count)
+        for block in blocks_of_group:
+            lines.add("block", group, block.space, block.function, block.address, block.count)
 
 
 def limits(lines: Lines, bus: Bus) -> None:

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.facts import UssBus, of_bus
+from fieldscribe.families.uss.facts import UssBus, of_bus, of_frame
 from fieldscribe.families.uss.parts import READ_TASK, write_task
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Point
+    from fieldscribe.model import Bus, Frame, Point
+
+LIMIT_CLASSES = {"pkw": "wire", "pzd": "wire", "variant_pzd": "behaviour", "bitrate": "wire"}
+"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+
+FRAME_CLASSES = {"pkw": "docs"}
+"""The same for worked examples."""
 
 
 def limits(bus: Bus | None) -> dict[str, object]:
@@ -20,6 +26,11 @@ def limits(bus: Bus | None) -> dict[str, object]:
         "variant_pzd": {str(variant): most for variant, most in uss_bus.variant_pzd},
         "bitrate": uss_bus.bitrate,
     }
+
+
+def frame(frame: Frame | None) -> dict[str, object]:
+    """The parameter part of a worked example; of a frame of another family what stands for nothing."""
+    return {"pkw": None if frame is None else of_frame(frame).pkw}
 
 
 def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:

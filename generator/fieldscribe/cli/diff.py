@@ -1,0 +1,121 @@
+"""`fieldscribe diff`: what changed between two descriptions, and whom it breaks."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldscribe.differences.classes import CLASSES
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.differences.changes import Comparison
+
+HELP = "say what changed between two descriptions, whom it breaks, and which step the version must take"
+EXAMPLE = """examples:
+  fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200
+  fieldscribe diff v1.2.0:descriptions descriptions --format markdown > changes.md
+  fieldscribe diff released.json hitachi_l200 --fail-on breaking       (released.json: of `export json`)
+  fieldscribe diff old/my_drive my_drive --keep-names
+
+classes: wire and api break (major), behaviour and compatible are new (minor), docs changes no code (patch)
+ends with 1 when there are differences at or above --fail-on; findings of a description are told on stderr,
+and what they leave of it is compared"""
+
+_LEAST = {"breaking": 2, "behaviour": 3, "any": len(CLASSES)}
+"""How many of the classes, the gravest first, count."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    what = "a device's id, a folder of one device or of several, a file, an exported model, or GIT-REVISION:PATH"
+    parser.add_argument("old", metavar="OLD", help=what)
+    parser.add_argument("new", metavar="NEW", help="the same; they may be of different kinds")
+    parser.add_argument(
+        "--fail-on", choices=tuple(_LEAST), default="any", help="which differences end with 1 (default: any)"
+    )
+    parser.add_argument(
+        "--keep-names",
+        action="store_true",
+        help="write `was: [OLD NAME]` to renamed points of NEW, so that the old names stay as deprecated aliases",
+    )
+    parser.add_argument(
+        "--format", choices=("text", "json", "markdown"), default="text", help="how to report (default: text)"
+    )
+
+
+def run(arguments: Namespace) -> int:
+    """Compare; the exit code."""
+    from fieldscribe.cli.common import StopError, report_findings
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.differences.changes import compared
+    from fieldscribe.differences.sides import opened
+    from fieldscribe.differences.table import UnfitError
+
+    report = Report()
+    try:
+        with ExitStack() as stack:
+            old, new = (stack.enter_context(opened(_known(side), report)) for side in (arguments.old, arguments.new))
+            report_findings(report, "text")
+            if not (old and new):
+                raise StopError("", code=1)
+            comparisons = compared(old, new)
+            if arguments.keep_names and _keep_names(arguments.new, comparisons):
+                comparisons = compared(old, stack.enter_context(opened(_known(arguments.new), Report())))
+            _print(arguments.format, comparisons)
+    except UnfitError as error:
+        raise StopError(error.message, error.hint) from error
+    counted = list(CLASSES)[: _LEAST[arguments.fail_on]]
+    return int(any(difference.weight in counted for each in comparisons for difference in each.told))
+
+
+def _known(argument: str) -> str:
+    """The argument; the folder of a device that it names by its id. Raises StopError."""
+    from fieldscribe.cli.common import StopError, description_paths
+
+    if not argument:
+        raise StopError("the path is empty")
+    if ":" in argument or Path(argument).exists():
+        return argument
+    return str(description_paths([Path(argument)])[0])
+
+
+def _print(form: str, comparisons: list[Comparison]) -> None:
+    from fieldscribe.cli.common import print_json
+    from fieldscribe.cli.terminal import print_lines
+
+    if form == "json":
+        from fieldscribe.differences.changes import as_data
+
+        print_json(as_data(comparisons))
+        return
+    from fieldscribe.differences.rendering import as_markdown, as_text
+
+    if form == "markdown":
+        print(*as_markdown(comparisons), sep="\n")
+    else:
+        print_lines(as_text(comparisons))
+
+
+def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
+    """Write `was` to the renamed points; whether anything was written. Raises StopError."""
+    import sys
+
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.differences.aliases import with_aliases
+    from fieldscribe.output.writing import replace
+    from fieldscribe.report import visible
+
+    if any(each.new and (each.new.described is None or each.new.copied) for each in comparisons):
+        raise StopError(f"--keep-names writes to a description, `{argument}` is none", "name a folder or a file as NEW")
+    written = False
+    for each in comparisons:
+        edited = with_aliases(each)
+        for path, data in edited.files.items():
+            replace(path, (data,))
+            written = True
+        for sentence in edited.told:
+            print(visible(sentence), file=sys.stderr)
+    return written

@@ -1,0 +1,188 @@
+"""Old names kept as deprecated aliases: `was: [old_name]` written to renamed points, where a person would write it."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.nodes import Seq
+from fieldscribe.pipeline import load_so_far
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from fieldscribe.differences.changes import Comparison
+    from fieldscribe.differences.described import Described
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.language.source import SourceFile
+    from fieldscribe.resolve.drafts import Draft
+
+_SCALAR = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[A-Za-z0-9_]+")
+_BOM = b"\xef\xbb\xbf"
+
+
+class Edited(NamedTuple):
+    """The new contents of files, and what people are told."""
+
+    files: Mapping[Path, bytes]
+    told: list[str]
+
+
+class _Alias(NamedTuple):
+    """An old name for the row that a point comes from, and the points that get it from there, with their aliases."""
+
+    row: Map
+    old: str
+    points: list[tuple[str, str]]
+
+
+def with_aliases(comparison: Comparison) -> Edited:
+    """The files of the new description with the old names of renamed points. Nothing is written here."""
+    described = None if comparison.new is None else comparison.new.described
+    if described is None:
+        return Edited({}, [])
+    aliases, by_hand = _aliases(comparison, described)
+    kept, told = _proven(described, aliases)
+    lines = [f"{new}: the old name `{old}` stays as an alias" for alias in kept for new, old in alias.points]
+    changed = {file: text for file, text in _texts(kept).items() if text != file.text}
+    told = lines + [_advice(*pair) for pair in by_hand] + told
+    return Edited({Path(os.path.realpath(file.name)): _encoded(file, text) for file, text in changed.items()}, told)
+
+
+def _advice(item: str, old: str) -> str:
+    return f"{item}: write `was: [{old}]` by hand where its own facts stand"
+
+
+def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias], list[tuple[str, str]]]:
+    """The old names by row, one for all points that it stands for, and the points that a row cannot give theirs."""
+    aliases: dict[tuple[int, str], _Alias] = {}
+    by_hand = []
+    for difference in comparison.told:
+        if not difference.is_rename or difference.weight == "compatible" or len(difference.things) > 1:
+            continue
+        thing = difference.things[0]
+        if thing.kind != "point" or thing.old is None or thing.new is None:
+            continue
+        draft = described.draft(thing.new)
+        name, (before, _, behind) = _plain(thing.old, draft), draft.called("\0").partition("\0")
+        old = name.removeprefix(before).removesuffix(behind)
+        if draft.called(old) != name:  # the record is used under another name
+            by_hand.append((thing.new, name))
+            continue
+        alias = aliases.setdefault((id(draft.row), old), _Alias(draft.row, old, []))
+        alias.points.append((thing.new, name))
+    return list(aliases.values()), by_hand
+
+
+def _plain(item: str, draft: Draft) -> str:
+    """The name of a point in generated code, without its variant."""
+    return item if draft.variant is None else item.removesuffix(f"_{draft.variant.value.lower()}")
+
+
+def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], list[str]]:
+    """Those aliases that do what they should in a copy of the description, and what is to be said of the others."""
+    left, told = aliases, list[str]()
+    while left:
+        lost, finding = _lost(described, left)
+        if finding:
+            return [], [*told, f"no alias was written: {finding}"]
+        if not lost:
+            return left, told
+        told += [_advice(*pair) for pair in lost]
+        left = [alias for alias in left if not set(lost) & set(alias.points)]
+    return [], told
+
+
+def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, str]], str]:
+    """The points that do not get their old names so, and the first finding that comes of the aliases."""
+    sources = _sources(described)
+    texts = {file: file.text for file in sources} | dict(_texts(aliases))
+    folder = os.path.dirname(os.path.abspath(sources[0].name))
+    with TemporaryDirectory(prefix="fieldscribe-") as copy:
+        for file, text in texts.items():
+            place = Path(copy, os.path.relpath(os.path.abspath(file.name), folder))
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(text.encode("utf-8"))
+        report = Report()
+        subject = load_so_far(Path(copy, os.path.basename(sources[0].name)), report)
+    before = {(finding.rule, finding.message) for finding in described.subject.report.findings}
+    new = next((each.message for each in report.findings if (each.rule, each.message) not in before), "")
+    if subject is None or new:
+        return [], new or "the description could not be read again"
+    known = {point.item: point.was for point in subject.so_far.points}
+    pairs = [pair for alias in aliases for pair in alias.points]
+    return [(item, old) for item, old in pairs if old not in known.get(item, ())], ""
+
+
+def _sources(described: Described) -> list[SourceFile]:
+    """The files of a description, that of the head first."""
+    return list({id(node.file): node.file for node in described.subject.scope.files}.values())
+
+
+def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:
+    """The texts of the files with these aliases in them."""
+    rows: dict[int, tuple[Map, list[str]]] = {}
+    for alias in aliases:
+        rows.setdefault(id(alias.row), (alias.row, []))[1].append(alias.old)
+    edits: dict[SourceFile, list[tuple[int, str]]] = {}
+    for row, old_names in rows.values():
+        edit = _edit(row, old_names)
+        if edit is not None:
+            edits.setdefault(row.file, []).append(edit)
+    return {file: _inserted(file.text, places) for file, places in edits.items()}
+
+
+def _inserted(text: str, places: list[tuple[int, str]]) -> str:
+    for offset, piece in sorted(places, reverse=True):
+        text = text[:offset] + piece + text[offset:]
+    return text
+
+
+def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
+    """Where `was` is written, and as what; None where the row has no such place."""
+    was = row.get("was")
+    if isinstance(was, Seq):
+        return _into_list(row, was, old_names)
+    return _behind_name(row, f"was: [{', '.join(old_names)}]") if "name" in row else None
+
+
+def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
+    """On the line below the name, or behind it in braces."""
+    text, (_, column, *value) = row.file.text, row.places["name"]
+    name = _SCALAR.match(text, row.file.offset((value[0], value[1])))
+    if name is None:
+        return None
+    if text[row.file.offset(row.at)] == "{":
+        return name.end(), f", {said}"
+    end, line = text.find("\n", name.end()), f"{' ' * (column - 1)}{said}{_ending(text)}"
+    if end < 0:
+        return len(text), f"{_ending(text)}{line}"
+    return end + 1, line
+
+
+def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
+    """More old names in a list that is there."""
+    text, start = row.file.text, row.file.offset(was.at)
+    if text[start] == "[":
+        return start + 1, f"{', '.join(old_names)}{', ' if was else ''}"
+    dash = text.rfind("-", 0, row.file.offset(was.item_at[0])) if was else start
+    begin = text.rfind("\n", 0, dash) + 1
+    return begin, "".join(f"{text[begin:dash]}- {old}{_ending(text)}" for old in old_names)
+
+
+def _ending(text: str) -> str:
+    """How lines end."""
+    return "\r\n" if "\r\n" in text else "\n"
+
+
+def _encoded(file: SourceFile, text: str) -> bytes:
+    """The bytes of the file, with the mark at its start that it had. Raises OSError if it was changed meanwhile."""
+    data = Path(file.name).read_bytes()
+    mark = _BOM if data.startswith(_BOM) else b""
+    if data != mark + file.text.encode("utf-8"):
+        raise OSError(0, "it was changed while it was compared", file.name)
+    return mark + text.encode("utf-8")

@@ -1,0 +1,147 @@
+"""The differences of two sides, device by device, each with its places and the symbols that it touches."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.differences.classes import API, COMPATIBLE, DOCS, step_for
+from fieldscribe.differences.comparison import Difference, Thing, differences
+from fieldscribe.differences.symbols import Symbols
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.differences.sides import Side
+
+Names = tuple[tuple[str, str], ...]
+"""A thing by kinds and names, from the outside in."""
+
+
+class Comparison:
+    """One device on both sides; None where a side does not have it."""
+
+    def __init__(self, device: str, old: Side | None, new: Side | None) -> None:
+        self.device, self.old, self.new = device, old, new
+
+    @cached_property
+    def told(self) -> list[Difference]:
+        """The differences; what one side could not resolve is not told as gone."""
+        if self.old is None or self.new is None:
+            names = [None if side is None else self.device for side in (self.old, self.new)]
+            thing = Thing("device", *names)
+            weight = API if self.new is None else COMPATIBLE
+            return [Difference(weight, (thing,), "", thing.old, thing.new)]
+        found = differences(self.old.exported, self.new.exported)
+        return [difference for difference in found if not self._is_lost(difference)]
+
+    @property
+    def step(self) -> str | None:
+        """The step that the version must take."""
+        return step_for(difference.weight for difference in self.told)
+
+    def places(self, difference: Difference) -> dict[str, str | None]:
+        """Where the fact stands on each side."""
+        return {
+            "old": None if self.old is None else self._place(self.old, difference, old=True),
+            "new": None if self.new is None else self._place(self.new, difference, old=False),
+        }
+
+    def symbols(self, difference: Difference) -> Mapping[str, list[str]]:
+        """The names in generated code, those of the old side first; an exported model alone tells none."""
+        symbols: dict[str, list[str]] = {}
+        if difference.weight == DOCS:
+            return symbols
+        for side, listed in ((self.old, self._old_symbols), (self.new, self._new_symbols)):
+            names = _names(difference, old=side is self.old)
+            if side is None or side.described is None or listed is None or names is None:
+                continue
+            for language, more in listed.of(side.described.owners(names, difference.fact)).items():
+                symbols[language] = list(dict.fromkeys([*symbols.get(language, ()), *more]))
+        return symbols
+
+    def _place(self, side: Side, difference: Difference, *, old: bool) -> str | None:
+        """Where a fact stands; of a part that this side does not have the thing that it would be a part of."""
+        names = _names(difference, old=old)
+        if names is None:
+            names = _names(difference._replace(things=difference.things[:-1]), old=old)
+            return side.place(names, difference.things[-1].kind) if names else None
+        return side.place(names, difference.fact)
+
+    def _is_lost(self, difference: Difference) -> bool:
+        """Whether a thing is told to come or to go only because a side has findings."""
+        thing = difference.things[0] if difference.things else None
+        if difference.fact or thing is None or None not in thing[1:]:
+            return False
+        side = self.old if thing.old is None else self.new
+        if side is None or side.described is None:
+            return False
+        lost = side.described.lost
+        return lost is None or (thing.kind, thing.name) in lost
+
+    @cached_property
+    def _old_symbols(self) -> Symbols | None:
+        return _symbols(self.old)
+
+    @cached_property
+    def _new_symbols(self) -> Symbols | None:
+        return _symbols(self.new)
+
+
+def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
+    """The devices of both sides by id, in the order of the new side, and those behind them that are gone."""
+    ids = dict.fromkeys([*new, *old])
+    return [Comparison(device, old.get(device), new.get(device)) for device in ids]
+
+
+def subject_of(difference: Difference) -> str | None:
+    """What a difference is about: a point by its name, another thing as `kind:name`, None for the whole device."""
+    if not difference.things or difference.things[0].kind == "device":
+        return None
+    thing = difference.things[0]
+    return thing.name if thing.kind == "point" else f"{thing.kind}:{thing.name}"
+
+
+def fact_of(difference: Difference) -> str:
+    """The fact in words, behind the parts that it is a fact of: `entry keypad raw`."""
+    inner, renamed = difference.things[1:], difference.is_rename
+    words = [f"{thing.kind} {thing.old if renamed else thing.name}" for thing in inner]
+    if renamed:
+        words.append("name")
+    elif difference.fact or not inner:
+        words.append(difference.fact or difference.things[-1].kind)
+    return " ".join(words)
+
+
+def as_data(comparisons: list[Comparison]) -> dict[str, Any]:
+    """Everything for JSON."""
+    changes = [_change(comparison, difference) for comparison in comparisons for difference in comparison.told]
+    return {"changes": changes, "step": step_for(_classes(comparisons))}
+
+
+def _classes(comparisons: list[Comparison]) -> Iterator[str]:
+    return (difference.weight for comparison in comparisons for difference in comparison.told)
+
+
+def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:
+    return {
+        "class": difference.weight,
+        "device": comparison.device,
+        "point": subject_of(difference),
+        "fact": fact_of(difference),
+        "old": difference.old,
+        "new": difference.new,
+        "places": comparison.places(difference),
+        "symbols": comparison.symbols(difference),
+        "rename": difference.is_rename,
+    }
+
+
+def _names(difference: Difference, *, old: bool) -> Names | None:
+    """The thing by its names on one side; None where this side does not have it."""
+    names = [(thing.kind, thing.old if old else thing.new) for thing in difference.things]
+    return None if any(name is None for _, name in names) else tuple((kind, name or "") for kind, name in names)
+
+
+def _symbols(side: Side | None) -> Symbols | None:
+    return None if side is None or side.described is None else Symbols(side.described.device)

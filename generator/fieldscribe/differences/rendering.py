@@ -1,0 +1,168 @@
+"""Differences for people: as text, and as the changelog of a release in Markdown."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.differences.changes import fact_of, subject_of
+from fieldscribe.differences.classes import CLASSES, is_taken, next_version
+from fieldscribe.differences.shown import shown
+from fieldscribe.report import visible
+from fieldscribe.text import markdown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from fieldscribe.differences.changes import Comparison
+    from fieldscribe.differences.comparison import Difference
+    from fieldscribe.report import Line
+
+_MOST_NAMES = 12
+_MOST_SYMBOLS = 3
+_ARROW = "\N{RIGHTWARDS ARROW}"
+
+
+class _Alike(NamedTuple):
+    """Differences that say the same of several points."""
+
+    first: Difference
+    all: list[Difference]
+
+    @property
+    def subjects(self) -> list[str]:
+        """The points, or the one thing that is no point."""
+        return [subject for difference in self.all if (subject := subject_of(difference)) is not None]
+
+
+def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
+    """Styled lines: the devices that differ, the gravest class first."""
+    for comparison in comparisons:
+        if not comparison.told:
+            continue
+        yield [("strong", visible(f"{comparison.device} {_versions(comparison)}"))]
+        for weight, groups in _by_class(comparison.told):
+            yield [("", "  "), ("error" if weight in ("wire", "api") else "warning", CLASSES[weight])]
+            for alike in groups:
+                yield from _text_of(comparison, alike)
+        yield [("hint", f"  {visible(_advice(comparison))}")]
+        yield []
+    told = sum(len(comparison.told) for comparison in comparisons)
+    yield [("strong", f"{told or 'no'} difference{'' if told == 1 else 's'}")]
+
+
+def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
+    """Lines of a changelog."""
+    for comparison in comparisons:
+        if not comparison.told:
+            continue
+        yield from (f"## {markdown(comparison.device)} {markdown(_next(comparison))}", "")
+        yield from (markdown(_advice(comparison, _ARROW)), "")
+        for weight, groups in _by_class(comparison.told):
+            yield from (f"### {CLASSES[weight].capitalize()}", "")
+            yield from (_item(comparison, alike) for alike in groups)
+            yield ""
+
+
+def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
+    """The differences of each class, those together that say the same of several points."""
+    groups: dict[str, dict[object, _Alike]] = {weight: {} for weight in CLASSES}
+    for difference in told:
+        whole = len(difference.things) == 1 and not difference.fact
+        said = id(difference) if whole else (fact_of(difference), repr(difference.old), repr(difference.new))
+        about = difference.things[0].kind if difference.things else ""
+        groups[difference.weight].setdefault((about, said), _Alike(difference, [])).all.append(difference)
+    return ((weight, list(alike.values())) for weight, alike in groups.items() if alike)
+
+
+def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
+    yield [("", "    "), ("strong", visible(_subject(alike))), ("", visible(_sentence(alike.first)))]
+    places = comparison.places(alike.first)
+    where = [place for place in dict.fromkeys(places.values()) if place]
+    yield [("", "      "), ("place", visible(" -> ".join(where)))]
+    for language, names in comparison.symbols(alike.first).items():
+        if names:
+            yield [("", visible(f"      {language}: {_few(names)}"))]
+
+
+def _item(comparison: Comparison, alike: _Alike) -> str:
+    symbols = "; ".join(
+        f"{language} {', '.join(map(_code, names[:_MOST_SYMBOLS]))}{_more(len(names) - _MOST_SYMBOLS)}"
+        for language, names in comparison.symbols(alike.first).items()
+        if names
+    )
+    sentence = markdown(_sentence(alike.first, _ARROW)).lstrip()
+    subject = _subject(alike, _code)
+    joint = "" if not subject or sentence.startswith(":") else " "
+    return f"- {subject}{joint}{sentence}{f' ({symbols})' if symbols else ''}"
+
+
+def _code(name: str) -> str:
+    """A name as code; a strange one, from a file of strangers, as text."""
+    return f"`{name}`" if all(char.isalnum() or char in "_:." for char in name) else markdown(name)
+
+
+def _subject(alike: _Alike, quoted: Callable[[str], str] = str) -> str:
+    """The points, or the thing; empty for the device as a whole."""
+    subjects = alike.subjects
+    if not subjects:
+        return ""
+    if alike.first.is_rename and len(alike.first.things) == 1:
+        return quoted(alike.first.things[0].old or "")
+    few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
+    return few if len(subjects) == 1 else f"{len(subjects)} points ({few})"
+
+
+def _sentence(difference: Difference, arrow: str = "->") -> str:
+    """What happened, as a sentence goes on behind the subject."""
+    thing = difference.things[-1] if difference.things else None
+    inner = " ".join(f"{part.kind} {part.name}" for part in difference.things[1:])
+    what = f": {inner}" if inner else ""
+    if difference.is_rename:
+        before = " ".join(f"{part.kind} {part.old}" for part in difference.things[1:])
+        return f"{f': {before}' if before else ''} is now {difference.new}{_kept(difference)}"
+    if not difference.fact and thing is not None:
+        kind = thing.kind if len(difference.things) == 1 else ""
+        return f"{what} is {'gone' if difference.new is None else 'new'}{f' ({kind})' if kind else ''}"
+    values = [shown(difference.fact, value) for value in (difference.old, difference.new)]
+    return f"{what}{' ' if what else ': ' if thing else ''}{difference.fact} {values[0]} {arrow} {values[1]}"
+
+
+def _kept(difference: Difference) -> str:
+    return "; the old name stays as a deprecated alias" if difference.weight == "compatible" else ""
+
+
+def _versions(comparison: Comparison) -> str:
+    versions = [side.version for side in (comparison.old, comparison.new) if side is not None]
+    return " -> ".join(dict.fromkeys(versions))
+
+
+def _next(comparison: Comparison) -> str:
+    """The version that the changes are released as: the one that the new side says, if it goes far enough."""
+    old, new, step = comparison.old, comparison.new, comparison.step
+    if old is None or new is None or step is None or is_taken(old.version, new.version, step):
+        side = new or old
+        return "" if side is None else side.version
+    return next_version(old.version, step) or new.version
+
+
+def _advice(comparison: Comparison, arrow: str = "->") -> str:
+    """Which step the version must take, and whether it did."""
+    old, new, step = comparison.old, comparison.new, comparison.step
+    if old is None or new is None or step is None:
+        return f"{'a new device' if old is None else 'the device is gone'}"
+    wanted = next_version(old.version, step)
+    if wanted is None:
+        return f"a {step} step of the version ({old.version} is no version like 1.2.3)"
+    below = " (below 1.0 the middle number says what breaks)" if old.version.startswith("0.") else ""
+    if is_taken(old.version, new.version, step):
+        return f"a {step} step of the version: {old.version} {arrow} {new.version}{below}"
+    return f"the version must take a {step} step: {wanted} or more, it says {new.version}{below}"
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(islice(names, _MOST_SYMBOLS)) + _more(len(names) - _MOST_SYMBOLS)
+
+
+def _more(number: int) -> str:
+    return f" and {number} more" if number > 0 else ""

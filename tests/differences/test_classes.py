@@ -1,0 +1,200 @@
+"""One edit of a description a row: which facts differ, in which class, and which step the version must take."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.differences import differences, is_taken, next_version, step_between
+from fieldscribe.differences.changes import fact_of, subject_of
+from fieldscribe.differences.classes import CLASSES, step_for
+from fieldscribe.export import export_model
+from support.described import group, head, loaded_in, together
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device
+
+BASE = together(
+    head(
+        note="{en: A remark}",
+        variants="{size: {title: Size, values: {small: {title: Small}, large: {title: Large}}}}",
+        bus="{framings: [rtu], units: 1..247, broadcast: 0, timing: {answer: 5 ms}, serial: {speed: {04: 9600 Bd}}, "
+        "gaps: {holding: [900..999]}, exceptions: {01h: bad_function}, "
+        "functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}",
+        enums="{modes: {0: stop, 1: run}}",
+        commands="[{name: enter, function: 06h, at: 800h, value: 1}]",
+        frames='[{name: read_speed, framing: rtu, direction: request, bytes: "01 03 00 10 00 01 85 CF"}]',
+        errata='[{id: odd, where: in the words, section: "1", printed: this, taken: that, why: so, certainty: likely}]',
+    ),
+    group(
+        "- {code: P1, name: speed, title: {en: Speed, de: Tempo}, at: 10h, range: 0..4000, default: 500, line: 7, "
+        "scale: value = raw * 0.1, unit: Hz, special: {FFFFh: {name: broken, no_value: yes}}}\n"
+        "- {name: total, at: 20h, type: u32, words: high first, access: r, steps: {0: 5}}\n"
+        "- {name: source, at: 30h, enum: {0: keypad, 1: panel}, keeps: yes, conditions: [stopped]}\n"
+        "- {name: status, at: 31h, access: r, flags: {0: ready, 1: {name: fault, active: 0}, 5..4: {name: mode, "
+        "values: {0: idle, 1: busy}}}}\n"
+        "- {name: low, at: 32h, bits: 3..0}\n"
+        "- {name: limited, at: 33h, range: 0..low}\n"
+        "- {name: label, at: 40h, type: text, characters: 8}\n"
+        "- {name: mode_of, at: 50h, enum: modes, when: source == 1}\n"
+        "- {name: level, at: 60h, variants: {size=small: {range: 0..5}, size=large: {range: 0..9}}}\n"
+        "- {name: pair, at: 61h, digits: {count: 2, enum: {0: none, 1: some}}}\n"
+        "- {name: control, at: 62h, flags: {0: go}, fixed: {15: 1}}\n",
+        numbering="{modicon: wire + 1}",
+        title="{en: Main}",
+    ),
+)
+
+EDITS: list[tuple[str, str, list[tuple[str, str | None, str]]]] = [
+    # on the wire
+    ("at: 10h", "at: 11h", [("wire", "speed", "address")]),
+    ("at: 40h", "at: ~", [("wire", "label", "address")]),
+    ("words: high first", "words: low first", [("wire", "total", "order of words")]),
+    ("wire + 1", "wire + 40001", [("wire", "speed", "base")]),
+    ("raw * 0.1", "raw * 0.01", [("wire", "speed", "scale")]),
+    ("unit: Hz", "unit: kHz", [("wire", "speed", "unit")]),
+    ("bits: 3..0", "bits: 4..1", [("wire", "low", "bits")]),
+    ("type: u32, words", "type: s32, words", [("wire", "total", "type")]),
+    ("at: 32h, bits: 3..0", "at: 32h", [("wire", "low", "bits")]),
+    ("at: 33h", "at: 33h, type: s16", [("wire", "limited", "type")]),
+    ("code: P1", "code: P2", [("wire", "speed", "code")]),
+    ("characters: 8", "characters: 6", [("wire", "label", "length")]),
+    ("fixed: {15: 1}", "fixed: {14: 1}", [("wire", "control", "fixed")]),
+    ("0: keypad, 1: panel", "0: panel, 1: keypad", [("wire", "source", "entry panel raw")]),
+    ("{0: ready, 1:", "{2: ready, 1:", [("wire", "status", "flag ready bits")]),
+    ("active: 0", "active: 1", [("wire", "status", "flag fault active")]),
+    ("at: 800h", "at: 801h", [("wire", "command:enter", "address")]),
+    ("value: 1}", "value: 2}", [("wire", "command:enter", "value")]),
+    ("01h: bad_function", "02h: bad_function", [("wire", "exception:bad_function", "number")]),
+    # in the API
+    ("name: speed", "name: pace", [("api", "pace", "name")]),
+    ("- {name: label, at: 40h, type: text, characters: 8}\n", "", [("api", "label", "point")]),
+    ("range: 0..4000", "range: 0..4000, access: r", [("api", "speed", "access")]),
+    ("1: panel", "1: terminal", [("api", "source", "entry panel name")]),
+    ("0: keypad, 1: panel", "1: panel", [("api", "source", "entry keypad")]),
+    ("0: ready, ", "", [("api", "status", "flag ready")]),
+    ("{name: broken, ", "{name: torn, ", [("api", "speed", "code broken name")]),
+    (", special: {FFFFh: {name: broken, no_value: yes}}", "", [("api", "speed", "code broken")]),
+    ("enum: {0: keypad, 1: panel}", "range: 0..1", [("api", "source", "enum")]),
+    ("flags: {0: go}, ", "", [("api", "control", "flag")]),
+    ("name: enter", "name: store", [("api", "command:store", "name")]),
+    ("[{name: enter, function: 06h, at: 800h, value: 1}]", "[]", [("api", "command:enter", "command")]),
+    ("01h: bad_function", "01h: no_function", [("api", "exception:no_function", "name")]),
+    (
+        "values: {small: {title: Small}, ",
+        "values: {small: {title: Small}, tiny: {title: Tiny}, ",
+        [("compatible", "variant:size", "values")],
+    ),
+    ("at: 31h", "at: 31h, reserved: yes", [("api", "status", "reserved")]),
+    # in behaviour
+    ("range: 0..4000", "range: 0..5000", [("behaviour", "speed", "range")]),
+    ("size=small: {range: 0..5}", "size=small: {range: 0..6}", [("behaviour", "level_small", "range")]),
+    ("0..low", "1..low", [("behaviour", "limited", "range")]),
+    ("1: panel", "1: panel, 2: network", [("behaviour", "source", "entry network")]),
+    ("FFFFh: {name: broken", "FFFEh: {name: broken", [("behaviour", "speed", "code broken raw")]),
+    ("no_value: yes", "no_value: no", [("behaviour", "speed", "code broken no value")]),
+    ("FFFFh: {", "FFFEh: {name: more}, FFFFh: {", [("behaviour", "speed", "code more")]),
+    ("default: 500", "default: 400", [("behaviour", "speed", "default")]),
+    ("steps: {0: 5}", "steps: {0: 10}", [("behaviour", "total", "step")]),
+    ("keeps: yes", "keeps: no", [("behaviour", "source", "kept")]),
+    (", conditions: [stopped]", "", [("behaviour", "source", "conditions")]),
+    ("when: source == 1", "when: source == 0", [("behaviour", "mode_of", "when")]),
+    ("at: 20h", "at: 20h, since: firmware 2", [("behaviour", "total", "since")]),
+    ("taken: that", "taken: other", [("behaviour", "erratum:odd", "taken")]),
+    ("id: odd", "id: odder", [("behaviour", "erratum:odder", "erratum"), ("behaviour", "erratum:odd", "erratum")]),
+    ("max: 16", "max: 8", [("behaviour", "function:read", "most")]),
+    ("units: 1..247", "units: 1..32", [("behaviour", None, "units")]),
+    ("900..999", "900..998", [("behaviour", None, "gaps")]),
+    ("1: busy", "1: busy, 2: off", [("behaviour", "status", "flag mode value off")]),
+    # what is new
+    ("- {name: low", "- {name: new, at: 70h}\n- {name: low", [("compatible", "new", "point")]),
+    ("0: ready, ", "0: ready, 7: more, ", [("compatible", "status", "flag more")]),
+    ("name: speed", "name: pace, was: [speed]", [("compatible", "pace", "name")]),
+    ("name: total", "name: total, was: [count]", [("compatible", "total", "old names")]),
+    # for people
+    ("de: Tempo", "de: Drehzahl", [("docs", "speed", "title")]),
+    ("line: 7", "line: 8", [("docs", "speed", "source")]),
+    ("default: 500", "default: 500, note: Careful", [("docs", "speed", "note")]),
+    ("A remark", "Another", [("docs", None, "note")]),
+    ("title: {en: Main}", "title: {en: All}", [("docs", "group:main", "title")]),
+    ("title: Manual", "title: The manual", [("docs", "document:manual", "title")]),
+    ("5 ms", "6 ms", [("docs", None, "timing")]),
+    ("9600 Bd", "19200 Bd", [("docs", None, "serial")]),
+    ("why: so", "why: we tried", [("docs", "erratum:odd", "reason")]),
+    ("vendor: Maker", "vendor: Other", [("docs", None, "vendor")]),
+    ("name: read_speed", "name: asks_speed", [("docs", "frame:asks_speed", "name")]),
+    ("version: 1.0.0", "version: 2.0.0", []),
+]
+
+STEPS = {"wire": "major", "api": "major", "behaviour": "minor", "compatible": "minor", "docs": "patch"}
+
+
+@cache
+def exported(text: str) -> Any:
+    """The exported model of a description."""
+    return export_model(_device(text))
+
+
+def _device(text: str) -> Device:
+    with TemporaryDirectory() as folder:
+        return loaded_in(Path(folder), text)
+
+
+@pytest.mark.parametrize(("old", "new", "told"), EDITS, ids=[f"{old} to {new}"[:60] for old, new, _ in EDITS])
+def test_an_edit(old: str, new: str, told: list[tuple[str, str | None, str]]) -> None:
+    assert old in BASE
+    edited = exported(BASE.replace(old, new, 1))
+    found = [(each.weight, subject_of(each), fact_of(each)) for each in differences(exported(BASE), edited)]
+    assert found[: len(told)] == told or set(told) <= set(found), found
+    gravest = next((weight for weight in CLASSES if weight in {weight for weight, *_ in found}), None)
+    assert gravest == (told[0][0] if told else None), found
+    assert step_between(exported(BASE), edited) == (STEPS[told[0][0]] if told else None)
+
+
+def test_what_only_names_a_renamed_thing_is_no_difference() -> None:
+    points = (
+        "- {{name: {0}, at: 1}}\n- {{name: other, at: 2, range: 0..{0}, when: {0} == 1}}\n"
+        "- {{name: third, at: 3, scale: raw = value * {0}, unit: V}}\n"
+    )
+    old, new = (exported(together(head(), group(points.format(name)))) for name in ("ratio", "quota"))
+    assert [(each.weight, each.old, each.new, each.is_rename) for each in differences(old, new)] == [
+        ("api", "ratio", "quota", True)
+    ]
+
+
+def test_points_that_are_not_alone_at_a_place_are_no_rename() -> None:
+    """Which of the two became which, nobody knows."""
+    old, new = (
+        exported(together(head(), group(f"- {{name: a{end}, at: ~}}\n- {{name: b{end}, at: ~}}\n")))
+        for end in ("", "_x")
+    )
+    assert [fact_of(each) for each in differences(old, new)] == ["point"] * 4
+
+
+@pytest.mark.parametrize(
+    ("version", "step", "least"),
+    [
+        ("1.2.3", "major", "2.0.0"),
+        ("1.2.3", "minor", "1.3.0"),
+        ("1.2.3", "patch", "1.2.4"),
+        ("0.2.3", "major", "0.3.0"),
+        ("0.2.3", "minor", "0.2.4"),
+        ("0.2.3", "patch", "0.2.4"),
+        ("", "major", None),
+        ("1.2", "major", None),
+        ("1.2.x", "patch", None),
+        ("1.2." + "9" * 5000, "patch", None),
+    ],
+)
+def test_the_version_that_a_step_leads_to(version: str, step: str, least: str | None) -> None:
+    assert next_version(version, step) == least
+    assert is_taken(version, least or "9.9.9", step)
+    assert is_taken(version, version, step) == (least is None)
+
+
+def test_no_difference_asks_for_no_step() -> None:
+    assert step_for(()) is None
+    assert step_between(exported(BASE), exported(BASE)) is None

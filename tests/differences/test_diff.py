@@ -1,0 +1,416 @@
+"""`fieldscribe diff`: what it compares, how it says it, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pytest
+from fieldscribe.cli import main
+from fieldscribe.differences.revisions import copied
+from fieldscribe.differences.table import UnfitError
+from fieldscribe.export import export_model
+from support.described import described, loaded, write
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+POINTS = """\
+- {code: P1, name: speed, at: 10h, range: 0..4000, unit: Hz}   # the first one
+- name: state     # what it does
+  at: 16h
+  enum: {0: stop, 1: run}
+- {name: ramp, at: 20h, sets: {2: {at: 30h}}}
+"""
+EDITED = POINTS.replace("at: 10h", "at: 11h").replace("1: run", "1: run, 2: wait")
+
+
+class Result(NamedTuple):
+    """What a run did."""
+
+    code: int
+    out: str
+    err: str
+
+
+class Diff:
+    """Runs the command in a folder of its own."""
+
+    def __init__(self, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        self.folder, self._capsys = folder, capsys
+
+    def write(self, name: str, points: str, **said: str) -> Path:
+        """A description in a folder of that name; its device.yaml."""
+        return write(self.folder / name, described(points, **said))
+
+    def __call__(self, *words: str) -> Result:
+        """The command with these arguments."""
+        self._capsys.readouterr()
+        return Result(main(["diff", *words]), *self._capsys.readouterr())
+
+    def changes(self, *words: str) -> list[dict[str, Any]]:
+        """What JSON says."""
+        changes: list[dict[str, Any]] = json.loads(self(*words, "--format", "json").out)["changes"]
+        return changes
+
+
+@pytest.fixture
+def diff(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Diff:
+    """The command, with two descriptions in the folder where it is called."""
+    monkeypatch.chdir(tmp_path)
+    made = Diff(tmp_path, capsys)
+    made.write("old", POINTS)
+    made.write("new", EDITED)
+    return made
+
+
+def test_json(diff: Diff) -> None:
+    told = json.loads(diff("old", "new", "--format", "json").out)
+    assert told["step"] == "major"
+    assert told["changes"][0] == {
+        "class": "wire",
+        "device": "made_up",
+        "point": "speed",
+        "fact": "address",
+        "old": 16,
+        "new": 17,
+        "places": {"old": "old/device.yaml:15", "new": "new/device.yaml:15"},
+        "symbols": told["changes"][0]["symbols"],
+        "rename": False,
+    }
+    symbols = told["changes"][0]["symbols"]
+    assert "MADE_UP_SPEED_ADDRESS" in symbols["c"]
+    assert symbols["python"] == ["speed"]
+    assert "Speed" in symbols["rust"]
+    assert [(each["class"], each["point"], each["fact"]) for each in told["changes"][1:]] == [
+        ("behaviour", "state", "range"),
+        ("behaviour", "state", "entry wait"),
+    ]
+    entry = told["changes"][2]
+    assert entry["places"] == {"old": "old/device.yaml:18", "new": "new/device.yaml:18"}
+    assert entry["symbols"] == {"c": ["MADE_UP_STATE_WAIT"], "python": ["WAIT"], "rust": ["Wait"]}
+
+
+TEXT = """\
+made_up 1.0.0
+  breaks on the wire
+    speed: address 16 (0010h) -> 17 (0011h)
+      old/device.yaml:15 -> new/device.yaml:15
+      c: MADE_UP_SPEED_ADDRESS, MADE_UP_SPEED_RAW_MIN, MADE_UP_SPEED_RAW_MAX and 4 more
+      python: speed
+      rust: Speed
+  changes behaviour
+    state: range 0..1 -> 0..2
+      old/device.yaml:18 -> new/device.yaml:18
+      c: MADE_UP_STATE_ADDRESS, MADE_UP_STATE_RAW_MIN, MADE_UP_STATE_RAW_MAX and 4 more
+      python: state
+      rust: State
+    state: entry wait is new
+      old/device.yaml:18 -> new/device.yaml:18
+      c: MADE_UP_STATE_WAIT
+      python: WAIT
+      rust: Wait
+  the version must take a major step: 2.0.0 or more, it says 1.0.0
+
+3 differences
+"""
+MARKDOWN = """\
+## made\\_up 2.0.0
+
+a major step of the version: 1.0.0 \N{RIGHTWARDS ARROW} 2.0.0
+
+### Breaks on the wire
+
+- `speed`: address 16 \\(0010h\\) \N{RIGHTWARDS ARROW} 17 \\(0011h\\) \
+(c `MADE_UP_SPEED_ADDRESS`, `MADE_UP_SPEED_RAW_MIN`, \
+`MADE_UP_SPEED_RAW_MAX` and 4 more; python `speed`; rust `Speed`)
+
+"""
+
+
+def test_text(diff: Diff) -> None:
+    assert diff("old", "new") == Result(1, TEXT, "")
+    assert diff("old", "old") == Result(0, "no differences\n", "")
+
+
+def test_markdown(diff: Diff) -> None:
+    diff.write("new", POINTS.replace("at: 10h", "at: 11h"), version="2.0.0")
+    assert diff("old", "new", "--format", "markdown") == Result(1, MARKDOWN, "")
+
+
+@pytest.mark.parametrize(
+    ("points", "codes"),
+    [
+        (POINTS.replace("at: 10h", "at: 11h"), (1, 1, 1)),
+        (POINTS.replace("0..4000", "0..5000"), (0, 1, 1)),
+        (POINTS + "- {name: more, at: 40h}\n", (0, 0, 1)),
+        (POINTS.replace("name: ramp", "name: ramp, title: A ramp"), (0, 0, 1)),
+        (POINTS, (0, 0, 0)),
+    ],
+)
+def test_what_ends_with_1(points: str, codes: tuple[int, ...], diff: Diff) -> None:
+    diff.write("new", points)
+    told = [diff("old", "new", "--fail-on", least).code for least in ("breaking", "behaviour", "any")]
+    assert tuple(told) == codes
+
+
+def test_sides_of_every_kind(diff: Diff) -> None:
+    """A folder, its device.yaml, a folder of such folders, and an exported model, in any mixture."""
+    Path("all").mkdir()
+    Path("old").rename("all/old")
+    Path("old.json").write_text(json.dumps(export_model(loaded(Path("all/old/device.yaml")))), "utf-8")
+    kinds = ("all", "all/old", "all/old/device.yaml", "old.json")
+    facts = {kind: [(each["point"], each["fact"]) for each in diff.changes(kind, "new")] for kind in kinds}
+    assert facts == {kind: [("speed", "address"), ("state", "range"), ("state", "entry wait")] for kind in kinds}
+    assert all(diff(kind, other) == Result(0, "no differences\n", "") for kind in kinds for other in kinds)
+    change = diff.changes("old.json", "new")[0]
+    assert change["places"] == {"old": "old.json", "new": "new/device.yaml:15"}
+    assert "MADE_UP_SPEED_ADDRESS" in change["symbols"]["c"]
+
+
+def test_a_device_by_its_id(diff: Diff) -> None:
+    assert diff("jumo_controller", "jumo_controller").code == 0
+    assert diff("jumo_control", "jumo_controller").code == 2
+
+
+def test_devices_come_and_go(diff: Diff) -> None:
+    diff.write("all/first", POINTS, device="first")
+    diff.write("more/second", POINTS, device="second")
+    told = [(each["class"], each["device"], each["fact"], each["new"]) for each in diff.changes("all", "more")]
+    assert told == [("compatible", "second", "device", "second"), ("api", "first", "device", None)]
+    assert "the device is gone" in diff("all", "more").out
+
+
+def test_findings_are_told_and_the_rest_is_compared(diff: Diff) -> None:
+    """A point that did not resolve is not gone."""
+    diff.write("new", EDITED.replace("name: ramp", "name: ramp, type: u17"))
+    told = diff("old", "new")
+    assert "u17" in told.err
+    assert "ramp" not in told.out
+    assert told.out.endswith("3 differences\n")
+    Path("new/device.yaml").write_text("device: 1\n", "utf-8")
+    assert diff("old", "new")[:2] == (1, "")
+
+
+@pytest.fixture
+def repository(diff: Diff, monkeypatch: pytest.MonkeyPatch) -> Diff:
+    """The folder as a git repository, with a commit and a tag; `old` has changed since."""
+    for name in [name for name in os.environ if name.startswith("GIT_")]:
+        monkeypatch.delenv(name)
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    _git("init", "-q", "-b", "main")
+    _git("add", ".")
+    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-q", "-m", "first")
+    _git("tag", "v1")
+    diff.write("old", EDITED)
+    return diff
+
+
+def _git(*words: str) -> None:
+    subprocess.run(["git", *words], check=True, capture_output=True)
+
+
+def test_a_revision(repository: Diff) -> None:
+    changes = repository.changes("v1:old", "old")
+    assert (changes[0]["point"], changes[0]["fact"]) == ("speed", "address")
+    assert changes[0]["places"] == {"old": "v1:old/device.yaml:15", "new": "old/device.yaml:15"}
+    for same in ("HEAD:old/device.yaml", "main:old/", "v1:./old"):
+        assert repository(same, "v1:old").code == 0
+    assert repository.changes("v1:old/device.yaml", "old")[0]["places"]["old"] == "v1:old/device.yaml:15"
+    assert {each["device"] for each in repository.changes("v1:new", "v1:old")} == {"made_up"}
+
+
+def test_a_revision_with_findings(repository: Diff) -> None:
+    repository.write("old", EDITED.replace("name: ramp", "name: ramp, type: u17"))
+    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "wrong")
+    told = repository("v1:old", "HEAD:old")
+    assert "HEAD:old/device.yaml:" in told.err
+    assert "fieldscribe-" not in told.err + told.out
+
+
+@pytest.mark.parametrize(
+    ("revision", "said"),
+    [
+        (":old", "is no revision"),
+        ("v\n1:old", "is no revision"),
+        ("v9:old", "git knows no revision `v9`"),
+        ("v1:nothing", "there is no `nothing` in `v1`"),
+        ("v1:../old", "there is no `../old` in `v1`"),
+        ("v1:link", "there is no"),
+    ],
+)
+def test_what_git_does_not_have(revision: str, said: str, repository: Diff) -> None:
+    told = repository(revision, "old")
+    assert (told.code, told.out) == (2, "")
+    assert said in told.err
+    assert told.err.startswith("fieldscribe: ")
+
+
+@pytest.mark.parametrize("revision", ["--upload-pack=x", "-h", "--output=x", "-"])
+def test_a_revision_is_never_an_option(revision: str, repository: Diff) -> None:
+    assert repository(f"{revision}:old", "old")[:2] == (2, "")
+    assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
+    with pytest.raises(UnfitError, match="is no revision"):
+        copied(revision, "old", repository.folder)
+    assert not Path("x").exists()
+
+
+def test_links_in_a_revision_lead_nowhere(repository: Diff) -> None:
+    os.symlink("/etc", "linked")
+    Path("old/device.yaml").unlink()
+    os.symlink("/etc/hostname", "old/device.yaml")
+    _git("add", ".")
+    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "links")
+    for path in ("HEAD:linked", "HEAD:old", "HEAD:old/device.yaml", "HEAD:linked/hostname"):
+        assert repository(path, "new").code in (1, 2)
+
+
+def test_outside_of_a_repository(diff: Diff, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(diff.folder.parent))
+    assert "this is no folder of a git repository" in diff("v1:old", "new").err
+
+
+def _exported(change: Callable[[dict[str, Any]], object]) -> str:
+    model: dict[str, Any] = export_model(loaded(Path("old/device.yaml")))
+    change(model)
+    return json.dumps(model)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{", "it is no JSON"),
+        ("", "it is no JSON"),
+        ("\0", "it is no JSON"),
+        ("[" * 200_000, "nested too deep"),
+        ('{"format": ' + "9" * 5000 + "}", "it is no JSON"),
+        ("NaN", "it is no JSON"),
+        ("[]", "it is no exported model"),
+        ('{"format": 3, "device": "a"}', "its format is not 4"),
+        (lambda model: model.pop("points"), "does not follow the contract"),
+        (lambda model: model["points"][0].update(type="u17"), "does not follow the contract at `points.0.type`"),
+        (lambda model: model["points"][0].update(address="1"), "does not follow the contract at `points.0.address`"),
+        (lambda model: model["points"][0].update(more=1), "does not follow the contract at `points.0.more`"),
+        (lambda model: model["points"][1]["enum"].update({"9" * 5000: {}}), "does not follow the contract"),
+        (lambda model: model.update(family="bus"), "there is no family `bus`"),
+    ],
+)
+def test_a_file_that_is_no_exported_model(
+    text: str | Callable[[dict[str, Any]], object], said: str, diff: Diff
+) -> None:
+    Path("model.json").write_text(text if isinstance(text, str) else _exported(text), "utf-8")
+    told = diff("model.json", "new")
+    assert (told.code, told.out) == (2, "")
+    assert said in told.err
+
+
+def test_strange_words_of_an_exported_model(diff: Diff) -> None:
+    """They follow the contract and reach no terminal raw; ends that cross have no meaning and do no harm."""
+
+    def change(model: dict[str, Any]) -> None:
+        model["device"] = "made_up"
+        model["points"][0].update(name="a`\x1b[31m*_<b>", bits=[0, 63], title={})
+        model["points"][1]["raw"]["ranges"] = [["2 if\u202e", 1]]
+
+    Path("model.json").write_text(_exported(change), "utf-8")
+    for form in ("text", "markdown", "json"):
+        told = diff("model.json", "new", "--format", form)
+        assert told.code == 1
+        assert not {"\x1b", "\u202e"} & set(told.out + told.err)
+
+
+def test_wrong_calls(diff: Diff) -> None:
+    assert diff("old").code == 2
+    assert diff("old", "new", "--fail-on", "docs").code == 2
+    assert diff("old", "nowhere").code == 2
+    assert diff("old", "").code == 2
+
+
+RENAMED = POINTS.replace("name: speed", "name: pace").replace("name: state ", "name: mode ").replace("ramp", "slope")
+
+
+def test_a_rename_keeps_its_old_name(diff: Diff) -> None:
+    diff.write("new", RENAMED)
+    assert diff("old", "new", "--fail-on", "breaking").code == 1
+    told = diff("old", "new", "--keep-names", "--fail-on", "breaking", "--format", "json")
+    assert [(each["class"], each["point"], each["fact"]) for each in json.loads(told.out)["changes"]] == [
+        ("compatible", "pace", "name"),
+        ("compatible", "mode", "name"),
+        ("api", "mode", "name of the enum"),
+        ("compatible", "slope", "name"),
+        ("compatible", "slope_set_2", "name"),
+    ]
+    assert "slope_set_2: the old name `ramp_set_2` stays as an alias" in told.err
+    assert (
+        RENAMED.replace("name: pace", "name: pace, was: [speed]")
+        .replace("what it does\n", "what it does\n  was: [state]\n")
+        .replace("name: slope", "name: slope, was: [ramp]")
+    ) in Path("new/device.yaml").read_text("utf-8")
+    assert {each["class"] for each in diff.changes("old", "new", "--keep-names")} == {"compatible", "api"}
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "kept"),
+    [
+        ("- {name: a, at: 1}\n", "- {name: b, was: [c], at: 1}\n", "- {name: b, was: [a, c], at: 1}\n"),
+        ("- name: a\n  at: 1\n", "- name: b\n  was:\n  - c\n  at: 1\n", "- name: b\n  was:\n  - a\n  - c\n  at: 1\n"),
+        ("- at: 1\n  name: a\n", '- at: 1\n  name: "b"', '- at: 1\n  name: "b"\n  was: [a]\n'),
+        ("- name: a\r\n  at: 1\r\n", "- name: b\r\n  at: 1\r\n", "- name: b\r\n  was: [a]\r\n  at: 1\r\n"),
+    ],
+)
+def test_where_an_old_name_is_written(before: str, after: str, kept: str, diff: Diff) -> None:
+    diff.write("old", before)
+    file = diff.write("new", after)
+    diff("old", "new", "--keep-names")
+    assert file.read_bytes().decode().endswith(kept)
+
+
+RECORDS = "{trip: {points: [{name: MEMBER, at: base}, {name: hours, at: base + 1}]}}"
+USES = "- {name: USE_1, record: trip, at: 50h}\n- {name: USE_2, record: trip, at: 60h}\n"
+
+
+@pytest.mark.parametrize(
+    ("member", "use", "told", "written"),
+    [
+        (
+            "reason",
+            "trip",
+            "trip_2_reason: the old name `trip_2_cause` stays as an alias",
+            "{name: reason, was: [cause],",
+        ),
+        ("cause", "fault", "fault_2_cause: write `was: [trip_2_cause]` by hand", "{name: cause, at: base}"),
+    ],
+)
+def test_old_names_of_a_record(member: str, use: str, told: str, written: str, diff: Diff) -> None:
+    diff.write("old", USES.replace("USE", "trip"), records=RECORDS.replace("MEMBER", "cause"))
+    file = diff.write("new", USES.replace("USE", use), records=RECORDS.replace("MEMBER", member))
+    assert told in diff("old", "new", "--keep-names").err
+    assert written in file.read_text("utf-8")
+
+
+def test_an_old_name_of_variants(diff: Diff) -> None:
+    axes = "{size: {title: Size, values: {small: {title: Small}, large: {title: Large}}}}"
+    point = "- {name: NAME, at: 1, variants: {size=small: {range: 0..5}, size=large: {range: 0..9}}}\n"
+    diff.write("old", point.replace("NAME", "level"), variants=axes)
+    file = diff.write("new", point.replace("NAME", "height"), variants=axes)
+    told = diff("old", "new", "--keep-names", "--fail-on", "breaking")
+    assert told.code == 0, told
+    assert "{name: height, was: [level], at: 1" in file.read_text("utf-8")
+
+
+def test_an_old_name_that_would_be_a_finding_is_not_written(diff: Diff) -> None:
+    """Somebody else is called so by now."""
+    file = diff.write("new", "- {name: pace, at: 10h, range: 0..4000}\n- {name: speed, at: 11h}\n")
+    diff.write("old", "- {name: speed, at: 10h, range: 0..4000}\n")
+    before = file.read_bytes()
+    diff("old", "new", "--keep-names")
+    assert file.read_bytes() == before
+
+
+def test_old_names_are_written_to_descriptions_alone(repository: Diff) -> None:
+    told = repository("old", "v1:new", "--keep-names")
+    assert (told.code, told.out) == (2, "")
+    assert "--keep-names" in told.err
