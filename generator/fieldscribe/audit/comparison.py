@@ -87,8 +87,9 @@ class Comparison:
         self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
         self.cited = sorted(self.now)
         self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
-        self.empty = {self._now(line) for line, numbers in looked_through.items() if not numbers}
-        self.no_facts = {self._now(line): numbers for line, numbers in looked_through.items() if numbers}
+        places = [(place, numbers) for line, numbers in looked_through.items() for place in self._may_be(line)]
+        self.empty = {place for place, numbers in places if not numbers}
+        self.no_facts = {place: numbers for place, numbers in places if numbers}
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
@@ -117,6 +118,11 @@ class Comparison:
         """Where any line of the transcribed text stands in this text: it moved with the nearest cited line above it."""
         place = bisect_right(self.cited, line)
         return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
+
+    def _may_be(self, line: int) -> set[int]:
+        """Where a line that no fact cites may stand: it moved with the cited line above it, or with the one below."""
+        below = self.cited[bisect_right(self.cited, line) :][:1]
+        return {self._now(line), *(line + self.now[cited] - cited for cited in below)}
 
     def extent(self, first: int, last: int) -> Extent:
         """The lines that a citation means in this text."""

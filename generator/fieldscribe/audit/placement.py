@@ -164,7 +164,7 @@ class _Search:
             end = max(end, self.manual.section_of(start).last + 1)
         start_of_cells = start - _MERGED if self.manual.is_merged(start) else start
         strong, weak = [0, 0], [0, 0]  # how many are lost, and how many there are
-        opens = False
+        opens = opens_weakly = False
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
             at = bisect_left(anchor.places, start_of_cells)
@@ -174,8 +174,10 @@ class _Search:
             count[0] += lost
             count[1] += 1
             opens = opens or (anchor.weight == _STRONG and start in anchor.places)
+            opens_weakly = opens_weakly or start in anchor.places
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
         whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
         share = (_STRONG * strong[0] + _WEAK * weak[0] / max(1, weak[1])) / max(whole, _STRONG)
         cost = _LOST * share * min(_MOST, max(1, strong[1]))
-        return cost + (0.0 if opens or not strong[1] else _NOT_FIRST) + (_BELOW if below else 0.0)
+        first = opens if strong[1] else opens_weakly
+        return cost + (0.0 if first else _NOT_FIRST) + (_BELOW if below else 0.0)
