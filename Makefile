@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate keys test core bench mutants prove misra fuzz check clean
+.PHONY: generate keys test core bench mutants prove misra fuzz audit-power check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -49,6 +49,10 @@ fuzz:               ## throw mutated descriptions, frames and words at everythin
 mutants:            ## change one thing at a time, say what nothing notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions|generator ROOM=resolve)
 	@sh generator/setup.sh tests
 	PYTHONPATH=tests nice $(PYTHON) -m mutants
+
+audit-power:        ## change one fact of each manual at a time, say what the audit does not report (MANUALS=folder SEED=1 COUNT=200 ONLY=devices)
+	@sh generator/setup.sh tests
+	PYTHONPATH=tests $(PYTHON) -m audit_power --manuals $(MANUALS) --seed $(or $(SEED),1) --count $(or $(COUNT),200) $(ONLY)
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -51,12 +51,13 @@ POINTS = """\
 - {code: A001, name: base_frequency, at: 1001h, range: 0..4000, scale: value = raw * 0.1, unit: Hz, line: 7}
 - {code: A002, name: frequency_source, at: 1002h, enum: {0: none, 1: keypad, 3: bus}, line: 8}
 - {name: second_source, at: 1003h, line: 9}
-- {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11}
+- {name: speed_limit, at: 57, range: 5..17920, scale: raw = value * 256, unit: Hz, section: "4.1", line: 11,
+   printed: {range_in_units: 0.02..70}}
 - {name: reset_word, at: 58, flags: {0: reset, 3: fault}, section: "4.2", line: 18}
 """
 BUS = "{framings: [rtu], units: 1..9, functions: {3: read_holding_registers, 6: write_register}}"
 DEVICE = together(
-    head(device="audited", documents=DOCUMENTS, bus=BUS),
+    head(device="audited", documents=DOCUMENTS, bus=BUS) + "looked_through: [{lines: 23, why: A remark.}]\n",
     group(POINTS, source="{document: manual, section: Parameters}"),
 )
 
@@ -83,12 +84,12 @@ def test_what_stands_where_it_is_cited_is_clean(tmp_path: Path, capsys: pytest.C
 @pytest.mark.parametrize(
     ("old", "new", "missing"),
     [
-        ("0-4000", "0-5000", [("base_frequency", "range", "4000", 7)]),
+        ("0-4000", "0-5000", [("base_frequency", "range", "0..4000", 7)]),
         ("1001h (4097)", "1011h (4113)", [("base_frequency", "address", "1001h", 7)]),
         ("0,1 Hz", "0,5 Hz", [("base_frequency", "scale", "1/10", 7)]),
         ("0, 1, 3", "0, 1, 2", [("frequency_source", "enum", "3", 8)]),
         ("f * 256", "f * 255", [("speed_limit", "scale", "256", 11)]),
-        ("17920, that is 0.02 Hz to 70", "17664, that is 0.02 Hz to 69", [("speed_limit", "range", "17920", 11)]),
+        ("5 to 17920", "5 to 17664", [("speed_limit", "range", "5..17920", 11)]),
         ("Bit 3 fault", "Bit 4 fault", [("reset_word", "flags", "bit 3", 18)]),
     ],
 )  # fmt: skip
@@ -211,7 +212,7 @@ def test_numbers_that_no_fact_uses_and_sections_that_none_cites(
 ) -> None:
     changed = MANUAL.replace("Bit 3 fault", "Bit 3 fault, Bit 7 ready") + "\n5.1 New chapter\n\nID\t99\n"
     code, found = audit(tmp_path, capsys, changed)
-    assert code == 0
+    assert code == 1
     assert ("7", 21) in {(one["number"], one["line"]) for one in found["unused_numbers"]}
     assert any("New chapter" in str(one["text"]) for one in found["uncited"])
 
@@ -411,7 +412,7 @@ def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pyt
         ("dies entspricht 10A", [{Fraction(10), Fraction(0x10A)}]),
         (r"$t \cdot \frac{1}{s} \cdot \frac{50}{s}$", [{Fraction(50), Fraction(0x50)}]),
         ("von den Wandlern abhängig", []),
-        ("1 ....0,37 kW", [{Fraction(1)}, {Fraction(0), Fraction(37), Fraction(37, 100)}]),
+        ("1 ....0,37 kW", [{Fraction(1)}, {Fraction(37, 100)}]),
         (r"$1000011111\_00001_{\text{bin}}$", [{Fraction(0b100001111100001)}]),
         ("4..20mA", [{Fraction(4)}, {Fraction(20), Fraction(0x20)}]),
         ("Kapitel 4.2.10", [{Fraction(4), Fraction(2), Fraction(10)}]),
@@ -470,8 +471,8 @@ enums:
     ("old", "new", "missing"),
     [
         ("", "", []),
-        ("200 ms", "250 ms", ["enum 200 ms"]),
-        ("2\t5 s", "3\t5 s", ["enum 2"]),
+        ("200 ms", "250 ms", ["enum 1 = 200 ms"]),
+        ("2\t5 s", "3\t5 s", ["enum 2 = 5 s"]),
         ("Bit 3 are", "Bit 4 are", ["fixed bits 3"]),
         ("always zero", "always one", []),  # the 0 of bit 0 stands there too
         ("Bit 0 = 1 => on", "else on", ["flag values active 1"]),

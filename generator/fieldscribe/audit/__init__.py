@@ -10,7 +10,7 @@ outcome.py     the findings, as plain data
 report.py      the findings for people, as lines of text or a page
 """
 
-from fieldscribe.audit.comparison import audit
+from fieldscribe.audit.comparison import Auditor, audit
 from fieldscribe.audit.outcome import Audit
 
-__all__ = ["Audit", "audit"]
+__all__ = ["Audit", "Auditor", "audit"]

@@ -5,16 +5,18 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.audit.passage import letters_of
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Sequence
     from fractions import Fraction
 
+    from fieldscribe.diagnostics import Span
     from fieldscribe.model import About
 
 _LITERAL = re.compile(
@@ -39,13 +41,39 @@ class Claim:
     numbers: frozenset[Fraction]
     words: tuple[str, ...]
     cited: tuple[tuple[int, int], ...]
+    place: Span = field(compare=False)
+    """Where the description says it."""
     anchor: bool = False
     between: frozenset[Fraction] = frozenset()
     about: About = ""
     """As errata name the subject: a point without its variant, or another thing."""
     optional: bool = False
-    """Whether the manual may lack it, such as a title in the author's own words; where it is printed, its numbers count
-    as used."""
+    """Whether the manual may lack it; where it is printed, its numbers count as used."""
+    in_order: tuple[frozenset[Fraction], ...] = ()
+    """Numbers that are printed one after the other, such as both ends of a range."""
+    or_in_order: tuple[frozenset[Fraction], ...] = ()
+    """The same numbers in the unit, if they may be printed so."""
+    beside: frozenset[Fraction] = frozenset()
+    """The numbers of which one is printed beside `words`."""
+    or_beside: frozenset[Fraction] = frozenset()
+    """Other numbers that all labels of a list may stand beside in place of those, such as the bit of a flag's value."""
+    entry: tuple[int, int] | None = None
+    """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
+    times: int = 1
+    """In how many notations the description says that it is printed, so that one of them is not enough."""
+    unit: str = ""
+    """What is printed behind the number, if it is printed so anywhere in the place."""
+    names: tuple[str, ...] = ()
+    """What the number belongs to, such as `Mux`: where the place prints such a name, the number stands behind it."""
+    first: bool = False
+    """Whether the number names its row: it stands in the first cell."""
+    rivals: tuple[str, ...] = ()
+    """Words that would say another fact in place of this one, such as `R/W` for `R`."""
+
+    @property
+    def where(self) -> str:
+        """Its place in the description, as findings show places: file:line:column."""
+        return f"{self.place.file}:{self.place.line}:{self.place.column}"
 
     @property
     def is_address(self) -> bool:
@@ -58,8 +86,9 @@ class Claim:
 class Citing:
     """Makes the claims of one subject: at its own line, or at the lines that its key `lines` names for a fact."""
 
-    def __init__(self, subject: str, line: int | None, lines: Any, about: About = "") -> None:
+    def __init__(self, subject: str, place: Span, line: int | None, lines: Any, about: About = "") -> None:
         self.subject = subject
+        self.place = place
         self.about = about
         self.own_line = () if line is None else ((line, 0),)
         self.lines_of_fact = (
@@ -77,27 +106,104 @@ class Citing:
         between: frozenset[Fraction] = frozenset(),
         words: tuple[str, ...] = (),
         optional: bool = False,
+        times: int = 1,
+        unit: str = "",
+        entry: tuple[int, int] | None = None,
+        names: tuple[str, ...] = (),
+        first: bool = False,
+        place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
         cited = self.lines_of_fact.get(kind or fact, self.own_line)
         wanted = frozenset(abs(number) for number in numbers)
         at_own_line = anchor and cited == self.own_line
         if cited and wanted:
-            yield Claim(self.subject, fact, shown, wanted, words, cited, at_own_line, between, self.about, optional)
+            yield Claim(
+                self.subject,
+                fact,
+                shown,
+                wanted,
+                words,
+                cited,
+                place or self.place,
+                at_own_line,
+                between,
+                self.about,
+                optional,
+                entry=entry,
+                times=times,
+                names=names,
+                first=first,
+                unit=unit,
+            )
 
-    def title(self, titles: Mapping[str, str], kind: str = "") -> Iterator[Claim]:
-        """Titles with digits in them: where the manual prints them alike, those digits count as used."""
-        words = tuple(text for text in titles.values() if any(char.isdigit() for char in text))
-        cited = self.lines_of_fact.get(kind, self.own_line)
-        if words and cited:
-            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, optional=True)
+    def in_order(
+        self, fact: str, shown: str, ways: Sequence[Sequence[Fraction]], kind: str = "", *, place: Span
+    ) -> Iterator[Claim]:
+        """Numbers that are printed one after the other, in one of two ways: raw, or in the unit."""
+        cited = self.lines_of_fact.get(kind or fact, self.own_line)
+        wanted = [tuple(frozenset((abs(number),)) for number in way) for way in ways]
+        if cited and wanted[0]:
+            numbers = frozenset(abs(number) for way in ways for number in way)
+            in_order, *others = wanted if len(wanted[0]) > 1 else [()]
+            yield Claim(
+                self.subject,
+                fact,
+                shown,
+                numbers,
+                (),
+                cited,
+                place,
+                about=self.about,
+                in_order=in_order,
+                or_in_order=others[0] if others else (),
+            )
 
-    def words(self, fact: str, *words: str) -> Iterator[Claim]:
+    def label(  # noqa: PLR0913 - one line of a table of facts
+        self,
+        fact: str,
+        words: tuple[str, ...],
+        kind: str = "",
+        *,
+        beside: Iterable[Fraction] = (),
+        or_beside: Iterable[Fraction] = (),
+        entry: tuple[int, int] | None = None,
+        place: Span,
+    ) -> Iterator[Claim]:
+        """Words of the manual, as a title or beside a number."""
+        cited = self.lines_of_fact.get(kind or fact, self.own_line)
+        numbers = list(map(abs, beside))
+        if cited and any(map(letters_of, words)):
+            shown = f"{numbers[0]} = {words[0]}" if numbers else words[0]
+            yield Claim(
+                self.subject,
+                fact,
+                shown,
+                frozenset(),
+                words,
+                cited,
+                place,
+                about=self.about,
+                beside=frozenset(numbers),
+                or_beside=frozenset(map(abs, or_beside)),
+                entry=entry,
+            )
+
+    def access(self, words: tuple[str, ...], rivals: tuple[str, ...], place: Span) -> Iterator[Claim]:
+        """Who may write, in the manual's notation; where the manual says nothing of it, it is no finding."""
+        cited = self.lines_of_fact.get("access", self.own_line)
+        if cited:
+            yield Claim(
+                self.subject, "access", words[0], frozenset(), words, cited, place, about=self.about, rivals=rivals
+            )
+
+    def words(self, fact: str, *words: str, place: Span | None = None) -> Iterator[Claim]:
         """A fact that one of these words states."""
         cited = self.lines_of_fact.get(fact, self.own_line)
         if cited:
             anchor = cited == self.own_line
-            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, about=self.about)
+            place = place or self.place
+            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, place, anchor=anchor, about=self.about)
 
 
 def spans_of(value: Any) -> Iterator[tuple[int, int]]:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.citing import Citing, numbers_in, spans_of
 from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_frames, claims_of_line_settings
-from fieldscribe.audit.claims_of_points import Wordings, claims_of_point
+from fieldscribe.audit.claims_of_points import claims_of_point
+from fieldscribe.audit.wordings import Wordings
 from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map
 
@@ -26,11 +27,11 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
     for resolved in subject.resolved:
         yield from claims_of_point(resolved.point, resolved.draft, subject.scope.named_enums, wordings)
     for name, entries in subject.scope.named_enums.items():
-        yield from _claims_of_enum(name, entries)
+        yield from _claims_of_enum(name, entries, wordings)
     for file in subject.scope.files:
         for kind, section in _ENTRIES.items():
             for entry in file.get(section, ()):
-                yield from claims_of_entry(kind, entry)
+                yield from claims_of_entry(kind, entry, wordings)
         yield from claims_of_frames(file)
         bus = file.get("bus")
         if isinstance(bus, Map):
@@ -39,20 +40,22 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
                 yield from claims_of_codes(kind, bus.get(section))
 
 
-def _claims_of_enum(name: str, entries: Map) -> Iterator[Claim]:
+def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Claim]:
     for key, entry in entries.items():
         if isinstance(entry, Map) and "line" in entry:
-            citing = Citing(f"enum {name}", entry["line"], None)
+            place = entries.key_span(key)
+            citing = Citing(f"enum {name}", place, entry["line"], None)
             yield from citing.numbers("enum", str(key), numbers_in(key), anchor=True)
-            yield from citing.title({name: str(text) for name, text in entry.items() if len(name) == 2})
+            yield from citing.label("enum", wordings.label(entry), beside=numbers_in(key), place=place)
 
 
-def looked_through_of(subject: Subject) -> set[int]:
-    """The lines that the description says hold nothing for it."""
-    spans = [
-        span
-        for file in subject.scope.files
-        for passage in file.get("looked_through", ())
-        for span in spans_of(passage["lines"])
-    ]
-    return {line for first, last in spans for line in range(first, max(first, last) + 1)}
+def looked_through_of(subject: Subject) -> dict[int, frozenset[str]]:
+    """The lines that the description says hold nothing for it, or only facts and these numbers that are none."""
+    numbers_of_line: dict[int, frozenset[str]] = {}
+    for file in subject.scope.files:
+        for passage in file.get("looked_through", ()):
+            numbers = frozenset(map(str, passage.get("numbers", ())))
+            for first, last in spans_of(passage["lines"]):
+                for line in range(first, max(first, last) + 1):
+                    numbers_of_line[line] = numbers_of_line.get(line, frozenset()) | numbers
+    return numbers_of_line

@@ -14,31 +14,33 @@ from fieldscribe.model import Named
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.audit.wordings import Wordings
 
-def claims_of_entry(kind: str, entry: Map) -> Iterator[Claim]:
+
+def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim]:
     """The numbers of a command, a message or a telegram."""
-    citing = Citing(f"{kind} {entry['name']}", entry.get("line"), entry.get("lines"))
+    citing = Citing(f"{kind} {entry['name']}", entry.span("name"), entry.get("line"), entry.get("lines"))
     identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
     for key in ("at", *identifiers, "value", "length", "wears"):
         for number in numbers_in(entry.get(key)):
-            yield from citing.numbers(key, str(number), (number,))
-    layout = entry.get("layout")
-    for place, carried in layout.items() if isinstance(layout, Map) else ():
+            yield from citing.numbers(key, str(number), (number,), place=entry.span(key))
+    layout = entry.get("layout", Map(entry.file, entry.at))
+    for place, carried in layout.items():
         for number in (*numbers_in(place), *numbers_in(carried)):
-            yield from citing.numbers("layout", str(number), (number,), "bytes")
+            yield from citing.numbers("layout", str(number), (number,), "bytes", place=layout.key_span(place))
         first, *last = map(int, numbers_in(place))
         for byte in range(first + 1, max(last, default=first)):
-            yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True)
-    title = entry.get("title")
-    yield from citing.title({"en": title} if isinstance(title, str) else title or {})
+            at = layout.key_span(place)
+            yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True, place=at)
+    yield from citing.label("title", wordings.label(entry.get("title")), place=entry.span("title"))
 
 
 def claims_of_line_settings(bus: Map) -> Iterator[Claim]:
     """The bit rate, which the manual may print in kBaud, and the length of the identifiers."""
-    citing = Citing("bus", bus.get("line"), None)
+    citing = Citing("bus", bus.span(), bus.get("line"), None)
     for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
         for number in numbers_in(bus.get(key)):
-            yield from citing.numbers(key, str(number), (number, number / unit))
+            yield from citing.numbers(key, str(number), (number, number / unit), place=bus.span(key))
 
 
 def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
@@ -50,28 +52,40 @@ def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
     for key, entry in codes.items() if isinstance(codes, Map) else ():
         if isinstance(entry, Map):
             about = Named(kind, parse_integer(key))
-            citing = Citing(f"{kind} {key}", entry.get("line"), entry.get("lines"), about)
+            citing = Citing(f"{kind} {key}", codes.key_span(key), entry.get("line"), entry.get("lines"), about)
             row = rows.get(entry.get("line", 0), [])
             ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
             for number in numbers_in(key):
-                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
+                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends, first=True)
             for fact in ("max", "answers", "refusals"):
                 for number in numbers_in(entry.get(fact)):
-                    yield from citing.numbers(fact, str(number), (number,))
+                    yield from citing.numbers(fact, str(number), (number,), place=entry.span(fact))
             for number in numbers_in(entry.get("printed", {}).get("bytes")):
-                yield from citing.numbers("printed bytes", str(number), (number,))
+                yield from citing.numbers("printed bytes", str(number), (number,), place=entry.span("printed"))
 
 
 def claims_of_frames(file: Map) -> Iterator[Claim]:
     """The bytes of the worked frames, and the numbers that they are said to carry."""
     for frame in file.get("frames", ()):
         about = Named("frame", frame["name"])
-        citing = Citing(f"frame {frame['name']}", frame.get("line"), frame.get("lines"), about)
+        citing = Citing(f"frame {frame['name']}", frame.span("name"), frame.get("line"), frame.get("lines"), about)
         digits = "".join(str(frame["bytes"]).split()).upper()
         if citing.own_line:
-            yield Claim(
-                citing.subject, "bytes", digits, frozenset(), (), citing.lines_of_fact.get("bytes", citing.own_line)
-            )
-        for number in numbers_in(frame.get("says")):  # beside the bytes, or not at all
+            cited = citing.lines_of_fact.get("bytes", citing.own_line)
+            yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, frame.span("bytes"))
+            for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
+                yield from citing.numbers(
+                    "place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True, first=True
+                )
+        said = numbers_in(frame.get("says"))
+        for number in dict.fromkeys(said):  # beside the bytes, or not at all
             printed_apart = "printed" in citing.lines_of_fact
-            yield from citing.numbers("says", str(number), (number,), "printed", optional=not printed_apart)
+            yield from citing.numbers(
+                "says",
+                str(number),
+                (number,),
+                "printed",
+                optional=not printed_apart,
+                times=said.count(number),
+                place=frame.span("says"),
+            )

@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.model import Point
+    from fieldscribe.audit.wordings import Wordings
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Flag, Point
     from fieldscribe.resolve.drafts import Draft
 
 _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
@@ -22,42 +24,36 @@ _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 """The keys of `printed` whose place `lines` names by another key."""
 
 
-class Wordings:
-    """The manual's own words for what the description writes otherwise, from the key `writes` of its documents."""
-
-    def __init__(self, documents: Map) -> None:
-        self._words: dict[str, list[str]] = {}
-        for document in documents.values():
-            for written, words in document.get("writes", {}).items():
-                self._words.setdefault(str(written), []).extend(words)
-
-    def code(self, letters: str) -> list[str]:
-        """The words that the manual has for the letters of a code: `Parameter` for `P`."""
-        return self._words.get(letters, [])
-
-    def bits(self, high: int, low: int) -> list[str]:
-        """The names that the manual has for a part of a word: `Highbyte` for 15..8."""
-        return self._words.get(f"{high}..{low}", [])
-
-    def number(self, number: Fraction) -> list[str]:
-        """The words that the manual has for a number: `zero` for 0."""
-        return self._words.get(str(number), [])
-
-
 def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings) -> Iterator[Claim]:
     """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts."""
-    citing = Citing(point.item, point.source.line, draft.get("lines"), point.name)
+    citing = Citing(point.item, draft.span(), point.source.line, draft.get("lines"), point.name)
     code = None if point.code is None else _INDEX_BEHIND_CODE.sub("", point.code).strip()
     if code:
-        yield from citing.words("code", *_codes_of(code, wordings), str(point.code))
+        yield from citing.words("code", *_codes_of(code, wordings), str(point.code), place=draft.span("code"))
     if _says_itself(draft, "section"):
-        yield from citing.words("section", str(draft.get("section")))
+        yield from citing.words("section", str(draft.get("section")), place=draft.span("section"))
     yield from _address(citing, point, draft, code or "")
-    yield from citing.title({**point.title, "": "" if point.variant is None else point.variant.value})
+    yield from citing.label("title", wordings.label(_titles_of(draft)), place=draft.span("title"))
+    yield from _access(citing, draft, wordings)
     yield from _numbers_of(citing, point, draft, wordings)
-    yield from _enum_of(citing, point, draft, enums)
-    yield from _flags(citing, point, wordings)
-    yield from _printed(citing, draft)
+    yield from _enum_of(citing, point, draft, enums, wordings)
+    yield from _flags(citing, point, draft, wordings)
+    yield from _printed(citing, draft, wordings)
+
+
+def _titles_of(draft: Draft) -> Any:
+    """The title of the row; of a further set, whose row the manual prints too, with what tells it apart."""
+    made_of_the_first = {language: text for language, text in draft.title.items() if language != "en"}
+    return draft.get("title", made_of_the_first)
+
+
+def _access(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """How the manual prints who may write; rows that print nothing of it say nothing."""
+    access = str(draft.get("access"))
+    words = wordings.access.get(access, [])
+    rivals = [word for other, words in wordings.access.items() if other != access for word in words]
+    if words:
+        yield from citing.access(tuple(words), tuple(rivals), draft.span("access"))
 
 
 def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
@@ -76,14 +72,16 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
     by_rule = (draft.element is not None or "addressing" in draft.group) and str(at).isdigit()
     rule = [Fraction(int(at))] if by_rule else []
     for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
-        yield from citing.numbers("number", str(number), (number,), "code", optional=True)
+        yield from citing.numbers("number", str(number), (number,), "code", optional=True, place=draft.span("at"))
     if code and any(str(number) in code for number in (point.address, *map(int, rule))):
         return  # the code is the number
     if point.text is not None:
         ends = frozenset(map(Fraction, (point.addresses[0], point.addresses[-1])))
         for address in map(Fraction, point.addresses):
             inner = ends if address not in ends else frozenset()
-            yield from citing.numbers("address", str(address), (address,), anchor=not inner, between=inner)
+            yield from citing.numbers(
+                "address", str(address), (address,), anchor=not inner, between=inner, place=draft.span("at")
+            )
         return
     for place in point.places:
         references = [Fraction(number) for number in place.references.values() if isinstance(number, int)]
@@ -93,6 +91,7 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
             (Fraction(min(place.addresses)), *references, *rule),
             anchor=place is point.place,
             words=tuple(word for name, number in place.references.items() for word in _joined(name, number)),
+            place=draft.span("at"),
         )
 
 
@@ -105,25 +104,29 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
     """The limits, the bits of the word, the characters of a text and the scale."""
     for key in ("range", "range_in_units"):
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
-            for number in numbers_in(draft.get(key)):
-                yield from citing.numbers(
-                    "range", str(number), _in_both_units(point, number, in_units=key == "range_in_units")
-                )
+            for shown, numbers in _runs_of(draft.get(key)):
+                ways = _in_both_units(point, numbers, in_units=key == "range_in_units")
+                yield from citing.in_order("range", shown, ways, place=draft.span(key))
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
-        yield from citing.numbers("characters", str(point.text.characters), (Fraction(point.text.characters),), "range")
+        characters = point.text.characters
+        yield from citing.numbers(
+            "characters", str(characters), (Fraction(characters),), "range", place=draft.span("characters")
+        )
     if _says_itself(draft, "scale"):
         for number in _scale_numbers(draft.get("scale")):
-            yield from citing.numbers("scale", str(number), (number, 1 / number))
+            yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
 
 
-def _in_both_units(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]:
-    """A limit as raw number and in the unit; only as it is written where the scale has cases or factors."""
+def _in_both_units(point: Point, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
+    """Limits as raw numbers and in the unit; only as they are written where the scale has cases or factors."""
     cases = point.scale or ()
     if len(cases) != 1 or cases[0].rule.factors:
-        return [number]
+        return [numbers]
     rule = cases[0].rule
-    return [number, number * rule.ratio + rule.offset if in_units else (number - rule.offset) / rule.ratio]
+    if in_units:
+        return [numbers, [number * rule.ratio + rule.offset for number in numbers]]
+    return [numbers, [(number - rule.offset) / rule.ratio for number in numbers]]
 
 
 def _scale_numbers(raw: Any) -> list[Fraction]:
@@ -137,46 +140,74 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         words = tuple(wordings.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
+            numbers = (Fraction(place), Fraction(1 << place))
+            names = tuple(wordings.code("bits")) if place == point.bits[0] else ()
             yield from citing.numbers(
-                "bits", str(place), (Fraction(place), Fraction(1 << place)), words=words, optional=inner
+                "bits", str(place), numbers, words=words, optional=inner, names=names, place=draft.span("bits")
             )
-    fixed = draft.get("fixed") if _says_itself(draft, "fixed") else None
+    fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
+        place_of_bits = fixed.key_span(bits)
         for bit in numbers_in(bits):
-            yield from citing.numbers("fixed bits", str(bit), (bit, Fraction(1 << int(bit))), "bits")
+            numbers = (bit, Fraction(1 << int(bit)))
+            yield from citing.numbers("fixed bits", str(bit), numbers, "bits", place=place_of_bits)
         for number in numbers_in(constant):
             yield from citing.numbers(
-                "fixed bits", f"= {number}", (number,), "bits", words=tuple(wordings.number(number))
+                "fixed bits",
+                f"= {number}",
+                (number,),
+                "bits",
+                words=tuple(wordings.number(number)),
+                place=place_of_bits,
             )
 
 
-def _enum_of(citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
-    """The numbers of the point's enum, but for entries of a shared enum that cite a line themselves."""
+def _runs_of(raw: Any) -> Iterator[tuple[str, list[Fraction]]]:
+    """What is printed in one piece: each interval, or a list of single numbers."""
+    texts = [str(item) for item in raw] if isinstance(raw, list) else [str(raw)]
+    parts = [part.strip() for text in texts for part in text.split(",")]
+    singles = [part for part in parts if ".." not in part]
+    runs = [part for part in parts if ".." in part] + [", ".join(singles)] * bool(singles)
+    yield from ((run, numbers_in(run)) for run in runs if numbers_in(run))
+
+
+def _enum_of(
+    citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings
+) -> Iterator[Claim]:
+    """The numbers and labels of the point's enum, but for entries of a shared enum that cite a line themselves."""
     key = "digits" if point.digits else "enum"
-    enum = point.digits.enum if point.digits else point.enum
-    if not _says_itself(draft, key) or enum is None:
+    said: Any = draft.get(key)
+    if not _says_itself(draft, key) or said is None:
         return
-    enum_as_written = draft.get(key)
-    enum_as_written = enum_as_written["enum"] if point.digits else enum_as_written
-    entries = enums.get(enum_as_written, {}) if isinstance(enum_as_written, str) else enum_as_written
-    cited_themselves = {
-        number
-        for key, entry in entries.items()
-        if isinstance(entry, Map) and "line" in entry
-        for number in numbers_in(key)
-    }
-    for entry in enum.entries:
-        if entry.raw not in cited_themselves or entries is enum_as_written:
-            yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),))
-            yield from citing.title(entry.title, "enum")
-            for number in numbers_in(entry.quantity):
-                yield from citing.numbers("enum", str(entry.quantity), (number,))
+    said = said["enum"] if point.digits else said
+    entries: Map = enums[said] if isinstance(said, str) else said
+    for position, (number, entry) in enumerate(entries.items()):
+        if isinstance(entry, Map) and "line" in entry and entries is not said:
+            continue
+        place, numbers = entries.key_span(number), numbers_in(number)
+        label = wordings.label(entry) if isinstance(entry, Map) else ()
+        yield from citing.label("enum", label, beside=numbers, entry=(position, 0), place=place)
+        quantity = numbers_in(entry.get("quantity")) if isinstance(entry, Map) else []
+        if quantity and numbers:
+            shown = f"{number} = {entry['quantity']}"
+            yield from citing.in_order("enum", shown, [(numbers[0], quantity[0])], place=place)
+        elif not label:
+            yield from citing.numbers("enum", str(number), numbers, place=place)
 
 
-def _flags(citing: Citing, point: Point, wordings: Wordings) -> Iterator[Claim]:
+def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     above = point.bits[1] if point.bits else 0
     always = point.fixed.bits if point.fixed is not None else 0
-    for flag in point.flags:
+    alike = "values" in citing.lines_of_fact  # printed once for all flags
+    kind = "values" if alike else "flags"
+    for position, flag in enumerate(point.flags):
+        place, node = _node_of_flag(draft, flag)
+        label = wordings.label(node.get("title")) if isinstance(node, Map) else ()
+        values = [_label_of_value(node, entry.raw, wordings) for entry in flag.values]
+        by_value = any(values)  # the labels of the values stand beside numbers, the title is one of them or none
+        printed = node.get("printed", {}) if isinstance(node, Map) else {}
+        named = wordings.bits(flag.low + flag.width - 1, flag.low)
+        beside: list[Fraction] = []
         for bit in dict.fromkeys((flag.low + flag.width - 1, flag.low)):
             numbers = (
                 Fraction(bit + above),
@@ -184,13 +215,67 @@ def _flags(citing: Citing, point: Point, wordings: Wordings) -> Iterator[Claim]:
                 Fraction(1 << bit + above),
                 Fraction(1 << bit | always),
             )
+            beside += numbers_in(printed["bit"]) if "bit" in printed else numbers
             run = _ends_of_run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
-            words = (*wordings.bits(flag.low + flag.width - 1, flag.low), *_joined("bit", bit + above))
-            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words)
-        yield from citing.title(flag.title, "flags")
-        for entry in flag.values:
-            yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (Fraction(entry.raw),), "flags")
+            words = (*named, *_joined("bit", bit + above))
+            if not label or named or (by_value and not alike):
+                in_list = (position, -1) if by_value and not named and bit == flag.low else None
+                yield from citing.numbers(
+                    "flag values" if in_list else "flags",
+                    f"bit {bit + above}",
+                    numbers,
+                    "flags",
+                    between=between,
+                    words=() if in_list else words,
+                    entry=in_list,
+                    place=place,
+                )
+        at_bit = () if named or (by_value and not alike) else beside
+        if not any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values):
+            yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
+        if label and flag.width > 1 and not named:
+            high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
+            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], place=place)
+        for key in ("mask", "active"):
+            for number in numbers_in(printed.get(key)):
+                in_list = (position, 1) if at_bit and key == "mask" else None
+                yield from citing.numbers(
+                    "flags" if in_list else f"printed {key}",
+                    f"{key} {number}",
+                    (number,),
+                    "flags",
+                    entry=in_list,
+                    place=place,
+                )
+        for part, (entry, words) in enumerate(zip(flag.values, values, strict=True)):
+            at = (0 if alike else position, part)
+            bits = () if alike else beside
+            number = Fraction(entry.raw)
+            yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
+            if not words:
+                shown = f"{flag.name} {entry.raw}"
+                yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
+
+
+def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
+    if not isinstance(node, Map):
+        return ()
+    values = {int(number): entry for key, entry in node.get("values", {}).items() for number in numbers_in(key)}
+    values |= {number: node[key] for number, key in enumerate(("zero", "one")) if key in node}
+    entry = values.get(raw)
+    titles = entry.get("title", entry) if isinstance(entry, Map) else None
+    return wordings.label(titles) if isinstance(titles, Map) else ()
+
+
+def _node_of_flag(draft: Draft, flag: Flag) -> tuple[Span, Any]:
+    """Where the description names the bits of a flag, and what it says of them."""
+    flags = draft.get("flags")
+    if isinstance(flags, Map):
+        ends = {flag.low, flag.low + flag.width - 1}
+        key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
+        return (flags.span(), None) if key is None else (flags.key_span(key), flags[key])
+    return draft.span("flags"), None
 
 
 def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
@@ -204,16 +289,38 @@ def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
     return low, high
 
 
-def _printed(citing: Citing, draft: Draft) -> Iterator[Claim]:
+def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
-        printed_numbers = [*value.keys(), *value.values()] if key == "pairs" else value
-        for number in numbers_in(printed_numbers):
-            if key == "resolution" and number == 1:
-                continue  # "resolution: A" means one ampere: no 1 is printed
-            kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
+        kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
+        place = printed.span(key)
+        if key in ("range", "range_in_units"):
+            for shown, numbers in _runs_of(value):
+                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, place=place)
+            continue
+        if key == "pairs":
+            for raw, number in value.items():
+                pair = [*numbers_in(raw), *numbers_in(number)]
+                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair], kind, place=place)
+            continue
+        unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
+        numbers = numbers_in(value)
+        names = (*(key, key.capitalize(), key.upper()), *wordings.code(key)) if kind == "address" else ()
+        for number in dict.fromkeys(numbers):
             words = _joined(key, number) if kind == "address" else ()
-            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words)
+            unsaid = key == "resolution" and number == 1  # "resolution: A" means one ampere: no 1 is printed
+            yield from citing.numbers(
+                f"printed {key}",
+                str(number),
+                (number,),
+                kind,
+                words=words,
+                optional=unsaid,
+                times=numbers.count(number),
+                unit=unit,
+                names=names,
+                place=place,
+            )
 
 
 def _says_itself(draft: Draft, key: str) -> bool:

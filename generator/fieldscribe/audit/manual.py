@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 _NUMBER = re.compile(
     r"""(?<![\w,'])(?<![^.]\.)(?:
@@ -61,10 +61,11 @@ class Extent:
 
 
 class Manual:
-    """A manual's text, read once."""
+    """A manual's text, read once. `names` are its words with digits in them that are no numbers."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, names: Sequence[str] = ()) -> None:
         self.lines = text.splitlines()
+        self._names = re.compile("|".join(map(_name, names))) if names else None
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -103,7 +104,19 @@ class Manual:
     @cached_property
     def tokens(self) -> list[list[Token]]:
         """The numbers of each line."""
-        return [tokens_of(text, number) for number, text in enumerate(self.lines, 1)]
+        return [self.tokens_in(text, number) for number, text in enumerate(self.lines, 1)]
+
+    def tokens_in(self, text: str, number: int, column: int = 0) -> list[Token]:
+        """The numbers in a piece of a line that begins behind a column, but for those in names."""
+        names = [match.span() for match in self._names.finditer(text)] if self._names else []
+        tokens = tokens_of(text, number, column)
+        if not names:
+            return tokens
+        return [token for token in tokens if not any(first <= token.column - 1 - column < end for first, end in names)]
+
+    def without_names(self, text: str) -> str:
+        """A piece of text without the words that are no facts."""
+        return self._names.sub("", text) if self._names else text
 
     @cached_property
     def lines_of(self) -> dict[Fraction, list[int]]:
@@ -184,30 +197,36 @@ class Manual:
             last += 1
         return last
 
-    def merged_cells(self, number: int) -> list[tuple[int, str]]:
-        """The cells above a row's empty cells, with their lines: such a cell is merged with the one above it."""
+    def merged_cells(self, number: int) -> list[tuple[int, int, str]]:
+        """The cells above a row's empty cells, with line and column: such a cell is merged with the one above it."""
         text = self.line(number)
         if not text.startswith("|"):
             return []
         empty = {place for place, cell in enumerate(text.split("|")) if not cell.strip()}
-        merged: list[tuple[int, str]] = []
+        merged: list[tuple[int, int, str]] = []
         above = number - 1
         while empty and self.line(above).startswith("|") and not _RULE.fullmatch(self.line(above)):
             cells = self.line(above).split("|")
             for place in [place for place in empty if place < len(cells) and cells[place].strip()]:
-                merged.append((above, cells[place]))
+                merged.append((above, len("|".join(cells[:place])) + 1, cells[place]))
                 empty.discard(place)
             above -= 1
         return merged
 
 
-def tokens_of(text: str, number: int) -> list[Token]:
-    """The numbers in a piece of text of a line, without the 1 of a fraction 1/x."""
+def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
+    """The numbers in a piece of a line that begins behind a column, without the 1 of a fraction 1/x."""
     return [
-        Token(match[0], number, match.start() + 1, frozenset(_readings(match)))
+        Token(match[0], number, column + match.start() + 1, frozenset(_readings(match)))
         for match in _NUMBER.finditer(text)
         if match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start())
     ]
+
+
+def _name(name: str) -> str:
+    """A pattern of a name that stands by itself, with any blanks in it."""
+    words = r"\s+".join(map(re.escape, name.split()))
+    return rf"(?<!\w){words}(?!\w)"
 
 
 def _chapter(text: str) -> tuple[str, str] | None:
@@ -223,7 +242,7 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
     if spaced := match["spaced"]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:
-        amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
+        amount = {Fraction(int(bare[:-1]))} if re.fullmatch("[1-9][0-9]*A", bare) else set()
         return {Fraction(int(bare, 16)), *amount}  # "10A" may be ten ampere
     text = match["decimal"]
     readings = set(_decimals(text))
@@ -239,9 +258,10 @@ def _decimals(text: str) -> set[Fraction]:
     parts = re.split(r"[.,]", text)
     if len(parts) == 1:
         return {Fraction(int(text))}
-    readings = {Fraction(int(part)) for part in parts}
     if len(parts) == 2:
-        readings.add(Fraction(int("".join(parts)), 10 ** len(parts[1])))
+        readings = {Fraction(int("".join(parts)), 10 ** len(parts[1]))}
+    else:
+        readings = {Fraction(int(part)) for part in parts}
     if all(len(part) == 3 for part in parts[1:]):
         readings.add(Fraction(int("".join(parts))))
     return readings

@@ -7,9 +7,12 @@ from collections import Counter
 from fieldscribe.records import dataclass, field, values_of
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Missing:
-    """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does."""
+    """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does.
+
+    `place` is where the description says it: file:line:column. `printed` is what stands there instead, if known.
+    """
 
     subject: str
     fact: str
@@ -17,6 +20,16 @@ class Missing:
     line: int
     last: int
     nearest: int | None
+    place: str
+    printed: str | None
+    also: list[str] = field(default_factory=list)
+    """Other subjects of the rows below that miss the same fact."""
+
+    def spread(self, other: Missing) -> None:
+        """Takes in the same fact of a row below."""
+        self.last = max(self.last, other.last)
+        if other.subject != self.subject and other.subject not in self.also:
+            self.also.append(other.subject)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,21 +43,23 @@ class Moved:
 
 @dataclass(frozen=True, slots=True)
 class Unused:
-    """A number in a cited place that no fact uses."""
+    """A number in a cited place that no fact uses. `place` is where the description says the first of the subjects."""
 
     line: int
     column: int
     number: str
     subjects: tuple[str, ...]
+    place: str
 
 
 @dataclass(frozen=True, slots=True)
 class Uncited:
-    """A section, or a row of a table, that nothing cites."""
+    """A section, or a row of a table, that nothing cites; `among_cited` if others of its section are cited."""
 
     line: int
     kind: str
     text: str
+    among_cited: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +91,13 @@ class Audit:
 
     @property
     def clean(self) -> bool:
-        """Whether every cited fact stands where it is cited, and every erratum too."""
-        return not (self.missing or self.moved or self.unprinted)
+        """Whether all that is cited stands there, errata too, and nothing more than that."""
+        return not (self.missing or self.moved or self.unprinted or self.unused or self.added)
+
+    @property
+    def added(self) -> list[Uncited]:
+        """The rows that nothing cites among rows that are cited."""
+        return [place for place in self.uncited if place.among_cited]
 
     @property
     def counts(self) -> dict[str, int]:

@@ -63,13 +63,16 @@ def placement(
     """Where each line stands now that a claim cites, or an erratum (`numbers`: what it says is printed there)."""
     lines = sorted({*cited, *numbers})
     anchors = [_anchors(manual, line, claims.get(line, ()), numbers.get(line, ())) for line in lines]
+    search = _Search(manual, lines, _lengths(lines, cited), anchors)
+    if search.cost_of_staying < _CHANGE:  # nothing can be cheaper: each other way has a change in it
+        return {line: line for line in lines}
     own_shifts = [_candidates(line, anchors_of_line) for line, anchors_of_line in zip(lines, anchors, strict=True)]
     common = [
         shift
         for shift, _ in Counter(shift for shifts_of_line in own_shifts for shift in shifts_of_line).most_common(_COMMON)
     ]
     states = [dict.fromkeys((0, *common, *shifts_of_line)) for shifts_of_line in own_shifts]
-    shifts = _Search(manual, lines, _lengths(lines, cited), anchors).cheapest(states)
+    shifts = search.cheapest(states)
     return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
 
 
@@ -80,7 +83,8 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    anchors = [_anchor(manual, claim, line) for claim in claims]
+    told = (claim for claim in claims if claim.anchor or claim.beside or not claim.words)  # titles stand in many places
+    anchors = [_anchor(manual, claim, line) for claim in told]
     anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
     return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
@@ -92,8 +96,8 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
         if heading is None:
             return None
         return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
-    if claim.numbers:
-        places = sorted({place for number in claim.numbers for place in manual.lines_of.get(number, ())})
+    if numbers := claim.numbers or claim.beside:
+        places = sorted({place for number in numbers for place in manual.lines_of.get(number, ())})
     elif claim.fact == "bytes":
         places = manual.lines_with_bytes(claim.shown[:_BYTES])
     else:
@@ -121,6 +125,11 @@ class _Search:
     def __init__(self, manual: Manual, cited: Sequence[int], lengths: list[int], anchors: list[list[_Anchor]]) -> None:
         self.manual, self.cited, self.lengths, self.anchors = manual, cited, lengths, anchors
         self.headings = frozenset(manual.headings)
+
+    @property
+    def cost_of_staying(self) -> float:
+        """What it costs if no line moved."""
+        return sum(self._cost(index, 0) for index in range(len(self.cited)))
 
     def cheapest(self, states: list[dict[int, None]]) -> list[int]:
         """One shift for each cited line, of those that are tried for it."""
@@ -155,7 +164,7 @@ class _Search:
             end = max(end, self.manual.section_of(start).last + 1)
         start_of_cells = start - _MERGED if self.manual.is_merged(start) else start
         strong, weak = [0, 0], [0, 0]  # how many are lost, and how many there are
-        opens = False
+        opens = opens_weakly = False
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
             at = bisect_left(anchor.places, start_of_cells)
@@ -165,8 +174,10 @@ class _Search:
             count[0] += lost
             count[1] += 1
             opens = opens or (anchor.weight == _STRONG and start in anchor.places)
+            opens_weakly = opens_weakly or start in anchor.places
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
         whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
         share = (_STRONG * strong[0] + _WEAK * weak[0] / max(1, weak[1])) / max(whole, _STRONG)
         cost = _LOST * share * min(_MOST, max(1, strong[1]))
-        return cost + (0.0 if opens or not strong[1] else _NOT_FIRST) + (_BELOW if below else 0.0)
+        first = opens if strong[1] else opens_weakly
+        return cost + (0.0 if first else _NOT_FIRST) + (_BELOW if below else 0.0)

@@ -24,8 +24,12 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
     """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
     for fact in outcome.missing:
         where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
-        message = f": {fact.subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
-        yield [("error", "missing"), ("", visible(message))]
+        subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
+        message = f": {subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
+        if fact.printed is not None:
+            says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
+            message = f": {subject}: {fact.fact}: {says} at {where}"
+        yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(message))]
     for erratum in outcome.unprinted:
         message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
         yield [("error", "erratum"), ("", visible(message))]
@@ -34,11 +38,14 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
         places = f"{count} cited place{'' if count == 1 else 's'}"
         side = "below" if by > 0 else "above"
         yield [("warning", "moved"), ("", f": {places} of {lines} stand {abs(by)} lines {side}")]
-    for number in outcome.unused if everything else ():
+    for number in outcome.unused:
         subjects = ", ".join(number.subjects[:3]) + (", ..." if len(number.subjects) > 3 else "")
-        yield [("hint", "unused"), ("", visible(f": line {number.line}: {number.number} ({subjects})"))]
-    for place in outcome.uncited if everything else ():
-        yield [("hint", "uncited"), ("", visible(f": line {place.line}: {place.kind}: {place.text}"))]
+        message = f": {subjects}: no fact uses {number.number} at line {number.line}, column {number.column}"
+        yield [("", visible(number.place) + ": "), ("error", "unused"), ("", visible(message))]
+    for place in outcome.uncited:
+        kind = "error" if place.among_cited else "hint"
+        if place.among_cited or everything:
+            yield [(kind, "uncited"), ("", visible(f": line {place.line}: {place.kind}: {place.text}"))]
     yield from _figures(outcome, everything)
 
 
@@ -55,7 +62,7 @@ def _figures(outcome: Audit, everything: bool) -> Iterator[Line]:
         ("facts", f"{counts['facts']}, {counts['missing']} of them not where they are cited"),
         ("errata", f"{checked} with a printed text to look for, {counts['errata_not_printed']} not there"),
         ("moved", f"{counts['moved']} cited places"),
-        ("unused", f"{counts['unused_numbers']} numbers in cited places that no fact uses{tail}"),
+        ("unused", f"{counts['unused_numbers']} numbers in cited places that no fact uses"),
         ("uncited", f"{counts['uncited']} sections and rows{tail}"),
     ):
         yield [("", f"  {label:<8} {text}")]
@@ -78,8 +85,16 @@ def as_html(outcome: Audit) -> str:
     tables = [
         _Table(
             "Facts that are not where they are cited",
-            ("Subject", "Fact", "Wanted", "Line", "Nearest"),
-            [(fact.subject, fact.fact, fact.wanted, fact.line, fact.nearest or where) for fact in outcome.missing],
+            ("Place", "Subject", "Fact", "The description says", "The manual prints", "Line", "Nearest"),
+            [
+                (
+                    *(fact.place, fact.subject, fact.fact, fact.wanted),
+                    fact.printed or "",
+                    fact.line,
+                    fact.nearest or where,
+                )
+                for fact in outcome.missing
+            ],
         ),
         _Table(
             "Errata whose printed text is not there",
@@ -96,8 +111,8 @@ def as_html(outcome: Audit) -> str:
         ),
         _Table(
             "Numbers in cited places that no fact uses",
-            ("Line", "Number", "Cited by"),
-            [(number.line, number.number, ", ".join(number.subjects)) for number in outcome.unused],
+            ("Place", "Line", "Number", "Cited by"),
+            [(number.place, number.line, number.number, ", ".join(number.subjects)) for number in outcome.unused],
         ),
         _Table(
             "Sections and rows that nothing cites",

@@ -9,14 +9,19 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from fieldscribe.audit import Audit
+    from fieldscribe.model import Document
     from fieldscribe.resolve.subject import Subject
 
 HELP = "hold everything that a description cites against the text of its manual"
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new_edition.txt --report html > audit.html
+  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt
+  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt --renumber --accept
 
-ends with 1 when a cited fact is not where it is cited; unused numbers and uncited rows are reported only"""
+ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
+fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a
+changed line is not explained"""
 
 
 _MOST_BYTES = 256 << 20
@@ -34,16 +39,36 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report"
     )
-    parser.add_argument("--all", action="store_true", help="in text, list unused numbers and uncited rows too")
+    parser.add_argument(
+        "--old",
+        type=some_path,
+        metavar="FILE",
+        help="the text of the edition before: say what changed, and what is open",
+    )
+    parser.add_argument(
+        "--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description"
+    )
+    parser.add_argument(
+        "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
+    )
+    parser.add_argument(
+        "--all", action="store_true", help="in text, list everything: also what nothing cites or what is explained"
+    )
 
 
 def run(arguments: Namespace) -> int:
     """Audit; the exit code."""
     from fieldscribe.audit.report import as_html, as_lines
     from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import print_json
+    from fieldscribe.cli.common import StopError, print_json
     from fieldscribe.cli.terminal import print_lines
 
+    if arguments.old is not None:
+        from fieldscribe.cli.audit_editions import run as run_editions
+
+        return run_editions(arguments)
+    if arguments.renumber or arguments.accept:
+        raise StopError("--renumber and --accept need the old text", "give it with --old")
     outcome = _audit(arguments)
     if arguments.format == "json":
         print_json(outcome.as_data())
@@ -55,31 +80,45 @@ def run(arguments: Namespace) -> int:
 
 
 def _audit(arguments: Namespace) -> Audit:
-    from hashlib import sha256
-
     from fieldscribe.audit import audit
+
+    subject = opened(arguments)
+    path, document = manual_of(subject, arguments.manual)
+    name, text, digest = text_of(path)
+    same = None if document.sha256 is None else digest == document.sha256
+    return audit(subject, str(subject.scope.header["device"]), name, text, same_text=same)
+
+
+def opened(arguments: Namespace) -> Subject:
+    """The description that is meant, with its places. Raises StopError."""
     from fieldscribe.cli.common import StopError, device_file, report_findings
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_subject
-    from fieldscribe.reading import read_regular
 
     report = Report()
     subject = load_subject(device_file(arguments), report)
     if subject is None:
         report_findings(report, "json" if arguments.format == "json" else "text")
         raise StopError("", code=1)
-    path, expected = _manual(subject, arguments.manual)
+    return subject
+
+
+def text_of(path: Path) -> tuple[str, str, str]:
+    """Name, text and checksum of a manual. Raises StopError."""
+    from hashlib import sha256
+
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.reading import read_regular
+
     data = read_regular(path, _MOST_BYTES).data
     try:
-        text = data.decode("utf-8-sig")
+        return path.name, data.decode("utf-8-sig"), sha256(data).hexdigest()
     except UnicodeDecodeError as error:
         raise StopError(f"`{path}` is no text in UTF-8", "extract the manual's text first") from error
-    same = None if expected is None else sha256(data).hexdigest() == expected
-    return audit(subject, str(subject.scope.header["device"]), path.name, text, same_text=same)
 
 
-def _manual(subject: Subject, place: Path) -> tuple[Path, str | None]:
-    """The file to read, and the checksum of the text that was transcribed, if known. Raises StopError."""
+def manual_of(subject: Subject, place: Path) -> tuple[Path, Document]:
+    """The file to read, and the document of the description whose text it is. Raises StopError."""
     from fieldscribe.cli.common import StopError
 
     documents = list(subject.scope.documents.values())
@@ -87,14 +126,11 @@ def _manual(subject: Subject, place: Path) -> tuple[Path, str | None]:
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
     # only plain names, so that a description cannot lead out of the given folder
     known = {
-        document.file: document.sha256
-        for document in documents
-        if document.file and Path(document.file).name == document.file
+        document.file: document for document in documents if document.file and Path(document.file).name == document.file
     }
     if place.is_dir():
         present = [name for name in known if (place / name).is_file()]
         if not present:
             raise StopError(f"`{place}` holds no manual of this device", f"it would be {' or '.join(known)}")
         return place / present[0], known[present[0]]
-    expected = known.get(place.name, next(iter(known.values()), None))
-    return place, expected
+    return place, known.get(place.name, next(iter((*known.values(), *documents))))

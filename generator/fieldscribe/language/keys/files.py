@@ -97,6 +97,8 @@ HEADS = (
 )
 """The keys at the top of a file: those of the device and of groups."""
 
+_WORD = Shape("A word.", ["Parameter"], Text(200))
+
 SECTIONS = (
     Key(
         "documents",
@@ -127,12 +129,27 @@ SECTIONS = (
     Key(
         "writes",
         _DOCUMENT,
-        "How it writes what a description writes otherwise (letters of codes, bits, numbers); the audit asks.",
-        [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"]}],
+        "How it writes what a description writes otherwise: letters of codes, bits, numbers, titles. No words: it "
+        "does not print the title. The audit asks.",
+        [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"], "Basisfrequenz": ["Basisfrequ."], "Ausgang 2": []}],
+        by(forms.WRITTEN, Shape("Its words.", [["Parameter"]], Items(_WORD))),
+    ),
+    Key(
+        "access",
+        _DOCUMENT,
+        "How it prints who may read and write; the audit asks.",
+        [{"r": ["R/O"], "rw": ["R/W"]}],
         by(
-            forms.WRITTEN,
-            Shape("Its words.", [["Parameter"]], Items(Shape("A word.", ["Parameter"], Text(80)), least=1)),
+            forms.ACCESS,
+            Shape("Its notations.", [["R/W"]], Items(Shape("A notation.", ["R/W"], Text(20)), least=1)),
         ),
+    ),
+    Key(
+        "names",
+        _DOCUMENT,
+        "Its words with digits in them that are no facts; the audit passes them over.",
+        [["CRC-16", "RS485", "MICROMASTER 4"]],
+        Items(Shape("A name.", ["CRC-16"], Text(80))),
     ),
     Key(
         "variants",

@@ -44,11 +44,12 @@ VARIANT_VALUE = Form(
     "<value>",
 )
 WRITTEN = Form(
-    "^([A-Za-z]+|[0-9]{1,2}\\.\\.[0-9]{1,2}|[0-9]{1,9})$",
-    "letters of codes, bits of a word, or a number",
-    "write the letters of codes (P), bits with the high one first (15..8), or a number (0)",
-    "<letters, bits or number>",
+    "^\\S(.{0,198}\\S)?$",
+    "letters of codes, bits of a word, a number, or a title",
+    "write the letters of codes (P), bits with the high one first (15..8), a number (0), or a title of the description",
+    "<letters, bits, number or title>",
 )
+ACCESS = Form("^(r|w|rw|none)$", "an access", "access is r, w, rw or none", "<access>")
 LANGUAGE = Form("^[a-z]{2}$", "a language", "languages have two letters: en, de, fr", "<language>")
 PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<anything>")
 ANY = Form("", "a word", "any word is fine", "<any>")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, YES_NO, Key, Place, Shape, Text, Whole, by
+from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import (
     CASE,
@@ -31,7 +31,7 @@ _FLAG_PRINTED = Place(
 _ONE_BIT = Whole(choices=(0, 1))
 _CITED = (
     *("code", "section", "address", "range", "scale", "bits", "flags", "enum", "resolution", "choices", "printed"),
-    *("bytes", "number", "answers", "refusals"),
+    *("bytes", "number", "answers", "refusals", "title", "values", "access"),
 )
 """The facts that `lines` can place."""
 
@@ -94,6 +94,13 @@ KEYS = (
     Key("line", SOURCE, "The line in the text extracted from the manual.", [780], Whole(1, LAST_LINE)),
     *(Key(fact, LINES, LINES_OF) for fact in _CITED),
     Key("lines", LOOKED_THROUGH, LINES_OF, required=True),
+    Key(
+        "numbers",
+        LOOKED_THROUGH,
+        "The numbers there that are no facts, if the lines hold facts too; the audit passes them over.",
+        [[1, 2, "1028h"]],
+        Items(PRINTED_NUMBER, 1),
+    ),
     Key("why", LOOKED_THROUGH, "What stands there, in a few words.", ["Wiring."], Text(500), required=True),
     Key("document", LOOKED_THROUGH, "The document, if not the first one.", ["manual"], Text()),
 )

@@ -1,0 +1,19 @@
+"""A manual that changed: what its new edition means for a description, line by line.
+
+words.py        a text as words, in which layout counts for nothing
+matching.py     which words of the old text are which of the new one
+changes.py      lines that were changed, added, removed, moved
+citations.py    what the description cites, in the lines of both editions
+tracing.py      which words bear each fact
+explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words)
+drafts.py       what a new row seems to be, with its YAML
+comparing.py    all of it together; findings.py: as plain data; report.py: as lines
+places.py       where the files cite lines; renumbering.py: writing them anew
+"""
+
+from fieldscribe.audit.editions.citations import Citations
+from fieldscribe.audit.editions.comparing import Edition, compare
+from fieldscribe.audit.editions.findings import Comparison
+from fieldscribe.audit.editions.renumbering import renumber
+
+__all__ = ["Citations", "Comparison", "Edition", "compare", "renumber"]

@@ -1,0 +1,179 @@
+"""What tells a new edition of a text from the old one, line by line: kept, moved, changed, added, removed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.editions.matching import Matching
+from fieldscribe.audit.editions.words import Words, pressed
+from fieldscribe.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.audit.editions.matching import Gap
+
+Lines = tuple[int, int]
+"""The first and the last of some lines."""
+_NEAR = 12
+"""The words of a line stand within so many lines; what stands farther away was matched by chance."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """Lines that say something else now. An empty range of words stands where nothing was added or removed.
+
+    `old` and `new` are all lines of the change in each text, `gaps` the words without a counterpart.
+    """
+
+    kind: str
+    old: tuple[int, ...]
+    new: tuple[int, ...]
+    gaps: tuple[tuple[range, range], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """Lines first..last of the old edition that stand in another order in the new one, from line `now` on."""
+
+    first: int
+    last: int
+    now: int
+
+
+class Editions:
+    """Two editions of one text."""
+
+    def __init__(self, old: str, new: str) -> None:
+        self.old, self.new = Words(old), Words(new)
+        self._matching = Matching(self.old, self.new)
+        self._there, self._back = self._matching.there, self._matching.back
+        gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
+        self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
+        self._now: dict[int, Lines | None] = {}
+        self._then: dict[int, Lines | None] = {}
+        self.moves = tuple(self._moves())
+        self.changed_old = frozenset(line for change in self.changes for line in change.old)
+        self.changed_new = frozenset(line for change in self.changes for line in change.new)
+
+    def now(self, line: int) -> Lines | None:
+        """The lines (first, last) of the new edition that have what a line of the old one says; None if it is gone."""
+        if line not in self._now:
+            self._now[line] = _there(line, self.old, self.new, self._there)
+        return self._now[line]
+
+    def then(self, line: int) -> Lines | None:
+        """The same turned round: the lines of the old edition."""
+        if line not in self._then:
+            self._then[line] = _there(line, self.new, self.old, self._back)
+        return self._then[line]
+
+    def is_new(self, word: int) -> bool:
+        """Whether a word of the new edition is not in the old one."""
+        return self._back[word] < 0
+
+    def is_gone(self, word: int) -> bool:
+        """Whether a word of the old edition is not in the new one."""
+        return self._there[word] < 0
+
+    def there(self, word: int) -> int:
+        """The word of the new edition that a word of the old one is; -1 if none."""
+        return self._there[word]
+
+    def _is_layout(self, gap: Gap) -> bool:
+        """Whether only blanks and hyphens within words differ; then its words are taken for each other."""
+        first, last, start, end = gap
+        above, below = self.old.texts[max(0, first - 1) : first], self.old.texts[last : last + 1]
+        was = pressed([*above, *self.old.texts[first:last], *below])
+        if was != pressed([*above, *self.new.texts[start:end], *below]):
+            return False
+        for word in range(first, last):
+            self._there[word] = min(start + (word - first) * (end - start) // (last - first), len(self._back) - 1)
+        for word in range(start, end):
+            self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
+        return True
+
+    def _changes(self, gaps: Iterable[Gap]) -> Iterator[Change]:
+        for group in _grouped([self._with_lines(gap) for gap in gaps]):
+            olds = tuple(sorted({line for _, old, _ in group for line in old}))
+            news = tuple(sorted({line for _, _, new in group for line in new}))
+            words = tuple((range(*gap[:2]), range(*gap[2:])) for gap, _, _ in group)
+            yield Change("changed" if olds and news else "removed" if olds else "added", olds, news, words)
+
+    def _with_lines(self, gap: Gap) -> tuple[Gap, set[int], set[int]]:
+        """A gap with its lines in both texts, and those that the rest of each line stands on in the other."""
+        first, last, start, end = gap
+        olds = {self.old.line_of[word] for word in range(first, last)}
+        news = {self.new.line_of[word] for word in range(start, end)}
+        if not olds:
+            olds = {self.old.line_of[word] for word in self._beside(self.new, news, self._back, start, end)}
+        elif not news:
+            news = {self.new.line_of[word] for word in self._beside(self.old, olds, self._there, first, last)}
+        return gap, olds, news
+
+    @staticmethod
+    def _beside(text: Words, lines: set[int], other: list[int], start: int, end: int) -> list[int]:
+        """The counterpart of the word before a gap, or else of the one behind it, on the gap's own lines."""
+        beside = [word for word in (start - 1, end) if 0 <= word < len(text) and text.line_of[word] in lines]
+        return [other[word] for word in beside if other[word] >= 0][:1]
+
+    def _moves(self) -> Iterator[Move]:
+        run: list[tuple[int, int]] = []
+        for line in range(1, len(self.old.lines) + 2):
+            words = self.old.of_line(line)
+            now = self.now(line) if words else None
+            has_moved = now is not None and all(word in self._matching.moved or self.is_gone(word) for word in words)
+            if now is not None and has_moved and (not run or run[-1][1] <= now[0] <= run[-1][1] + _NEAR):
+                run.append((line, now[0]))
+            elif words or line > len(self.old.lines):
+                if run:
+                    yield Move(run[0][0], run[-1][0], run[0][1])
+                run = [(line, now[0])] if now is not None and has_moved else []
+
+    def counts(self) -> dict[str, int]:
+        """How many lines of each kind there are."""
+        count = Counter({"changed": 0, "added": 0, "removed": 0})
+        for change in self.changes:
+            count[change.kind] += len(change.new or change.old)
+        count["moved"] = sum(move.last - move.first + 1 for move in self.moves)
+        return dict(count)
+
+
+def _there(line: int, here: Words, other: Words, counterparts: list[int]) -> Lines | None:
+    """Where a line stands in the other text; one without words stands as far above the next that has some."""
+    words = here.of_line(line)
+    if words:
+        there = [counterparts[word] for word in words if counterparts[word] >= 0]
+    else:
+        below = range(words.start, len(counterparts))
+        word = next((word for word in below if counterparts[word] >= 0), None)
+        if word is None:
+            place = len(other.lines)
+        else:
+            place = max(1, other.line_of[counterparts[word]] - here.line_of[word] + line)
+        return place, place
+    if not there:
+        return None
+    lines = sorted(other.line_of[word] for word in there)
+    middle = lines[len(lines) // 2]
+    near = [place for place in lines if abs(place - middle) <= _NEAR]
+    return near[0], near[-1]
+
+
+_Placed = tuple["Gap", set[int], set[int]]
+
+
+def _grouped(gaps: list[_Placed]) -> Iterator[list[_Placed]]:
+    """Gaps that share a line of either text."""
+    groups: dict[int, list[_Placed]] = {}
+    group_of: dict[tuple[str, int], int] = {}
+    for number, gap in enumerate(gaps):
+        lines = [*(("old", line) for line in gap[1]), *(("new", line) for line in gap[2])]
+        joined = sorted({group_of[line] for line in lines if line in group_of})
+        members = [member for other in joined for member in groups.pop(other)] + [gap]
+        groups[number] = members
+        for _, olds, news in members:
+            group_of.update(dict.fromkeys((("old", line) for line in olds), number))
+            group_of.update(dict.fromkeys((("new", line) for line in news), number))
+    yield from groups.values()

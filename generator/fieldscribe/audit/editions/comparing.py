@@ -1,0 +1,183 @@
+"""A description held against two editions of its manual: what changed, whom it touches, and what is not explained."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.citing import Claim
+from fieldscribe.audit.editions.changes import Editions
+from fieldscribe.audit.editions.citations import Citations
+from fieldscribe.audit.editions.drafts import Drafts
+from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
+from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Reason, Void
+from fieldscribe.audit.editions.vocabulary import Vocabulary
+from fieldscribe.audit.editions.words import LINE_BREAK
+from fieldscribe.audit.manual import Manual
+from fieldscribe.audit.wordings import Wordings
+from fieldscribe.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.audit.editions.changes import Change, Move
+    from fieldscribe.audit.printed_errata import PrintedErratum
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.subject import Subject
+
+_LONGEST = 160
+"""Findings show at most so many characters of a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edition:
+    """The text of one edition: its file's name, and whether it is the one whose digest the description records."""
+
+    name: str
+    text: str
+    is_recorded: bool | None
+
+
+def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, Citations]:
+    """What the new edition means for the description, and what that cites."""
+    editions = Editions(old.text, new.text)
+    citations = Citations(subject, editions)
+    names = Wordings(subject.scope.header["documents"]).names
+    manuals = Manual(old.text, names), Manual(new.text, names)
+    citations.settle(*manuals, accepted=bool(new.is_recorded))
+    device = str(subject.scope.header["device"])
+    outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
+    _Comparing(subject, citations, *manuals, outcome).run()
+    return outcome, citations
+
+
+class _Comparing:
+    def __init__(self, subject: Subject, citations: Citations, old: Manual, new: Manual, outcome: Comparison) -> None:
+        self.citations, self.editions, self.outcome = citations, citations.editions, outcome
+        in_old, in_new = citations.in_old(), citations.in_new()
+        self.old = in_old.trace(old, self.editions.old)
+        self.new = in_new.trace(new, self.editions.new)
+        pairs = list(map(Pair, citations.claims, in_old.claims, in_new.claims))
+        self._looked_through = in_new.looked_through
+        self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
+        self.drafts = Drafts(subject, self.new, pairs)
+        self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
+
+    def run(self) -> None:
+        """All findings, in the order of the new edition."""
+        outcome, editions = self.outcome, self.editions
+        reasons: dict[int, list[Reason]] = {}
+        for number, reason in self._of_gone_lines():
+            reasons.setdefault(number, []).append(reason)
+        for number, change in enumerate(editions.changes):
+            all_reasons = (*reasons.get(number, ()), *self.explaining.reasons(number, change))
+            outcome.findings.append(self._finding(number, change, tuple(dict.fromkeys(all_reasons))))
+        moves = [self._of_move(move) for move in editions.moves]
+        outcome.findings = sorted((*outcome.findings, *moves), key=lambda finding: finding.new or (0, 0))
+        outcome.elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
+        outcome.void = list(self._void())
+        outcome.shifted = self._shifted()
+        outcome.renumbered = self.citations.all_count_new
+
+    def _of_gone_lines(self) -> Iterator[tuple[int, Reason]]:
+        """What cites lines that are gone, with the number of the change that took them away, -1 if none is known."""
+        for item, line in self.citations.gone():
+            name, place = (item.subject, item.where) if isinstance(item, Claim) else self._named(item)
+            changes = (number for number, change in enumerate(self.editions.changes) if line in change.old)
+            yield next(changes, -1), Reason(f"{name} cites line {line}, which is gone", place)
+
+    def _named(self, erratum: PrintedErratum) -> tuple[str, str]:
+        return f"erratum {erratum.id}", _told(self.citations.place_of_erratum[erratum.id])
+
+    def _finding(self, number: int, change: Change, reasons: tuple[Reason, ...]) -> Finding:
+        olds, news = self.editions.old, self.editions.new
+        words = tuple((olds.shown(old), news.shown(new)) for old, new in change.gaps)
+        cites = (*self.explaining.cites(number, change), *self._errata_at(change), *self._looked_through_at(change))
+        return Finding(
+            change.kind,
+            _ends(change.old),
+            _ends(change.new),
+            _shown(olds.lines, change.old),
+            _shown(news.lines, change.new),
+            words,
+            tuple(dict.fromkeys(cites)),
+            reasons,
+            tuple(self.drafts.of(line for line in change.new if self._is_new(line))) if reasons else (),
+        )
+
+    def _is_new(self, line: int) -> bool:
+        words = self.editions.new.of_line(line)
+        return bool(words) and all(map(self.editions.is_new, words))
+
+    def _errata_at(self, change: Change) -> Iterator[Cite]:
+        for erratum, in_old, in_new in self.errata:
+            olds = self.old.extents_of(in_old.cited) if in_old else ()
+            news = self.new.extents_of(in_new.cited) if in_new else ()
+            at = any(line in extent for extent in olds for line in change.old)
+            if at or any(line in extent for extent in news for line in change.new):
+                name, place = self._named(erratum)
+                yield Cite(name, "", "", place)
+
+    def _looked_through_at(self, change: Change) -> Iterator[Cite]:
+        lines = set(change.new)
+        for passage, in_new in zip(self.citations.looked_through, self._looked_through, strict=True):
+            if lines & in_new.lines:
+                yield Cite("looked_through", "", "", _told(passage.place))
+
+    def _of_move(self, move: Move) -> Finding:
+        lines = range(move.first, move.last + 1)
+        cites: dict[Cite, None] = {}
+        for extent, subjects in self.old.subjects.items():
+            if extent.first in lines:
+                cites.update((Cite(name, "", "", self.explaining.place_of.get(name, "")), None) for name in subjects)
+        shown = _shown(self.editions.old.lines, (move.first,))
+        now = (move.now, move.now + move.last - move.first)
+        return Finding("moved", (move.first, move.last), now, shown, shown, (), tuple(cites), ())
+
+    def _void(self) -> Iterator[Void]:
+        """Errata that were printed in the old edition and are not in the new one."""
+        for erratum, in_old, in_new in self.errata:
+            if in_new is None or erratum.id not in self.new.void:
+                continue
+            if in_old is None or not (erratum.id in self.old.void or self._survives(in_old)):
+                yield Void(erratum.id, self._named(erratum)[1], self._is_corrected(in_new), in_new.cited[0][0])
+
+    def _survives(self, in_old: PrintedErratum) -> bool:
+        """Whether all that an erratum names is printed as it was, if in another layout."""
+        quotes = [self.old.words_of_quote(quote, in_old) for quote in in_old.texts]
+        numbers = [self.old.words_of_number(number, in_old) for number in in_old.numbers]
+        return all(any(map(self._is_literal, places)) for places in quotes) and all(
+            any(not any(map(self.editions.is_gone, words)) for words in places) for places in numbers
+        )
+
+    def _is_literal(self, words: range) -> bool:
+        """Whether words are written in the new edition just as they were, but for line breaks and cells."""
+        there = [self.editions.there(word) for word in words]
+        if min(there) < 0 or there != sorted(there):
+            return False
+        pieces = (self.editions.old.shown(words), self.editions.new.shown(range(there[0], there[-1] + 1)))
+        was, now = (piece.replace("|", " ").replace(LINE_BREAK, " ").split() for piece in pieces)
+        return was == now
+
+    def _is_corrected(self, in_new: PrintedErratum) -> bool:
+        """Whether the manual prints now what an erratum took."""
+        numbers = all(any(self.new.words_of_number(number, in_new)) for number in in_new.taken)
+        quotes = bool(in_new.taken) or any(self.new.words_of_quote(in_new.taken_text, in_new))
+        return numbers and quotes
+
+    def _shifted(self) -> int:
+        counts_old = [claim for claim in self.citations.claims if claim.subject not in self.citations.counts_new]
+        lines = {first for claim in counts_old for first, _ in claim.cited}
+        places = {line: self.editions.now(line) for line in lines}
+        return sum(place is not None and place[0] != line for line, place in places.items())
+
+
+def _told(span: Span) -> str:
+    return f"{span.file}:{span.line}:{span.column}"
+
+
+def _ends(lines: tuple[int, ...]) -> tuple[int, int] | None:
+    return (lines[0], lines[-1]) if lines else None
+
+
+def _shown(text: list[str], lines: tuple[int, ...]) -> tuple[str, ...]:
+    return tuple(" ".join(text[line - 1].split())[:_LONGEST] for line in lines)

@@ -1,0 +1,269 @@
+"""Which changed lines are explained by the description, and what is missing of the others."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.audit.editions.findings import Cite, Reason
+from fieldscribe.audit.editions.vocabulary import is_name
+from fieldscribe.audit.editions.words import Words
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.editions.changes import Change, Editions
+    from fieldscribe.audit.editions.tracing import Trace
+    from fieldscribe.audit.editions.vocabulary import Vocabulary
+    from fieldscribe.audit.manual import Token
+
+_PARTS = re.compile(r"[.,]")
+_MOST = 8
+"""A reason names at most so many numbers or words."""
+
+
+class Pair(NamedTuple):
+    """A claim as it is written, and with the lines of each edition; None where the edition has none of them."""
+
+    claim: Claim
+    old: Claim | None
+    new: Claim | None
+
+
+class Explaining:
+    """The claims of a description beside the changes of its manual."""
+
+    def __init__(self, editions: Editions, old: Trace, new: Trace, pairs: list[Pair], words: Vocabulary) -> None:
+        self.editions, self.old, self.new, self.words = editions, old, new, words
+        self.pairs_of: dict[int, list[Pair]] = {}
+        self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
+        self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
+        self.headings = frozenset(new.manual.headings)
+        self.place_of: dict[str, str] = {}
+        self.failing_at: dict[int, list[Pair]] = {}
+        self.elsewhere: list[Pair] = []
+        for pair in pairs:
+            self.place_of.setdefault(pair.claim.subject, pair.claim.where)
+            touched = self._touched(pair)
+            for number in touched:
+                self.pairs_of.setdefault(number, []).append(pair)
+            if self.fails(pair):
+                self._note_failing(pair, touched)
+        self.subjects_at: dict[int, dict[str, None]] = {}
+        for extent, subjects in new.subjects.items():
+            for line in range(extent.first, extent.last + 1):
+                self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
+
+    def _note_failing(self, pair: Pair, touched: set[int]) -> None:
+        """A claim that does not hold belongs to the change of its words, else to all that touch its lines."""
+        gone = {word for word in _borne(self.old, pair.old) if self.editions.is_gone(word)}
+        own = {number for number in touched for old, _ in self.editions.changes[number].gaps if gone.intersection(old)}
+        for number in own or touched:
+            self.failing_at.setdefault(number, []).append(pair)
+        failed_before = pair.old is not None and pair.old in self.old.missed
+        if not touched and not failed_before:
+            self.elsewhere.append(pair)
+
+    def _touched(self, pair: Pair) -> set[int]:
+        """The changes in the lines that a claim takes its fact from."""
+        olds = self.old.extents_of(pair.old.cited) if pair.old else ()
+        news = self.new.extents_of(pair.new.cited) if pair.new else ()
+        lines = {line for extent in olds for line in range(extent.first, extent.last + 1)}
+        touched = {number for line in lines for number in self._of_old.get(line, ())}
+        lines = {line for extent in news for line in range(extent.first, extent.last + 1)}
+        return touched | {number for line in lines for number in self._of_new.get(line, ())}
+
+    def fails(self, pair: Pair) -> bool:
+        """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
+        if self._lost_access(pair) or self._is_parted(pair):
+            return True
+        if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
+            return False
+        if pair.old is None or pair.old in self.old.missed:
+            return True
+        borne = self.old.borne.get(pair.old, set())
+        if borne:
+            return any(map(self.editions.is_gone, borne))
+        return bool(self._touched(pair)) or pair.new is None
+
+    def _lost_access(self, pair: Pair) -> bool:
+        """Whether a row that printed an access does not print it any more."""
+        if pair.claim.fact != "access":
+            return False
+        was = self.old.named.get(pair.old, ()) if pair.old else ()
+        return any(map(self.editions.is_gone, was)) and not (pair.new and self.new.named.get(pair.new))
+
+    def _is_parted(self, pair: Pair) -> bool:
+        """Whether a label that stood right beside its number does not any more."""
+        if not pair.claim.beside or pair.old is None or pair.new is None:
+            return False
+        if not any(map(self.editions.is_gone, self.old.borne[pair.old])):
+            return False
+        return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
+
+    def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
+        """What cites a changed line: the facts that stood on its words, else the subjects."""
+        gone = {word for old, _ in change.gaps for word in old}
+        come = {word for _, new in change.gaps for word in new}
+        exact, whole = dict[Cite, None](), dict[Cite, None]()
+        for pair in self.pairs_of.get(number, ()):
+            claim = pair.claim
+            if _borne(self.old, pair.old) & gone or _borne(self.new, pair.new) & come:
+                exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
+            whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
+        named = {cite.subject for cite in exact}
+        return (*exact, *(cite for cite in whole if cite.subject not in named))
+
+    def reasons(self, number: int, change: Change) -> Iterator[Reason]:
+        """Everything that keeps a change from being explained."""
+        yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
+        yield from self._weakened(number, change)
+        for lines in change.new:
+            if lines not in self.new.empty:
+                yield from self._numbers(lines, change)
+                yield from self._names(lines, change)
+        yield from self._signs(number, change)
+        yield from self._units(number, change)
+
+    def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
+        """Facts that were printed twice, and once otherwise now, where the new word is no news to the description."""
+        pairs = self.pairs_of.get(number, ())
+        for old, new in change.gaps:
+            if not old or not new or self._is_passed_over(new) or not self._is_known_already(new, pairs):
+                continue
+            for pair in pairs:
+                if pair.new not in self.new.missed and _is_of_numbers(pair.claim) and self._lost_one(pair, old, new):
+                    text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} here"
+                    yield Reason(text, pair.claim.where)
+
+    def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
+        """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
+        return not _borne(self.old, pair.old).isdisjoint(old) and _borne(self.new, pair.new).isdisjoint(new)
+
+    def _is_passed_over(self, words: range) -> bool:
+        """Whether the description says of these words that they are no fact, and means no others of the line."""
+        text = self.editions.new
+        line = text.line_of[words[0]]
+        shown = text.shown(words)
+        kept = (word for word in text.of_line(line) if not self.editions.is_new(word))
+        return shown in self.new.no_facts.get(line, ()) and shown not in {text.texts[word] for word in kept}
+
+    def _is_known_already(self, words: range, pairs: Iterable[Pair]) -> bool:
+        """Whether one of these words bears only facts that stand elsewhere, too, where nothing changed."""
+        for word in words:
+            if self.editions.new.texts[word].isalnum():
+                bearing = [pair for pair in pairs if word in _borne(self.new, pair.new) and not pair.claim.optional]
+                if all(self._stood_before(pair) for pair in bearing):
+                    return True
+        return False
+
+    def _stood_before(self, pair: Pair) -> bool:
+        return any(not self.editions.is_gone(word) for word in _borne(self.old, pair.old))
+
+    def _numbers(self, line: int, change: Change) -> Iterator[Reason]:
+        """The new numbers of a line that no fact that cites it has."""
+        tokens = self._new_tokens(line, change)
+        unknown = [token.text for token, words in tokens if not self._is_known(token, words)]
+        if unknown:
+            yield self._unknown(unknown, line, "number")
+
+    def _new_tokens(self, line: int, change: Change) -> Iterator[tuple[Token, range]]:
+        fresh = {word for _, new in change.gaps for word in new}
+        for token in self.new.manual.tokens[line - 1]:
+            words = self.new.words_of_token(token)
+            if fresh.intersection(words):
+                yield token, words
+
+    def _is_known(self, token: Token, words: range) -> bool:
+        return self._is_passed_over(words) or (self.new.is_used(token) and self._fits(token, words))
+
+    def _fits(self, token: Token, words: range) -> bool:
+        """Whether what uses a number means all of it: 50 is not the 50 of 50,03, nor any number beside a frame."""
+        bearing = [claim for claim in self.new.claims if not self.new.borne[claim].isdisjoint(words)]
+        if not bearing or any(not self.new.named[claim].isdisjoint(words) for claim in bearing):
+            return True
+        numbers = {number for claim in bearing for number in (*claim.numbers, *claim.beside, *claim.between)}
+        parts = {Fraction(int(part)) for part in _PARTS.split(token.text) if part.isdigit()}
+        if len(_PARTS.split(token.text)) > 1:
+            return parts <= numbers or not numbers.isdisjoint(_whole(token))
+        digits = "".join(char for char in token.text.upper().removeprefix("0X") if char in "0123456789ABCDEF")
+        in_frames = any(claim.fact == "bytes" and digits in claim.shown for claim in bearing)
+        return in_frames or not numbers.isdisjoint(token.readings)
+
+    def _signs(self, number: int, change: Change) -> Iterator[Reason]:
+        """Numbers that got or lost a minus sign, where every fact that they bear has them otherwise."""
+        olds, news = self.editions.old, self.editions.new
+        for old, new in change.gaps:
+            signed = [(word + 1, True) for word in new if news.is_minus(word)]
+            signed += [(self.editions.there(word + 1), False) for word in old if olds.is_minus(word)]
+            for word, has_sign in signed:
+                bearing = [pair.claim for pair in self.pairs_of.get(number, ()) if word in _borne(self.new, pair.new)]
+                if bearing and all(("-" in claim.shown) != has_sign for claim in bearing):
+                    with_or_without = "with" if has_sign else "without"
+                    yield Reason(f"{_told(bearing[0])} is printed {with_or_without} a minus sign", bearing[0].where)
+
+    def _names(self, line: int, change: Change) -> Iterator[Reason]:
+        """The new words of a line that the description does not have for what cites it."""
+        manual, text = self.new.manual, self.editions.new
+        subjects = self.subjects_at.get(line, {})
+        if not subjects and not (manual.is_row(line) or line in self.headings):
+            return
+        in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
+        fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
+        words = [text.texts[word] for word in fresh if word not in in_numbers and is_name(text.texts[word])]
+        unknown = [word for word in words if not self.words.has(word, subjects)]
+        if unknown:
+            yield self._unknown(unknown, line, "word")
+
+    def _unknown(self, unknown: list[str], line: int, what: str) -> Reason:
+        subjects = [*self.subjects_at.get(line, ())]
+        shown = ", ".join(f"`{text}`" for text in dict.fromkeys(unknown[:_MOST]))
+        more = " and more" if len(unknown) > _MOST else ""
+        if not subjects:
+            return Reason(f"nothing cites line {line}: {shown}{more}")
+        return Reason(f"no {what} of what cites line {line} is {shown}{more}", self.place_of.get(subjects[0], ""))
+
+    def _units(self, number: int, change: Change) -> Iterator[Reason]:
+        """Units that no longer stand in the lines."""
+        olds, news = self.editions.old, self.editions.new
+        gone = {olds.texts[word] for old, _ in change.gaps for word in old}
+        stands = {news.texts[word] for line in change.new for word in news.of_line(line)}
+        for subject in dict.fromkeys(pair.claim.subject for pair in self.pairs_of.get(number, ())):
+            unit, place = self.words.unit_of(subject)
+            if gone.intersection(set(Words(unit).texts) - stands):
+                yield Reason(f"{subject}: unit {unit} is not there", place)
+
+
+def _is_of_numbers(claim: Claim) -> bool:
+    """Whether a claim needs the numbers, codes or bytes that bear it."""
+    return not claim.optional and (bool(claim.numbers or claim.beside) or claim.anchor or claim.fact == "bytes")
+
+
+def _whole(token: Token) -> frozenset[Fraction]:
+    """What a number with points or commas means as a whole."""
+    *_, fraction = _PARTS.split(token.text)
+    digits = int("".join(_PARTS.split(token.text)))
+    return frozenset((Fraction(digits, 10 ** len(fraction)), Fraction(digits))) & token.readings
+
+
+def failing(claim: Claim) -> Reason:
+    """The reason that a claim does not hold."""
+    return Reason(f"{_told(claim)} is not there", claim.where)
+
+
+def _told(claim: Claim) -> str:
+    return f"{claim.subject}: {claim.fact} {claim.shown}"
+
+
+def _borne(trace: Trace, claim: Claim | None) -> set[int]:
+    return trace.borne.get(claim, set()) if claim is not None else set()
+
+
+def _by_line(changes: Iterable[tuple[tuple[int, ...], int]]) -> dict[int, list[int]]:
+    by_line: dict[int, list[int]] = {}
+    for lines, number in changes:
+        for line in lines:
+            by_line.setdefault(line, []).append(number)
+    return by_line

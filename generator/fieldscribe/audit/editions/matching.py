@@ -1,0 +1,248 @@
+"""Which words of one text are which of another: what stands in the same order, then what moved.
+
+Rows and sentences that occur once in both texts hold the rest together; between them short stretches are compared word
+by word. The cost grows with the texts, not with their product.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import Counter
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from fieldscribe.audit.editions.words import Words
+
+_LENGTHS = (8, 4, 2, 1)
+"""So many words in a row tell a place if they occur once; shorter rows are tried where longer ones lack."""
+_SMALL = 60_000
+"""A gap is compared word by word if it has at most so many pairs of words."""
+_MOVED = 3
+"""A line that moved alone has at least so many words."""
+_LONG_MOVE = 40
+"""So many words may move without being whole lines."""
+
+Gap = tuple[int, int, int, int]
+"""The words from..to of the one text and from..to of the other, the ends not included."""
+
+
+class Matching:
+    """`there[i]` is the word of the new text that word i of the old one is, -1 if none; `back` is that turned round.
+
+    `moved` holds the words of the old text that stand in another order in the new one.
+    """
+
+    def __init__(self, old: Words, new: Words) -> None:
+        self.old, self.new = old, new
+        numbers: dict[str, int] = {}
+        self._a = [numbers.setdefault(text, len(numbers)) for text in old.texts]
+        self._b = [numbers.setdefault(text, len(numbers)) for text in new.texts]
+        self.there = [-1] * len(old)
+        self.back = [-1] * len(new)
+        self.moved: set[int] = set()
+        self._match_in_order([(0, len(old), 0, len(new))], _LENGTHS[:2])
+        self._match_moved(_LENGTHS[:1])
+        self._match_in_order(list(self.gaps()), _LENGTHS)
+        self._match_moved(_LENGTHS[1:3])
+        self._straighten(1)
+        self._straighten(-1)
+        self._slide()
+
+    def gaps(self) -> Iterator[Gap]:
+        """What has no counterpart, as pairs that stand between the same neighbours; a side of a pair may be empty."""
+        seen = set()
+        for first, last in _runs(self.there):
+            start = self.there[first - 1] + 1 if first else 0
+            end = self.there[last] if last < len(self.there) else len(self.back)
+            if start < end and self._is_open(start, end):
+                seen.add(start)
+                yield first, last, start, end
+            else:
+                yield first, last, start, start
+        for start, end in _runs(self.back):
+            if start not in seen:
+                first = self.back[start - 1] + 1 if start else 0
+                yield first, first, start, end
+
+    def _is_open(self, start: int, end: int) -> bool:
+        """Whether no word of the new text from..to has a counterpart, and both neighbours have."""
+        free = start
+        while free < end and self.back[free] < 0:
+            free += 1
+        return free == end
+
+    def _match(self, at: int, there: int, count: int = 1) -> None:
+        for step in range(count):
+            self.there[at + step], self.back[there + step] = there + step, at + step
+
+    def _match_in_order(self, waiting: list[Gap], lengths: tuple[int, ...]) -> None:
+        whole = lengths[-1] == 1
+        while waiting:
+            first, last, start, end = self._without_equal_ends(waiting.pop())
+            if first == last or start == end:
+                continue
+            if whole and (last - first) * (end - start) <= _SMALL:
+                self._match_word_by_word(first, last, start, end)
+                continue
+            for length in lengths:
+                olds, news = range(first, last - length + 1), range(start, end - length + 1)
+                if pairs := _rising(self._rare_in_both(olds, news, length)):
+                    waiting += self._between(pairs, (first, last, start, end))
+                    break
+
+    def _between(self, pairs: list[tuple[int, int]], gap: Gap) -> Iterator[Gap]:
+        """Match these pairs; the gaps around them."""
+        first, last, start, end = gap
+        for pair in (*pairs, (last, end)):
+            yield first, pair[0], start, pair[1]
+            if pair != (last, end):
+                self._match(*pair)
+            first, start = pair[0] + 1, pair[1] + 1
+
+    def _without_equal_ends(self, gap: Gap) -> Gap:
+        first, last, start, end = gap
+        while first < last and start < end and self._a[first] == self._b[start]:
+            self._match(first, start)
+            first, start = first + 1, start + 1
+        while first < last and start < end and self._a[last - 1] == self._b[end - 1]:
+            last, end = last - 1, end - 1
+            self._match(last, end)
+        return first, last, start, end
+
+    def _match_word_by_word(self, first: int, last: int, start: int, end: int) -> None:
+        blocks = SequenceMatcher(None, self._a[first:last], self._b[start:end], autojunk=False).get_matching_blocks()
+        for at, there, count in blocks:
+            self._match(first + at, start + there, count)
+
+    def _rare_in_both(self, olds: Sequence[int], news: Sequence[int], length: int) -> list[tuple[int, int]]:
+        """Where the same words in a row occur once on each side, in the order of the old text."""
+        there = _once(self._b, news, length)
+        return sorted((at, there[key]) for key, at in _once(self._a, olds, length).items() if key in there)
+
+    def _match_moved(self, lengths: tuple[int, ...]) -> None:
+        """Whole lines, or long stretches, that stand elsewhere."""
+        for length in lengths:
+            free = _starts(self.there, length), _starts(self.back, length)
+            for at, there in self._rare_in_both(*free, length):
+                if self._fits(at, there):
+                    self._match_run(at, there)
+
+    def _match_run(self, at: int, there: int) -> None:
+        first, start = at, there
+        while first and start and self._fits(first - 1, start - 1):
+            first, start = first - 1, start - 1
+        last, end = at, there
+        while last < len(self.there) and end < len(self.back) and self._fits(last, end):
+            last, end = last + 1, end + 1
+        shift = start - first
+        if last - first < _LONG_MOVE:
+            first, last = self._whole_lines(first, last, shift)
+        if last - first >= _MOVED:
+            self._match(first, first + shift, last - first)
+            self.moved.update(range(first, last))
+
+    def _whole_lines(self, first: int, last: int, shift: int) -> tuple[int, int]:
+        """The part of a run that is whole lines of both texts."""
+        while first < last and not (self.old.opens_line(first) and self.new.opens_line(first + shift)):
+            first += 1
+        while first < last and not (self.old.opens_line(last) and self.new.opens_line(last + shift)):
+            last -= 1
+        return first, last
+
+    def _fits(self, at: int, there: int) -> bool:
+        return self.there[at] < 0 and self.back[there] < 0 and self._a[at] == self._b[there]
+
+    def _straighten(self, step: int) -> None:
+        """Where text moved, a word beside it may have got the counterpart of another: give each its own."""
+        for first, last in list(_runs(self.there)):
+            for at in range(first, last) if step > 0 else range(last - 1, first - 1, -1):
+                there = self._beside(at, step)
+                if there is None or self._a[at] != self._b[there]:
+                    break
+                other = self.back[there]
+                own = None if other < 0 else self._beside(other, step)
+                if own is None or self.back[own] >= 0 or self._a[at] != self._b[own]:
+                    break
+                self._match(other, own)
+                self._match(at, there)
+                self.moved.update({at, other} if {at - step, other - step} & self.moved else ())
+
+    def _beside(self, at: int, step: int) -> int | None:
+        """The word of the new text behind (or before) the counterpart of the one before (or behind) a word."""
+        beside = at - step
+        there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
+        return there if 0 <= there < len(self.back) else None
+
+    def _slide(self) -> None:
+        """What was added or removed whole may begin at several words: at the first of a line, where that is one."""
+        for first, last, start, end in list(self.gaps()):
+            if first == last and start < end:
+                self._slide_one(self.new, start, end, self.back, self.there)
+            elif first < last and start == end:
+                self._slide_one(self.old, first, last, self.there, self.back)
+
+    def _slide_one(self, text: Words, start: int, end: int, here: list[int], other: list[int]) -> None:
+        words, low, high = text.texts, start, end
+        while low and here[low - 1] >= 0 and words[low - 1] == words[high - 1]:
+            low, high = low - 1, high - 1
+        steps = start - low
+        high = end
+        while high < len(here) and here[high] >= 0 and words[high] == words[start + high - end]:
+            high += 1
+        for by in sorted(range(-steps, high - end + 1), key=abs):
+            if text.opens_line(start + by):
+                _shift(here, other, start, end, by)
+                return
+
+
+def _shift(here: list[int], other: list[int], start: int, end: int, by: int) -> None:
+    """Let the words without a counterpart be those so many words further on."""
+    for step in range(abs(by)):
+        filled, freed = (start + step, end + step) if by > 0 else (end - 1 - step, start - 1 - step)
+        here[filled], here[freed] = here[freed], -1
+        other[here[filled]] = filled
+
+
+def _runs(matched: list[int]) -> Iterator[tuple[int, int]]:
+    """The stretches from..to without a counterpart."""
+    start = None
+    for place, other in enumerate(matched):
+        if other < 0 and start is None:
+            start = place
+        elif other >= 0 and start is not None:
+            yield start, place
+            start = None
+    if start is not None:
+        yield start, len(matched)
+
+
+def _starts(matched: list[int], length: int) -> list[int]:
+    """Where so many words in a row begin that have no counterpart."""
+    return [start for first, last in _runs(matched) for start in range(first, last - length + 1)]
+
+
+def _once(words: list[int], places: Sequence[int], length: int) -> dict[tuple[int, ...], int]:
+    """The rows of words that begin at one of the places only, with that place."""
+    keys = {place: tuple(words[place : place + length]) for place in places}
+    count = Counter(keys.values())
+    return {key: place for place, key in keys.items() if count[key] == 1}
+
+
+def _rising(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The longest series of pairs that rises in both numbers; the first numbers of `pairs` rise."""
+    ends: list[int] = []
+    tops: list[int] = []
+    before: list[int] = []
+    for place, (_, there) in enumerate(pairs):
+        at = bisect_left(ends, there)
+        before.append(tops[at - 1] if at else -1)
+        ends[at : at + 1], tops[at : at + 1] = [there], [place]
+    series = []
+    place = tops[-1] if tops else -1
+    while place >= 0:
+        series.append(pairs[place])
+        place = before[place]
+    return series[::-1]

@@ -1,0 +1,65 @@
+"""The words that a description has for each of its subjects: titles, labels, units, notes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fieldscribe.resolve.subject import Subject
+
+_WORD = re.compile(r"[^\W_]+|[%\u2030\u00b0\u03a9\u2126]")
+_SMALL_WORDS = re.compile(
+    "an?|and|are|as|at|be|by|for|from|in|is|it|of|on|or|that|the|this|to|was|with|als|am|auf|aus|bei|bis|das|de[mnrs]|die|"
+    "eine?[nr]?|ist|im|mit|oder|sind|und|vom|von|wird|zu[mr]?|\u00fcber|f\u00fcr"
+)
+"""What says nothing by itself; `not`, `nicht` and `kein` do."""
+_OF_ACCESS = {
+    "r": "r ro read only lesen nur lesend",
+    "w": "w wo write only schreiben nur schreibend",
+    "rw": "r w rw read write lesen schreiben",
+}
+
+
+def is_name(word: str) -> bool:
+    """Whether a word or sign says something by itself."""
+    return bool(_WORD.fullmatch(word)) and _SMALL_WORDS.fullmatch(word.casefold()) is None
+
+
+class Vocabulary:
+    """The words of each point, and those of everything else."""
+
+    def __init__(self, subject: Subject) -> None:
+        self._of_points: dict[str, set[str]] = {}
+        self._units: dict[str, tuple[str, str]] = {}
+        for resolved in subject.resolved:
+            draft = resolved.draft
+            words = _words_in([draft.get(key) for key in draft.keys])
+            words |= _words_in(subject.scope.named_enums.get(str(draft.get("enum")), ()))
+            words |= _words_in(_OF_ACCESS.get(str(draft.get("access")), ""))
+            words |= _words_in([erratum.node for erratum in subject.cited.get(resolved.point.name, ())])
+            self._of_points[resolved.point.item] = words
+            span = draft.span("unit")
+            self._units[resolved.point.item] = str(draft.get("unit", "")), f"{span.file}:{span.line}:{span.column}"
+        others = [value for file in subject.scope.files for key, value in file.items() if key != "points"]
+        self._of_others = _words_in(others)
+
+    def unit_of(self, subject: str) -> tuple[str, str]:
+        """The unit of a point, and where the description says it."""
+        return self._units.get(subject, ("", ""))
+
+    def has(self, word: str, subjects: Iterable[str]) -> bool:
+        """Whether the description has a word for one of these subjects."""
+        folded = word.casefold()
+        return any(folded in self._of_points.get(subject, self._of_others) for subject in subjects)
+
+
+def _words_in(value: Any) -> set[str]:
+    if isinstance(value, str):
+        return {match[0] for match in _WORD.finditer(value.casefold())}
+    if isinstance(value, Mapping):
+        return _words_in([*value.keys(), *value.values()])
+    if isinstance(value, Sequence):
+        return set().union(*map(_words_in, value))
+    return set()

@@ -1,0 +1,85 @@
+"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks, kinds of dashes."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from unicodedata import normalize
+
+LINE_BREAK = " \u23ce "
+"""Stands for the end of a line where words of several lines are shown."""
+_INVISIBLE = "\u00ad\u200b\u200c\u200d\u2060\ufeff"
+_DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
+_WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
+_AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
+_RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
+_HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
+_DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
+_BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
+
+
+class Words:
+    """The words of a text with the place of each: a name, a number, or one sign of punctuation."""
+
+    def __init__(self, text: str) -> None:
+        self.lines = text.splitlines()
+        self.texts: list[str] = []
+        self.line_of: list[int] = []
+        self.column_of: list[int] = []
+        self._first: list[int] = [0]
+        for number, line in enumerate(self.lines, 1):
+            if not _RULE.fullmatch(line):
+                self._add(number, line)
+            self._first.append(len(self.texts))
+
+    def _add(self, number: int, line: str) -> None:
+        marks = _HEADING_MARKS.match(line)
+        for match in _WORD.finditer(line, marks.end() if marks else 0):
+            written = match[0]
+            self.texts.append(written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN)))
+            self.line_of.append(number)
+            self.column_of.append(match.start() + 1)
+
+    def __len__(self) -> int:
+        return len(self.texts)
+
+    def of_line(self, line: int) -> range:
+        """The words of a line counted from 1; none outside the text."""
+        if not 1 <= line <= len(self.lines):
+            return range(len(self), len(self))
+        return range(self._first[line - 1], self._first[line])
+
+    def opens_line(self, word: int) -> bool:
+        """Whether a word is the first of its line; what stands behind the last word is."""
+        return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
+
+    def at(self, line: int, column: int) -> int:
+        """The word at a place, or the first one behind it."""
+        words = self.of_line(line)
+        return bisect_left(self.column_of, column, words.start, words.stop)
+
+    def is_minus(self, word: int) -> bool:
+        """Whether a word is the sign of the number behind it, and no dash between two."""
+        if self.texts[word] != "-" or word + 1 >= len(self) or not self.texts[word + 1][0].isdigit():
+            return False
+        line, column = self.lines[self.line_of[word] - 1], self.column_of[word]
+        return self.column_of[word + 1] == column + 1 and not line[column - 2 : column - 1].isalnum()
+
+    def shown(self, words: range) -> str:
+        """Words as the text writes them, with a slash between lines."""
+        if not words:
+            return ""
+        first, last = self.line_of[words[0]], self.line_of[words[-1]]
+        pieces = []
+        for number in range(first, last + 1):
+            inside = [word for word in self.of_line(number) if word in words]
+            if inside:
+                end = self.column_of[inside[-1]] - 1
+                match = _WORD.match(self.lines[number - 1], end)
+                pieces.append(self.lines[number - 1][self.column_of[inside[0]] - 1 : match.end() if match else end + 1])
+        return LINE_BREAK.join(pieces)
+
+
+def pressed(texts: list[str]) -> str:
+    """Words without the blanks and hyphens that only set them: two numbers stay apart."""
+    return _BLANK.sub("", _DASH_IN_WORD.sub("", " ".join(texts)))

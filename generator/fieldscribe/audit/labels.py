@@ -1,0 +1,136 @@
+"""Labels beside their numbers: the entries of an enum or of a word's flags, in the order of the description."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from itertools import product
+from typing import TYPE_CHECKING
+
+from fieldscribe.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.manual import Token
+    from fieldscribe.audit.passage import Passage
+
+
+_NEARLY_ALL = 0.75
+"""The share of labels that stand right behind their numbers, from which on all have to."""
+_LABEL = 1000
+"""A label weighs more than all numbers without one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where a label stands: its claim, its place in the passage, and the numbers that belong to it."""
+
+    claim: Claim
+    place: int
+    tokens: tuple[Token, ...]
+    end: int
+    """Where the next one may begin."""
+
+
+def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
+    """As many labels as stand beside their numbers, all on the same side of them, in one order.
+
+    A label may also stand apart from the list, before or behind all others.
+    """
+    numberings = (False, True) if any(claim.or_beside for claim in claims) else (False,)
+    tight = _best(claims, passage, product((False, True), numberings, (True,)))
+    loose = _best(claims, passage, product((False, True), numberings, (False,)))
+    if not tight or _weight(tight) < _NEARLY_ALL * _weight(loose):
+        return loose
+    listed = {label.claim for label in tight}
+    first, last = min(label.place for label in tight), max(label.place for label in tight)
+    others = (label for label in loose if label.claim.words and label.claim not in listed)
+    return [*tight, *(label for label in others if not first <= label.place <= last)]
+
+
+def _best(claims: Sequence[Claim], passage: Passage, ways: Iterable[tuple[bool, bool, bool]]) -> list[Standing]:
+    best: list[Standing] = []
+    for after, otherwise, tight in ways:
+        candidates = {claim: list(_candidates(claim, passage, after, otherwise, tight)) for claim in claims}
+        for backwards in (False, True):
+            ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
+            chain = _weightiest_chain([candidates[claim] for claim in ordered])
+            chain += _apart(chain, [candidates[claim] for claim in claims])
+            best = max(best, chain, key=_weight)
+            if len(best) == len(claims):
+                return best
+    return best
+
+
+def _weight(chain: Sequence[Standing]) -> int:
+    return sum(_LABEL if label.claim.words else 1 for label in chain)
+
+
+def _apart(chain: Sequence[Standing], rows: Iterable[Sequence[Standing]]) -> list[Standing]:
+    if not chain:
+        return []
+    listed = {label.claim for label in chain}
+    first, last = chain[0].place, chain[-1].place
+    others = (row for row in rows if row and row[0].claim.beside and row[0].claim not in listed)
+    outside = ([label for label in row if not first <= label.place <= last] for row in others)
+    return [labels[0] for labels in outside if labels]
+
+
+def _rank(claim: Claim, *, backwards: bool) -> tuple[int, int]:
+    entry, part = claim.entry or (0, 0)
+    return (-entry if backwards else entry, part)
+
+
+def _candidates(claim: Claim, passage: Passage, after: bool, otherwise: bool, tight: bool) -> Iterator[Standing]:
+    """Where a label may stand: behind its number or `after` it, beside that or the other one, right beside or not."""
+    wanted = claim.or_beside if otherwise and claim.or_beside else claim.beside
+    if not claim.words:
+        for token, start in zip(passage.tokens, passage.starts, strict=True):
+            if token.readings & claim.numbers:
+                yield Standing(claim, start, (token,), start + 1)
+    for first, end in sorted({place for words in claim.words for place in passage.places(words)}):
+        beside = passage.after(end) if after else passage.before(first)
+        if not wanted:
+            yield Standing(claim, first, tuple(passage.inside(first, end)), end)
+        elif beside is not None and beside.readings & wanted and not (tight and passage.is_apart(beside, first, end)):
+            yield Standing(claim, first, (beside, *passage.inside(first, end)), end)
+
+
+def _weightiest_chain(rows: Sequence[Sequence[Standing]]) -> list[Standing]:
+    """At most one of each row, at rising places: as many labels as there can be, and as many numbers beside."""
+    places = sorted({label.place for row in rows for label in row})
+    best: list[tuple[int, int]] = [(0, -1)] * (len(places) + 1)  # a tree: the best chain that ends before each place
+    links: list[tuple[Standing, int]] = []
+    for row in rows:
+        ends = []
+        for label in row:
+            rank = bisect_left(places, label.place)
+            weight, before = _best_before(best, rank)
+            links.append((label, before))
+            ends.append(
+                (bisect_left(places, label.end) - 1, weight + (_LABEL if label.claim.words else 1), len(links) - 1)
+            )
+        for rank, weight, link in ends:  # at once, so that one row never follows itself
+            _add(best, rank, (weight, link))
+    chain: list[Standing] = []
+    _, link = _best_before(best, len(places))
+    while link >= 0:
+        label, link = links[link]
+        chain.append(label)
+    return chain[::-1]
+
+
+def _best_before(best: list[tuple[int, int]], rank: int) -> tuple[int, int]:
+    result = best[0]
+    while rank > 0:
+        result = max(result, best[rank])
+        rank -= rank & -rank
+    return result
+
+
+def _add(best: list[tuple[int, int]], rank: int, end: tuple[int, int]) -> None:
+    rank += 1
+    while rank < len(best):
+        best[rank] = max(best[rank], end)
+        rank += rank & -rank

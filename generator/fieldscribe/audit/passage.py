@@ -1,0 +1,157 @@
+"""A piece of a manual's text as the claims read it: its numbers in order, and its letters without layout."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left, bisect_right
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from fractions import Fraction
+
+    from fieldscribe.audit.manual import Manual, Token
+
+_TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
+
+
+def letters_of(text: str) -> str:
+    """Letters and digits alone, in small letters: blanks, hyphens and line breaks are layout."""
+    return "".join(char for char in text.casefold() if char.isalnum())
+
+
+class Passage:
+    """Pieces of text, each with the line and column (from 0) where it begins."""
+
+    def __init__(self, manual: Manual, pieces: Iterable[tuple[int, int, str]]) -> None:
+        self.manual = manual
+        self.tokens: list[Token] = []
+        self.starts: list[int] = []
+        self.ends: list[int] = []
+        self.pieces = list(pieces)
+        texts: list[str] = []
+        length = 0
+        for line, column, text in self.pieces:
+            for token in manual.tokens_in(text, line, column):
+                self.tokens.append(token)
+                self.starts.append(length + token.column - 1 - column)
+                self.ends.append(self.starts[-1] + len(token.text))
+            texts.append(text)
+            length += len(text) + 1
+        self.text = "\n".join(texts)
+
+    @cached_property
+    def _letters(self) -> tuple[str, list[int]]:
+        """The letters, and where each stands in the text."""
+        shown = _TAG.sub(lambda tag: " " * len(tag[0]), self.text)
+        letters, places = [], []
+        for place, char in enumerate(shown):
+            if char.isalnum():
+                for letter in char.casefold():
+                    letters.append(letter)
+                    places.append(place)
+        return "".join(letters), places
+
+    def places(self, words: str) -> Iterator[tuple[int, int]]:
+        """Where words stand by themselves: first place and the place behind the last letter."""
+        wanted = letters_of(words)
+        letters, places = self._letters
+        at = letters.find(wanted) if wanted else -1
+        while at >= 0:
+            first, last = places[at], places[at + len(wanted) - 1]
+            if self._opens(first, wanted) and self._closes(last):
+                yield first, last + 1
+            at = letters.find(wanted, at + 1)
+
+    def _opens(self, place: int, wanted: str) -> bool:
+        """Whether a word may begin here: tables lose their gaps, and a capital or a digit tells where a cell began."""
+        before, char = self.text[place - 1 : place] if place else "", self.text[place]
+        glued = char.isupper() or (char.isdigit() and before.isalpha() and not wanted.isdigit())
+        return not before.isalnum() or glued
+
+    def _closes(self, place: int) -> bool:
+        char, after = self.text[place], self.text[place + 1 : place + 2]
+        return not after.isalnum() or (char.isalpha() and (after.isdigit() or after.isupper()))
+
+    def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
+        """What stands behind each number of one's own, up to the next number of others."""
+        cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
+        spans = [
+            (self.starts[at], self.starts[following] if following is not None else len(self.text))
+            for at, following in zip(cuts, (*cuts[1:], None), strict=False)
+            if self.tokens[at].readings & own
+        ]
+        pieces = []
+        start = 0
+        for line, column, text in self.pieces:
+            for first, end in spans:
+                inside = text[max(0, first - start) : max(0, end - start)]
+                if inside:
+                    pieces.append((line, column + max(0, first - start), inside))
+            start += len(text) + 1
+        return Passage(self.manual, pieces)
+
+    def pieces_of_bytes(self, digits: str) -> Iterator[tuple[int, int]]:
+        """Where these digits stand in one piece, blanks aside; in place of a checksum may stand a word."""
+        for pattern in (digits, f"{digits[:-4]}(?=CRC)"):
+            spaced = r"\s*".join(re.findall(r"[0-9A-F]|\(.*\)", pattern))
+            for match in re.finditer(spaced, self.text, re.IGNORECASE):
+                yield match.span()
+
+    def overlapping(self, first: int, end: int) -> list[Token]:
+        """The numbers of which a part stands between two places."""
+        return self.tokens[bisect_right(self.ends, first) : bisect_left(self.starts, end)]
+
+    def inside(self, first: int, end: int) -> list[Token]:
+        """The numbers that stand in a part of the text."""
+        return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
+
+    def before(self, place: int) -> Token | None:
+        """The last number that ends before a place."""
+        at = bisect_right(self.ends, place)
+        return self.tokens[at - 1] if at else None
+
+    def after(self, place: int) -> Token | None:
+        """The first number from a place on."""
+        at = bisect_left(self.starts, place)
+        return self.tokens[at] if at < len(self.tokens) else None
+
+    def is_apart(self, token: Token, first: int, end: int) -> bool:
+        """Whether letters stand between a number and words from first to end."""
+        at = self.tokens.index(token)
+        between = self.text[self.ends[at] : first] if self.starts[at] < first else self.text[end : self.starts[at]]
+        return any(map(str.isalnum, self.manual.without_names(_TAG.sub("", between))))
+
+    def reading(self, numbers: frozenset[Fraction]) -> list[Token]:
+        """The numbers that can mean one of these."""
+        return [token for token in self.tokens if token.readings & numbers]
+
+    def behind_names(self, names: tuple[str, ...]) -> list[Token]:
+        """The numbers that stand right behind one of these names, as in `Mux 3`."""
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})\s*(?=[0-9])"
+        return [
+            token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
+        ]
+
+    def joins(self, names: tuple[str, ...]) -> bool:
+        """Whether the passage writes such a name and a number in one word, as in `PZD2`."""
+        return re.search(rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})[0-9]+(?!\w)", self.text) is not None
+
+    @cached_property
+    def in_first_cell(self) -> list[Token]:
+        """The numbers in the first cell of each row; all where there are no cells."""
+        cells = [match.span() for match in re.finditer(r"^\|?[^|\t\n]*(?=[|\t])", self.text, re.MULTILINE)]
+        return [token for first, end in cells for token in self.inside(first, end)] if cells else self.tokens
+
+    def is_followed_by(self, token: Token, words: str) -> bool:
+        """Whether words stand right behind a number, such as its unit."""
+        at = next(end for other, end in zip(self.tokens, self.ends, strict=True) if other is token)
+        return self.text[at : at + len(words) + 2].lstrip().startswith(words)
+
+    def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
+        """Each run of numbers that follow each other as these do, with no other number between them."""
+        for at in range(len(self.tokens) - len(numbers) + 1):
+            run = self.tokens[at : at + len(numbers)]
+            if all(token.readings & wanted for token, wanted in zip(run, numbers, strict=True)):
+                yield run

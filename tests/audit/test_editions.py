@@ -1,0 +1,347 @@
+"""A manual that changed: its lines are explained or reported, their numbers written anew, and it is accepted."""
+
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.audit.editions.changes import Editions
+from fieldscribe.cli import main
+from support.described import write
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+OLD = """# Heat pump HP 12
+
+Edition 2024-03, with Soll-wert „Vorlauf-Temperatur“ in words.
+
+## Registers
+
+| Code | Title | Register | Access | Range | Step |
+|------|-------|----------|--------|-------|------|
+| H01 | Flow temperature | 0010h | R | -40-900 | 0.1 °C |
+| H02 | Target temperature | 0011h | R/W | 200-550 | 0.1 °C |
+| H03 | Mode | 0012h | R/W | 0 off, 1 heating, 2 cooling | |
+| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |
+| H06 | Pump delay | 0061h | R/W | 3-30 | 1 s |
+
+Cooling needs the cooling kit 4711.
+
+## Frames
+
+Setting 40.5 degrees: 01 06 00 11 01 95 18 30
+
+## Wiring
+
+Pin 1 shield
+Pin 2 plus
+"""
+DEVICE = """fieldscribe: 1
+device: audited
+version: 1.0.0
+vendor: Example
+model: HP 12
+title: {en: Heat pump}
+family: modbus
+documents:
+  manual:
+    {title: Heat pump HP 12, language: en, file: old.txt, sha256: SHA, names: [HP 12], access: {r: [R], rw: [R/W]}}
+bus: {framings: [rtu], units: 1..247, functions: {03h: read_holding_registers, 06h: write_register}}
+looked_through:
+- {lines: 1..3, why: Title.}
+- {lines: 21..24, why: Wiring.}
+- {lines: [15, 19], numbers: [4711, 40.5], why: The kit and the example.}
+frames:
+- {name: write_target, line: 19, direction: request, bytes: 01 06 00 11 01 95 18 30}
+errata:
+- id: pump_delay_register            # a comment names line 13
+  point: H06
+  line: 13
+  printed: {wire: 0061h}
+  taken: {wire: 0016h}
+  why: "It follows 0015h (line 12)."
+  certainty: likely
+- id: flow_word
+  where: title page
+  line: 3
+  printed: "It says „Vorlauf-Temperatur“."
+  taken: Flow temperature
+  why: So says the table from line 9 on.
+  certainty: certain
+---
+group: main
+space: holding
+access: rw
+source: {document: manual, section: Registers}
+points:
+- {code: H01, name: flow_temperature, at: 0010h, access: r, type: s16,
+   range: -40..900, scale: value = raw * 0.1, unit: °C, line: 9}
+- code: H02
+  name: target_temperature
+  at: 0011h
+  range: 200..550   # raw
+  scale: value = raw * 0.1
+  unit: °C
+  line: 10
+- code: H03
+  name: mode
+  at: 0012h
+  enum:
+    0: "off"
+    1: {name: heating, en: heating}
+    2: {name: cooling, en: cooling}
+  line: 11
+  lines: {range: 11..11}
+  note: Cooling needs a kit, see line 15.
+- {code: H05, name: hysteresis, at: 0015h, range: 1..50, scale: value = raw * 0.1, unit: °C, line: 12}
+- {code: H06, name: pump_delay, at: 0016h, range: 3..30, unit: s, line: 13, printed: {wire: 0061h}}
+"""
+
+
+class Described:
+    """The description in a folder, and both editions beside it."""
+
+    def __init__(self, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        self.folder, self.capsys = folder, capsys
+        (folder / "old.txt").write_text(OLD, "utf-8")
+        write(folder / "audited", DEVICE.replace("SHA", sha256(OLD.encode()).hexdigest()))
+        self.file = folder / "audited" / "device.yaml"
+
+    @property
+    def text(self) -> str:
+        """The description as it is now."""
+        return self.file.read_text("utf-8")
+
+    def edit(self, old: str, new: str) -> None:
+        """Change one place of the description."""
+        assert self.text.count(old) == 1, old
+        self.file.write_text(self.text.replace(old, new), "utf-8")
+
+    def line_of(self, snippet: str) -> int:
+        """The line of the description where a text stands."""
+        return self.text[: self.text.index(snippet)].count("\n") + 1
+
+    def audit(self, new: str, *arguments: str) -> tuple[int, dict[str, Any]]:
+        """Hold it against another edition; exit code and report."""
+        (self.folder / "new.txt").write_text(new, "utf-8")
+        files = ["--manual", str(self.folder / "new.txt"), "--old", str(self.folder / "old.txt")]
+        code = main(["audit", str(self.folder / "audited"), *files, "--format", "json", *arguments])
+        return code, json.loads(self.capsys.readouterr().out)
+
+    def audit_alone(self, new: str) -> dict[str, Any]:
+        """The plain audit against one text."""
+        (self.folder / "new.txt").write_text(new, "utf-8")
+        main(["audit", str(self.folder / "audited"), "--manual", str(self.folder / "new.txt"), "--format", "json"])
+        report: dict[str, Any] = json.loads(self.capsys.readouterr().out)
+        return report
+
+
+@pytest.fixture
+def described(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Described:
+    return Described(tmp_path, capsys)
+
+
+def _reflowed(text: str) -> str:
+    """Every table as tabs, cells of one as lines of their own, longer sentences over two lines."""
+    lines = []
+    for number, line in enumerate(text.splitlines()):
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if line.startswith("|--"):
+            continue
+        lines += cells if number == 9 else ["\t".join(cells)] if line.startswith("|") else [line]
+    return "\n".join(lines).replace("needs the", "needs\nthe").replace("degrees: ", "degrees:\n")
+
+
+def _without(line: str) -> str:
+    return OLD.replace(line + "\n", "")
+
+
+_FRAMES = OLD[OLD.index("## Frames") : OLD.index("## Wiring")]
+_LAYOUTS = {
+    "the same": OLD,
+    "padding": OLD.replace(" | ", "    |  ").replace("Pin 1", "Pin   1"),
+    "blank lines": OLD.replace("\n## ", "\n\n\n\n## "),
+    "tables reflowed": _reflowed(OLD),
+    "cells joined": OLD.replace("| R/W | 1-50 |", "| R/W 1-50 |"),
+    "cells split": OLD.replace("| 0 off, 1 heating,", "| 0 | off, | 1 heating,"),
+    "a section moved": OLD.replace(_FRAMES, "") + "\n" + _FRAMES,
+    "other dashes": OLD.replace("200-550", "200\u2013550").replace("Soll-wert", "Soll\u00adwert"),
+    "a word parted": OLD.replace("cooling kit", "cool-\ning kit"),
+    "soft spaces": OLD.replace("0.1 °C", "0.1\u00a0°C"),
+    "a sentence that holds nothing": OLD.replace("Pin 1", "Mind the colours.\n\nPin 1"),
+}
+
+
+@pytest.mark.parametrize("new", _LAYOUTS.values(), ids=_LAYOUTS)
+def test_another_layout_is_no_change(new: str, described: Described) -> None:
+    code, report = described.audit(new)
+    unexplained = [finding for finding in report["findings"] if not finding["explained"]]
+    assert (code, unexplained, report["elsewhere"], report["void_errata"]) == (0, [], [], [])
+
+
+CHANGES = [
+    # old, new, kind, a reason, and what stands at its place in the description
+    ("200-550", "200-600", "changed", "range 200..550 is not there", "range: 200..550"),
+    ("200-550", "200-600", "changed", "is `600`", "code: H02"),
+    ("-40-900", "40-900", "changed", "without a minus sign", "range: -40..900"),
+    ("Target temperature | 0011h | R/W", "Target temperature | 0011h | R", "changed", "access", "access: rw"),
+    ("0.1 °C |\n| H06", "0.1 K |\n| H06", "changed", "unit °C is not there", "name: hysteresis"),
+    ("1 heating, 2 cooling", "1 cooling, 2 heating", "changed", "1 = ", "1: {name: heating"),
+    ("2 cooling |", "2 cooling, 3 defrosting |", "changed", "is `defrosting`", "code: H03"),
+    ("0 off, ", "", "changed", "enum", '0: "off"'),
+    ("| H05 |", "| H07 |", "changed", "code H05 is not there", "code: H05"),
+    ("01 95 18 30", "01 95 18 31", "changed", "bytes", "name: write_target"),
+    ("kit 4711", "kit 4712", "changed", "nothing cites line 15: `4712`", ""),
+    ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", "", "removed", "which is gone", "name: hysteresis"),
+    ("| H06", "| H09 | New | 0019h | R/W | 0-9 | 1 s |\n| H06", "added", "is `0019h`", "name: hysteresis"),
+    ("## Wiring", "## Timing\n\nWait for 20 ms.\n\n## Wiring", "added", "nothing cites line 23: `20`", ""),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=[change[1][:24] for change in CHANGES])
+def test_a_change_is_reported_with_its_place(change: tuple[str, ...], described: Described) -> None:
+    old, new, kind, reason, snippet = change
+    assert OLD.count(old) == 1
+    code, report = described.audit(OLD.replace(old, new))
+    found = [finding for finding in report["findings"] if not finding["explained"]]
+    assert (code, {finding["kind"] for finding in found}) == (1, {kind})
+    places = [said["place"] for finding in found for said in finding["reasons"] if reason in said["text"]]
+    assert places, [said["text"] for finding in found for said in finding["reasons"]]
+    if snippet:
+        assert f"device.yaml:{described.line_of(snippet)}:" in places[0]
+
+
+def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
+    row = "| H09 | Night setback | 0019h | R | 0-100 | 0.5 °C |\n"
+    new = OLD.replace("| H06", row + "| H06")
+    _, report = described.audit(new)
+    [draft] = [draft for finding in report["findings"] for draft in finding["drafts"]]
+    assert draft["line"] == 13
+    assert draft["yaml"].splitlines() == [
+        "- code: H09",
+        "  name: night_setback",
+        "  title: {en: Night setback}",
+        "  at: 0019h",
+        "  access: r",
+        "  range: 0..100",
+        "  scale: value = raw * 0.5",
+        '  unit: "°C"',
+        "  line: 13",
+    ]
+    described.file.write_text(described.text + draft["yaml"] + "\n", "utf-8")
+    code, report = described.audit(new)
+    assert (code, report["explained"]) == (0, True), report
+
+
+def test_a_corrected_misprint_says_which_erratum_is_corrected(described: Described) -> None:
+    new = OLD.replace("0061h", "0016h")
+    code, report = described.audit(new)
+    [void] = report["void_errata"]
+    assert (code, void["erratum"], void["is_corrected"]) == (1, "pump_delay_register", True)
+    assert f"device.yaml:{described.line_of('id: pump_delay')}:" in void["place"]
+    start, end = described.text.index("- id: pump_delay"), described.text.index("- id: flow_word")
+    described.file.write_text(described.text[:start] + described.text[end:], "utf-8")
+    described.edit(", printed: {wire: 0061h}", "")
+    assert described.audit(new)[0] == 0
+
+
+def test_an_erratum_that_quotes_layout_is_void_with_it(described: Described) -> None:
+    code, report = described.audit(OLD.replace("Vorlauf-Temperatur", "Vorlauftemperatur"))
+    assert (code, [void["erratum"] for void in report["void_errata"]]) == (1, ["flow_word"])
+
+
+def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
+    """Five lines more at the top: then the plain audit finds nothing, and nothing moved; the edition is accepted."""
+    new = "\n\n\n\n\n" + OLD
+    before = described.text
+    code, report = described.audit(new, "--renumber")
+    assert (code, report["renumbered"]) == (0, True)
+    after = described.text
+    for old, now in (
+        ("lines: 1..3", "lines: 6..8"), ("lines: 21..24", "lines: 26..29"), ("lines: [15, 19]", "lines: [20, 24]"),
+        ("line: 19,", "line: 24,"), ("  line: 13\n", "  line: 18\n"), ("(line 12)", "(line 17)"),
+        ("  line: 3\n", "  line: 8\n"),
+        ("from line 9 on", "from line 14 on"), ("°C, line: 9}", "°C, line: 14}"), ("  line: 10\n", "  line: 15\n"),
+        ("  line: 11\n", "  line: 16\n"), ("range: 11..11", "range: 16..16"), ("see line 15", "see line 20"),
+        ("line: 12}", "line: 17}"), ("unit: s, line: 13,", "unit: s, line: 18,"),
+    ):  # fmt: skip
+        assert before.count(old) == 1, old
+        before = before.replace(old, now)
+    assert after == before
+    assert "a comment names line 13, which is 18 now" in report["written"][0]
+    alone = described.audit_alone(new)
+    assert (alone["missing"], alone["moved"], alone["errata_not_printed"]) == ([], [], [])
+    assert described.audit(new, "--renumber")[1]["written"] == ["renumbered: 0 lines in 0 files"]
+    code, report = described.audit(new, "--accept")
+    assert (code, report["refused"]) == (0, None)
+    assert described.text == after.replace(sha256(OLD.encode()).hexdigest(), sha256(new.encode()).hexdigest())
+    assert described.audit_alone(new)["same_text"] is True
+
+
+def test_what_was_looked_through_takes_in_no_new_lines(described: Described) -> None:
+    described.audit(OLD.replace("Pin 2", "Pin 3 earth\nPin 2"), "--renumber")
+    assert "lines: [21..23, 25], why: Wiring." in described.text
+
+
+REFUSALS = [
+    (OLD.replace("200-550", "200-600"), ("--accept",), 1, "not everything in the new edition is explained"),
+    ("\n" + OLD, ("--accept",), 1, "--renumber comes first"),
+    ("\n" + OLD, ("--renumber", "--accept"), 0, None),
+]
+
+
+@pytest.mark.parametrize(("new", "arguments", "code", "refused"), REFUSALS)
+def test_accepting(new: str, arguments: tuple[str, ...], code: int, refused: str | None, described: Described) -> None:
+    before = described.text
+    found, report = described.audit(new, *arguments)
+    assert found == code
+    assert (report["refused"] is None) == (refused is None)
+    assert refused is None or refused in report["refused"]
+    assert (described.text == before) == bool(refused)
+
+
+def test_nothing_is_renumbered_where_a_cited_line_is_gone(
+    described: Described, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (described.folder / "new.txt").write_text(_without(OLD.splitlines()[11]), "utf-8")
+    before = described.text
+    files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
+    assert main(["audit", str(described.folder / "audited"), *files, "--renumber"]) == 1
+    assert "line 12 is gone" in capsys.readouterr().err
+    assert described.text == before
+
+
+def test_the_whole_way(described: Described) -> None:
+    """Edited before it is renumbered: what was pasted counts the lines of the new edition already."""
+    row = "| H09 | Night setback | 0019h | R | 0-100 | 0.5 °C |\n"
+    new = "Second series.\n\n" + OLD.replace("200-550", "200-600").replace("| H06", row + "| H06")
+    code, report = described.audit(new)
+    assert code == 1
+    [draft] = [draft for finding in report["findings"] for draft in finding["drafts"]]
+    described.edit("range: 200..550", "range: 200..600")
+    described.file.write_text(described.text + draft["yaml"] + "\n", "utf-8")
+    assert described.audit(new)[0] == 0
+    assert described.audit(new, "--renumber")[0] == 0
+    assert described.text.endswith("  line: 15\n")
+    assert described.audit_alone(new)["moved"] == []
+    assert described.audit(new, "--accept")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "kinds"),
+    [
+        ("a 1\nb 2\nc 3", "a 1\nb 2\nc 3", []),
+        ("a 1 2", "a 12", ["changed"]),
+        ("a 1 b 2", "a 1 b\n2", []),
+        ("x -4", "x 4", ["changed"]),
+        ("x 4 - 9", "x 4\u20139", []),
+        ("one 1\ntwo 2\n", "one 1\nthree 3\ntwo 2\n", ["added"]),
+        ("one 1\nthree 3\ntwo 2\n", "one 1\ntwo 2\n", ["removed"]),
+        ("a b c d 1\ne f g h 2\ni j k l 3", "e f g h 2\ni j k l 3\na b c d 1", []),
+    ],
+)
+def test_lines_of_two_texts(old: str, new: str, kinds: list[str]) -> None:
+    assert [change.kind for change in Editions(old, new).changes] == kinds

@@ -1,0 +1,72 @@
+"""The page on a changed manual is walked as it stands there: its files, its edits, its commands and what they print.
+
+After a change of wording, look at what `FIELDSCRIBE_ACCEPT=1 pytest tests/audit/test_new_edition_page.py` makes of it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+from typing import TYPE_CHECKING
+
+from fieldscribe.cli import main
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pytest
+
+PAGE = ROOT / "descriptions" / "new-edition.md"
+BLOCK = re.compile(r"(?:`(?P<name>[\w./]+)`:\n\n)?^```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def test_the_page_is_walked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = PAGE.read_text("utf-8")
+
+    def walked(block: re.Match[str]) -> str:
+        name, kind, text = block["name"], block["kind"], block["text"]
+        if name:
+            (tmp_path / name).parent.mkdir(exist_ok=True)
+            (tmp_path / name).write_text(text, "utf-8")
+        elif kind == "diff":
+            _edit(tmp_path, text)
+        elif kind == "console":
+            command = text.splitlines()[0]
+            if command == "$ cp -r heat_pump before":
+                shutil.copytree("heat_pump", "before")
+                return block[0]
+            code = main(shlex.split(command.removeprefix("$ fieldscribe ")))
+            printed = capsys.readouterr().out
+            if "generate" in command:  # how many files there are is told elsewhere
+                return block[0]
+            findings = any(words in printed for words in ("not explained", "not accepted", "## "))
+            assert code == findings, printed
+            return f"```console\n{command}\n{printed}```"
+        return block[0]
+
+    seen = BLOCK.sub(walked, page)
+    if os.environ.get("FIELDSCRIBE_ACCEPT"):
+        PAGE.write_text(seen, "utf-8")
+    assert seen == PAGE.read_text("utf-8")
+    assert list((tmp_path / "bindings").iterdir())
+
+
+def _edit(folder: Path, text: str) -> None:
+    """Carry out an edit: the lines with a minus become those with a plus."""
+    head, *lines = text.splitlines()
+    place = folder / head.removeprefix("--- ")
+    old = "".join(f"{line[1:]}\n" for line in lines if line.startswith("-"))
+    new = "".join(f"{line[1:]}\n" for line in lines if line.startswith("+"))
+    before = place.read_text("utf-8")
+    assert before.count(old) == 1, old
+    place.write_text(before.replace(old, new), "utf-8")
+
+
+def test_the_first_page_names_it() -> None:
+    assert "(new-edition.md)" in (ROOT / "descriptions" / "README.md").read_text("utf-8")

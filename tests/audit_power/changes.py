@@ -1,0 +1,217 @@
+"""One changed fact: what a new edition may print in place of what a claim needs."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.instead import printed_access
+from fieldscribe.audit.labels import standing
+from fieldscribe.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from random import Random
+
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.comparison import Comparison
+    from fieldscribe.audit.labels import Standing
+    from fieldscribe.audit.manual import Token
+
+_CELL = re.compile(r"[^|\t]+")
+_WORDS = ("Sollwert", "gesperrt", "Pumpe", "Notbetrieb", "Wartung", "Vorlauf", "dritte", "umgekehrt")
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """Lines of a manual as another edition prints them: which, from 0, and their new text; None takes a line out."""
+
+    kind: str
+    claim: Claim
+    lines: tuple[tuple[int, str | None], ...]
+    shown: str
+
+    def text(self, lines: Sequence[str]) -> str:
+        """The whole edition."""
+        new = dict(self.lines)
+        return (
+            "\n".join(line for number, text in enumerate(lines) if (line := new.get(number, text)) is not None) + "\n"
+        )
+
+
+class Changes:
+    """Finds what a claim needs in the text that was transcribed, and changes it."""
+
+    def __init__(self, sound: Comparison, random: Random) -> None:
+        self.sound, self.random = sound, random
+        self.lines = sound.manual.lines
+        self.lists: dict[tuple[str, str, object], list[Claim]] = {}
+        for claim in sound.claims:
+            if claim.entry is not None:
+                self.lists.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
+
+    def of(self, claim: Claim) -> Change | None:
+        """One of the changes that the claim can have; None if nothing of it is printed where it is cited."""
+        ways = [self._number, self._words, self._swap, self._added_entry, self._access, self._bytes, self._row]
+        self.random.shuffle(ways)
+        ways.sort(key=self._row.__eq__)  # a row is taken out where nothing else can be changed, or by chance
+        if self.random.random() < 0.05:
+            ways.insert(0, self._row)
+        return next((change for way in ways if (change := way(claim)) is not None), None)
+
+    def _tokens(self, claim: Claim) -> Iterator[Token]:
+        for cited in claim.cited:
+            passage = self.sound.passage(self.sound.extent(*cited))
+            if claim.in_order and (runs := list(passage.in_order(claim.in_order))):
+                yield from (token for run in runs for token in run)
+            elif claim.beside:
+                for label in self._labels(claim, cited):
+                    yield label.tokens[0]
+            else:
+                yield from passage.reading(claim.numbers)
+
+    def _labels(self, claim: Claim, cited: tuple[int, int]) -> list[Standing]:
+        together = self.lists.get((claim.subject, claim.fact, claim.cited), [claim])
+        labels = standing(together, self.sound.passage(self.sound.extent(*cited)))
+        return [label for label in labels if label.claim == claim]
+
+    def _number(self, claim: Claim) -> Change | None:
+        tokens = [token for token in self._tokens(claim) if token.line not in self.sound.empty]
+        if not tokens:
+            return None
+        token = self.random.choice(tokens)
+        line = self.lines[token.line - 1]
+        new = self._other_number(token, line)
+        at = token.column - 1
+        return self._line("number", claim, token.line, line[:at] + new + line[at + len(token.text) :], token.text, new)
+
+    def _other_number(self, token: Token, line: str) -> str:
+        others = [other.text for other in self.sound.manual.tokens_in(line, 1) if not other.readings & token.readings]
+        if others and self.random.random() < 0.25:
+            return self.random.choice(others)
+        places = [at for at, char in enumerate(token.text) if char.isdigit() and not token.text[at:].startswith("0x")]
+        at = self.random.choice(places or [0])
+        digit = self.random.choice([char for char in "123456789" if char != token.text[at]])
+        return token.text[:at] + digit + token.text[at + 1 :]
+
+    def _place_of_words(self, claim: Claim) -> tuple[int, int, int] | None:
+        """Line, column and end of words that stand on one line."""
+        places = []
+        for cited in claim.cited:
+            extent = self.sound.extent(*cited)
+            passage = self.sound.passage(extent)
+            if claim.entry is not None or claim.beside or claim.fact == "title":
+                starts = {label.place for label in self._labels(claim, cited)}
+                spans = [span for word in claim.words for span in passage.places(word) if span[0] in starts]
+            else:
+                spans = [
+                    (at.start(), at.end()) for word in claim.words for at in re.finditer(_alone(word), passage.text)
+                ]
+            whole = "\n".join(self.lines[extent.first - 1 : extent.last])
+            for first, end in spans:
+                if end <= len(whole) and "\n" not in whole[first:end]:
+                    line = whole.count("\n", 0, first)
+                    start = whole.rfind("\n", 0, first) + 1
+                    places.append((extent.first + line, first - start, end - start))
+        return self.random.choice(places) if places else None
+
+    def _words(self, claim: Claim) -> Change | None:
+        place = self._place_of_words(claim) if claim.words and claim.fact not in ("access", "section") else None
+        if place is None:
+            return None
+        number, first, end = place
+        line = self.lines[number - 1]
+        old = line[first:end]
+        if claim.fact == "code":
+            digits = [at for at, char in enumerate(old) if char.isdigit()]
+            if not digits:
+                return None
+            at = self.random.choice(digits)
+            new = old[:at] + self.random.choice([d for d in "123456789" if d != old[at]]) + old[at + 1 :]
+            return self._line("code", claim, number, line[:first] + new + line[end:], old, new)
+        other = self.random.choice([word for word in _WORDS if word.lower() not in old.lower()])
+        words = old.split()
+        words[self.random.randrange(len(words))] = other
+        new = " ".join(words)
+        kind = "title" if claim.fact == "title" else "label"
+        return self._line(kind, claim, number, line[:first] + new + line[end:], old, new)
+
+    def _swap(self, claim: Claim) -> Change | None:
+        together = self.lists.get((claim.subject, claim.fact, claim.cited), [])
+        others = [other for other in together if not set(other.words) & set(claim.words)]
+        mine = self._place_of_words(claim) if others else None
+        theirs = self._place_of_words(self.random.choice(others)) if others else None
+        if mine is None or theirs is None or (mine[0] == theirs[0] and mine[1] < theirs[2] and theirs[1] < mine[2]):
+            return None
+        one, two = self.lines[mine[0] - 1][mine[1] : mine[2]], self.lines[theirs[0] - 1][theirs[1] : theirs[2]]
+        if one == two:
+            return None
+        edits = sorted([(*mine, two), (*theirs, one)], reverse=True)
+        new = {number: self.lines[number - 1] for number, *_ in edits}
+        for number, first, end, words in edits:
+            new[number] = new[number][:first] + words + new[number][end:]
+        return Change("swap", claim, tuple((number - 1, text) for number, text in new.items()), f"{one} <> {two}")
+
+    def _added_entry(self, claim: Claim) -> Change | None:
+        together = self.lists.get((claim.subject, claim.fact, claim.cited), [])
+        if claim.fact != "enum" or not together or claim != together[-1]:
+            return None
+        place = self._place_of_words(claim)
+        if place is None:
+            return None
+        number, _, end = place
+        line = self.lines[number - 1]
+        highest = max(int(reading) for other in together for reading in other.beside)
+        new = f" {highest + 1:02} .. {self.random.choice(_WORDS)}"
+        return self._line("entry added", claim, number, line[:end] + new + line[end:], "", new)
+
+    def _access(self, claim: Claim) -> Change | None:
+        if claim.fact != "access" or not claim.rivals:
+            return None
+        number = self.sound.extent(*claim.cited[0]).first
+        line = self.lines[number - 1]
+        printed = printed_access(claim, line)
+        if not printed:
+            return None
+        new = self.random.choice(claim.rivals)
+        at = re.search(_alone(printed[0]) if printed[0].isalnum() else re.escape(printed[0]), line)
+        assert at is not None
+        return self._line("access", claim, number, line[: at.start()] + new + line[at.end() :], printed[0], new)
+
+    def _bytes(self, claim: Claim) -> Change | None:
+        if claim.fact != "bytes":
+            return None
+        wanted = [claim.shown[at : at + 2] for at in range(0, len(claim.shown), 2)]
+        rows = [line for cited in claim.cited for line in self._lines_of(cited) if line not in self.sound.empty]
+        spots = [
+            (number, match.start(), match[0])
+            for number in rows
+            for match in re.finditer(r"(?<![0-9A-Fa-f])(?:0x)?(?:[0-9A-F]{2})+(?![0-9A-Za-z])", self.lines[number - 1])
+            if match[0][-2:] in wanted
+        ]
+        if not spots:
+            return None
+        number, at, old = self.random.choice(spots)
+        new = old[:-1] + self.random.choice([digit for digit in "0123456789ABCDEF" if digit != old[-1]])
+        line = self.lines[number - 1]
+        return self._line("bytes", claim, number, line[:at] + new + line[at + len(old) :], old, new)
+
+    def _lines_of(self, cited: tuple[int, int]) -> range:
+        extent = self.sound.extent(*cited)
+        return range(extent.first, extent.last + 1)
+
+    def _row(self, claim: Claim) -> Change | None:
+        number = self.sound.extent(*claim.cited[0]).first
+        line = self.lines[number - 1]
+        if not self.sound.manual.is_row(number):
+            return None
+        return Change("row deleted", claim, ((number - 1, None),), line.strip()[:50])
+
+    def _line(self, kind: str, claim: Claim, number: int, text: str, old: str, new: str) -> Change | None:  # noqa: PLR0917
+        if text == self.lines[number - 1]:
+            return None
+        return Change(kind, claim, ((number - 1, text),), f"line {number}: {old} > {new}")
+
+
+def _alone(word: str) -> str:
+    return rf"(?<!\w){re.escape(word)}(?!\w)"
