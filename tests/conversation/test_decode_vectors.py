@@ -78,7 +78,10 @@ def test_answers_of_uss(device: Device) -> None:
         if status != "ok":
             continue
         options = chosen(request=sent.hex(), pkw=link.pkw, pzd=link.pzd, single_first=link.single_first)
-        heard = decode(device, {}, [one["bytes"].hex()], options)[-1]
-        holds(one, heard, one["status"] in ("ok", "refused", "no_rights", "no_answer"))
+        replies = decode(device, {}, [one["bytes"].hex()], options)[1:]
+        if len(replies) > 1:  # sound telegrams one behind the other are told apart
+            assert one["status"] == "wrong_length"
+            continue
+        holds(one, replies[-1], one["status"] in ("ok", "refused", "no_rights", "no_answer"))
         judged.add(one["status"])
     assert {"ok", "refused", "no_rights", "wrong_check", "wrong_response", "wrong_parameter", "wrong_unit"} <= judged

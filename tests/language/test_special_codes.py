@@ -199,14 +199,18 @@ def test_a_real_drive_is_switched_off_by_name(capsys: Any) -> None:
 def test_export_lists_codes() -> None:
     exported: Any = json.loads(json.dumps(export_model(device())))
     points = {one["name"]: one for one in exported["points"]}
-    assert exported["format"] == 3
-    assert points["temperature"]["special"] == [
+    assert exported["format"] == 4
+    assert [
+        {key: value for key, value in code.items() if key != "title"} for code in points["temperature"]["special"]
+    ] == [
         {"raw": [-32768, -32768], "name": "not_available", "no_value": True, "writable": False},
         {"raw": [32766, 32766], "name": "out_of_order", "no_value": False, "writable": False},
     ]
+    assert points["temperature"]["special"][0]["title"] == {"en": "Not available", "de": "Nicht verfügbar"}
     assert points["lower_limit"]["special"][1] == {
         "raw": [4100, 4103],
         "name": "by_input",
+        "title": {"en": "By input"},
         "no_value": False,
         "writable": True,
     }

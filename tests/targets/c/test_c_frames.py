@@ -605,6 +605,7 @@ void start(void)
     int16_t raw = 0;
     int64_t count = 0;
     const kitchen_uss_main_setpoint_with setpoint = {0U, reference};
+    const kitchen_uss_main_actual_value_with actual_value = {0U, reference};
     result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, &setpoint, &raw);
     result += (int32_t)fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
         fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words, 2U),
@@ -616,7 +617,7 @@ void start(void)
     result += (int32_t)fieldscribe_take_s16(kitchen_uss_main_actual_value_frame.layout,
         fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, words, 2U),
         kitchen_uss_main_actual_value_frame.heard.words, &raw);
-    result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, &setpoint, &count);
+    result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, &actual_value, &count);
     shown = count;
     for (;;) {
     }

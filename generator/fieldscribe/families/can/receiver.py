@@ -35,7 +35,7 @@ class Receiver:
         self._clock = 0
         at = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
         words = dict.fromkeys(number // 2 for number in at)
-        self._bytes = [at[number] for word in words for number in (2 * word, 2 * word + 1)]
+        self._bytes = [at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)]
         self._slots = [_Slot() for _ in range(-(-telegram.words // self.per_frame))]
 
     def take(self, frame: CanFrame) -> bool:
@@ -51,7 +51,8 @@ class Receiver:
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
-        slot.words, slot.at = words_in(bytes([frame.data[place] for place in self._bytes])), self._clock
+        data = frame.data + b"\0"  # half a word that no byte of the message carries is 0
+        slot.words, slot.at = words_in(bytes([data[place] for place in self._bytes])), self._clock
 
     def _place(self, frame: CanFrame) -> int | None:
         """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
