@@ -15,7 +15,7 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
-from support.described import described, loaded_in
+from support.described import described, loaded_in, made
 from support.models import linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
@@ -261,6 +261,29 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     doubled = point("doubled", 1, scale=scaled("1/2", 0))
     constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
     assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
+
+
+@pytest.mark.parametrize("slope", [1, -1])
+def test_ten_to_a_raw_number_is_said_of_the_raw_number(slope: int) -> None:
+    """Also where the value is as large, so that every consumer finds one form."""
+    other = point("other", 1, "s16", scale=scaled(slope))
+    said = use_of(value_of("other", slope=slope, ten_to=True), other)
+    assert said == (Fraction(1), [{"point": "other", "part": "raw", "ten_to": slope}])
+
+
+def test_tasks_and_process_data_of_a_drive() -> None:
+    """Of a drive over USS: what answers and what refuses a task, and which way a word travels."""
+    exported: Any = export_model(made("kitchen_uss"))
+    assert exported["codes"]["functions"]["2"] == {
+        "name": "write_word",
+        "title": {"en": "Write word"},
+        "answers": [1],
+        "refusals": [7, 8],
+    }
+    travels = {one["name"]: (one["telegram"], one["direction"]) for one in exported["points"] if one["telegram"]}
+    assert travels["control_word"] == ("task", "request")
+    assert travels["status_word"] == ("answer", "response")
+    assert {one["direction"] for one in exported["points"] if one["name"] not in travels} == {None}
 
 
 @pytest.mark.parametrize("factor", [value_of("other", intercept=5), value_of("other", slope=99, ten_to=True)])

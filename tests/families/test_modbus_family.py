@@ -13,6 +13,7 @@ from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Prof
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
+from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Bus, Code, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
@@ -34,7 +35,7 @@ from pymodbus.pdu.register_message import (
     WriteMultipleRegistersRequest,
     WriteSingleRegisterRequest,
 )
-from support.models import changed, point, sample_bus, titles
+from support.models import changed, point, sample_bus, sample_device, titles
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -427,6 +428,37 @@ def test_blocks_come_by_space_then_address() -> None:
         ("holding", 3, 2),
         ("input", 4, 1),
     ]
+
+
+@pytest.mark.parametrize(
+    ("framing", "function", "addresses", "words", "sent", "received"),
+    [
+        ("rtu", 3, (0x1013, 0x1014), (1, 2), "01 03 10 13 00 02", "01 03 04 00 01 00 02"),
+        ("rtu", 3, (0x1014, 0x1013), (1, 2), "01 03 10 13 00 02", "01 03 04 00 01 00 02"),
+        ("rtu", 6, (0xFFFF,), (7,), "01 06 FF FF 00 07", "01 06 FF FF 00 07"),
+        ("rtu", 16, (5, 6), (7, 8), "01 10 00 05 00 02 04 00 07 00 08", "01 10 00 05 00 02"),
+        ("rtu", 1, (9,), (1,), "01 01 00 09 00 01", "01 01 01 01"),
+        ("tcp", 3, (9,), (3,), "00 01 00 00 00 06 01 03 00 09 00 01", "00 01 00 00 00 05 01 03 02 00 03"),
+    ],
+)
+def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0913 - the columns of the table
+    framing: str, function: int, addresses: tuple[int, ...], words: tuple[int, ...], sent: str, received: str
+) -> None:
+    """By hand, from the protocol: the lowest address travels, and a single write is answered by itself."""
+    script = ModbusWire(sample_device(), framing).script(function, addresses, words)
+    whole = [(text + tail(text)) if framing == "rtu" else text for text in (f"{sent} ", f"{received} ")]
+    assert script == [(bytes.fromhex(whole[0]), bytes.fromhex(whole[1]))]
+
+
+@pytest.mark.parametrize(
+    ("function", "addresses", "words"),
+    [(3, (5, 7), (1, 2)), (3, (0xFFFF, 0x10000), (1, 2)), (4, (5,), (1,)), (3, tuple(range(5)), (0,) * 5)],
+    ids=["a hole", "behind the last address", "no such function", "more than at once"],
+)
+def test_vectors_exchange_nothing_that_one_request_cannot_carry(
+    function: int, addresses: tuple[int, ...], words: tuple[int, ...]
+) -> None:
+    assert ModbusWire(sample_device(), "rtu").script(function, addresses, words) is None
 
 
 def test_profile_takes_the_smaller_most() -> None:

@@ -7,15 +7,17 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
+from fieldscribe.output.depfile import write_depfile
 from fieldscribe.pipeline import find_devices
 from support.places import ROOT
 from support.strange_files import KINDS, put
+from support.toolchains import succeed, tool
 
 DOCS = [
     *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
@@ -312,6 +314,22 @@ def test_a_name_that_make_cannot_hold_is_no_rule(project: Path, capsys: pytest.C
     assert main(["generate", "--target", "docs", "--out", evil, "--depfile", "docs.d"]) == 2
     assert "make cannot name the path" in capsys.readouterr().err
     assert not (project / "docs.d").exists()
+
+
+def test_make_reads_every_path_of_a_depfile(tmp_path: Path) -> None:
+    """Held against make itself, which fails for a path that is not there: blanks, remarks and variables."""
+    names = [tmp_path / name for name in ("in a", "in#b", "in$c", "plain", "out 1#$", "out2")]
+    for path in names:
+        path.touch()
+    write_depfile(tmp_path / "made.d", names[4:], names[:4])
+    for output in names[4:]:
+        succeed([tool("make"), "--question", "--file", tmp_path / "made.d", output])
+
+
+def test_a_depfile_names_the_paths_of_windows_with_slashes(tmp_path: Path) -> None:
+    paths: list[Any] = [PureWindowsPath(path) for path in ("c:\\out\\a b.h", "in\\a#.yaml", "in\\b.yaml")]
+    write_depfile(tmp_path / "made.d", paths[:1], paths[1:])
+    assert (tmp_path / "made.d").read_text("utf-8") == "c:/out/a\\ b.h: in/a\\#.yaml \\\n  in/b.yaml\n"
 
 
 @pytest.mark.parametrize("kind", ["pipe", "folder"])

@@ -1,0 +1,64 @@
+"""Files that others left: only regular ones of sane size are read, and what tools leave in a runtime is not shipped."""
+
+from __future__ import annotations
+
+import errno
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe import reading, resources
+from fieldscribe.reading import UnfitFileError, read_regular
+from support.files import write_files
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from fieldscribe.reading import State
+
+
+def test_a_file_is_read_with_its_state(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"12345")
+    seen = path.stat()
+    state: State = (5, seen.st_ino, seen.st_mtime_ns, seen.st_ctime_ns)
+    assert read_regular(path, 5) == (b"12345", state)
+
+
+def test_a_file_is_opened_so_that_nothing_hangs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pipe does not wait for a writer, a terminal does not take over, and no child inherits the file."""
+    (tmp_path / "a").write_bytes(b"1")
+    flags: list[int] = []
+    opened = os.open
+    monkeypatch.setattr(os, "open", lambda path, how: flags.append(how) or opened(path, how))
+    assert read_regular(tmp_path / "a", 1).data == b"1"
+    assert flags == [os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC]
+
+
+@pytest.mark.parametrize(
+    ("put", "number", "says"),
+    [
+        (os.mkfifo, errno.EINVAL, "it is a pipe"),
+        (lambda path: path.write_bytes(b"12345678"), errno.EFBIG, "it is larger than 0 MiB"),
+    ],
+    ids=["pipe", "large file"],
+)
+def test_what_takes_the_place_of_a_file_once_it_was_looked_at_is_refused(
+    put: Callable[[Path], object], number: int, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without waiting for whoever may write to a pipe, and before anything is read."""
+    (tmp_path / "small").write_bytes(b"1")
+    put(tmp_path / "other")
+    monkeypatch.setattr(reading, "_status", lambda _: os.stat(tmp_path / "small"))
+    with pytest.raises(UnfitFileError, match=says) as refused:
+        read_regular(tmp_path / "other", 7)
+    assert (refused.value.errno, refused.value.filename) == (number, str(tmp_path / "other"))
+
+
+def test_a_runtime_is_shipped_without_what_tools_leave_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of Python, Cargo, mypy and ruff, at any depth."""
+    left = ("__pycache__/a.pyc", "target/debug/a", "src/.mypy_cache/3.12/a.json", ".ruff_cache/0.1/b")
+    write_files(dict.fromkeys(("c/b.h", "c/src/a.c", *(f"c/{path}" for path in left)), ""), tmp_path)
+    monkeypatch.setattr(resources, "templates_dir", lambda: tmp_path)
+    assert resources.runtime_files("c") == ("b.h", "src/a.c")
