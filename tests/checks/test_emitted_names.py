@@ -13,7 +13,7 @@ from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
-from support.described import DEVICES, compile_in, group, head, loaded, together
+from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -178,6 +178,20 @@ def test_the_lists_hold_what_is_defined(folder: Path) -> None:
     assert listed - set(re.findall(r"\w+", code)) == set(), "a name that no header has would be refused for nothing"
     for name in LANGUAGES:
         assert len(list(target(name).identifiers(device))) > len(device.points)
+
+
+def test_every_old_name_of_a_function_leads_to_one(tmp_path: Path) -> None:
+    """Of points of each form, among them some whose counts are too fine for an integer, or that need none."""
+    forms = ("scale: raw = value / 3", "scale: value = raw * 0.1", "enum: {0: off, 1: on}", "type: f32", "range: 0..9")
+    forms = (*forms, "type: text, characters: 4", "scale: value = raw / new_1", "flags: {0: a, 2..1: b}", "access: r")
+    lines = [f"- {{name: new_{at}, at: {10 * at}, was: [old_{at}], {form}}}\n" for at, form in enumerate(forms)]
+    texts = {path: text for _, path, text in outputs(loaded_in(tmp_path, described("".join(lines))), ["c"])}
+    code = re.sub(r"/\*.*?\*/", "", texts["c/made_up.h"], flags=re.DOTALL)
+    functions = set(re.findall(r"^[A-Za-z].*?\b(\w+)\([^;]*?\)(?=\n\{| \{)", code, re.MULTILINE))
+    renamed = dict(re.findall(r"^#define (made_up_old_\d\w*) (\w+)$", code, re.MULTILINE))
+    arrays = {"made_up_new_5_addresses"}
+    assert {new.replace("_new_", "_old_") for new in renamed.values()} == set(renamed)
+    assert {name for name in functions | arrays if "_new_" in name} == set(renamed.values())
 
 
 def test_the_constants_of_rust_are_those_of_its_traits() -> None:

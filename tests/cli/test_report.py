@@ -66,6 +66,27 @@ def test_long_lines_are_cut_around_the_place() -> None:
     assert lines[3].count("^") == 4
 
 
+@pytest.mark.parametrize(
+    ("size", "column", "shown"),
+    [
+        (70, 1, "a" * 70),
+        (71, 1, "a" * 60 + " ..."),
+        (120, 51, "a" * 120),
+        (121, 52, "... " + "a" * 110),
+        (131, 51, "a" * 110 + " ..."),
+        (200, 101, "... " + "a" * 100 + " ..."),
+    ],
+)
+def test_a_line_is_cut_forty_characters_before_and_sixty_behind(size: int, column: int, shown: str) -> None:
+    """But not for the sake of ten more, which the dots would take up again."""
+    lines = [
+        "".join(piece for _, piece in one)
+        for one in as_lines([Diagnostic("x", "m", Span("a", 1, column))], {"a": ["a" * size]}.get)
+    ]
+    assert lines[2] == f"1 | {shown}"
+    assert lines[3] == "  | " + " " * (column - 1 if column <= 51 else 44) + "^"
+
+
 def test_marks_stand_below_wide_characters() -> None:
     lines = _text(Diagnostic("x", "m", Span("wide.yaml", 1, 11, 3)))
     assert columns(lines[3][: lines[3].index("^")]) == columns(lines[2][: lines[2].index("bad")])

@@ -88,6 +88,24 @@ def test_read_and_reply() -> None:
     assert "--request" in alone.notes[0]
 
 
+def test_a_second_expected_request_takes_the_place_of_the_first() -> None:
+    """It is a request whatever was expected before, and the replies that follow are its own."""
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE))
+    listening.expect_reply_to(rtu("01 03 10 13 00 02"))
+    assert listening.expect_reply_to(rtu("01 03 10 28 00 01")).kind == "request"
+    heard = listening.hear(rtu("01 03 02 01 F4"))
+    assert (heard.kind, heard.faults) == ("reply", ())
+    assert said(heard) == ["A020 base_frequency = 50 Hz (raw 500 = 01F4h): Base frequency"]
+
+
+def test_what_a_request_writes_is_not_taken_for_known() -> None:
+    """Only what the device reported, or has taken, tells what later numbers mean."""
+    ratio, setpoint = rtu("01 06 20 07 00 C8"), rtu("01 03 20 08 00 01")
+    answer = rtu("01 03 02 00 64")
+    assert "= 200 V" not in said(hear(ratio, setpoint, answer))[0]
+    assert "= 200 V" in said(hear(ratio, ratio, setpoint, answer))[0]
+
+
 def test_a_reply_of_three_bytes_looks_like_a_request() -> None:
     """Eight bytes: only the open request tells that they are a reply."""
     reply = rtu("01 01 03 01 00 08")

@@ -82,6 +82,16 @@ def test_single_words_by_the_length_of_the_part() -> None:
     assert "does not fit" in pkw("343A 0000 4220", link=3)[0].findings[0]
 
 
+def test_an_error_in_a_part_that_is_too_short_is_told_all_the_same() -> None:
+    """Its one value word may be the second: then what the first held was never sent."""
+    (short,) = pkw("743A 0000 0011", link=4, direction="response")
+    assert short.exception == 17
+    assert short.faults
+    assert not any("second" in note for note in short.notes)
+    (whole,) = pkw("743A 0000 0011 0005", link=4, direction="response")
+    assert any("stand in the second, which holds 5" in note for note in whole.notes)
+
+
 def test_pages_and_indices() -> None:
     heard = pkw("100A 8001 0000 0000", "100A 8001 0006")
     assert heard[0].summary.endswith("parameter 2010, index 1")

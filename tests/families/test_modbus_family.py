@@ -10,7 +10,7 @@ from fieldscribe.existence import Comparison, Condition
 from fieldscribe.families.modbus.blocks import plan_blocks
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
-from fieldscribe.families.modbus.remarks import flaw_text
+from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
@@ -327,6 +327,28 @@ def test_what_is_wrong_with_a_request(framing: str, data: bytes, reason: str) ->
     assert flaw_text(flaw) == reason
 
 
+@pytest.mark.parametrize(
+    ("code", "name"),
+    [
+        (0x01, "illegal function"),
+        (0x02, "illegal data address"),
+        (0x03, "illegal data value"),
+        (0x04, "device failure"),
+        (0x05, "acknowledged, still working"),
+        (0x06, "device busy"),
+        (0x08, "memory parity error"),
+        (0x0A, "gateway path unavailable"),
+        (0x0B, "gateway target did not answer"),
+    ],
+)
+def test_exceptions_have_the_meaning_of_the_protocol(code: int, name: str) -> None:
+    """The Modbus application protocol, section 7; a device may name others itself."""
+    said = exception_text(sample_device(), code)
+    assert name in said
+    assert f"{code:02X}h" in said
+    assert "value_out_of_range" in exception_text(sample_device(), 0x21)
+
+
 def at(*addresses: int, **facts: Any) -> Point:
     """A readable word (or more) at these addresses, the high part first, named after the first."""
     type_name = {1: "u16", 2: "u32", 4: "u64"}[len(addresses)]
@@ -441,7 +463,7 @@ def test_blocks_come_by_space_then_address() -> None:
         ("tcp", 3, (9,), (3,), "00 01 00 00 00 06 01 03 00 09 00 01", "00 01 00 00 00 05 01 03 02 00 03"),
     ],
 )
-def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0913 - the columns of the table
+def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0917 - the columns of the table
     framing: str, function: int, addresses: tuple[int, ...], words: tuple[int, ...], sent: str, received: str
 ) -> None:
     """By hand, from the protocol: the lowest address travels, and a single write is answered by itself."""

@@ -269,6 +269,14 @@ def test_a_broken_manifest_is_no_manifest_and_not_ours(tmp_path: Path, text: str
     assert planned(tmp_path, "drive", FILES).stale == []
 
 
+def test_the_manifest_of_another_device_is_none_of_ours(tmp_path: Path) -> None:
+    """Copied beside its own, it would have the outputs of that device removed."""
+    generate(tmp_path, "drive", FILES)
+    (tmp_path / "manifest/copy.json").write_bytes((tmp_path / "manifest/drive.json").read_bytes())
+    assert read_manifest(tmp_path / "manifest/copy.json") == {}
+    assert sorted(read_manifest(tmp_path / "manifest/drive.json")) == ["c", "docs"]
+
+
 def test_a_manifest_with_a_conflict_of_git_is_still_ours(tmp_path: Path) -> None:
     generate(tmp_path, "drive", FILES)
     place = tmp_path / "manifest/drive.json"

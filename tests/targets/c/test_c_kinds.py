@@ -16,7 +16,7 @@ from fieldscribe.targets import c
 from fieldscribe.targets.c import kinds
 from fieldscribe.targets.c.scope import scope_of
 from support.described import DEVICES, loaded
-from support.models import HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
+from support.models import CELSIUS, HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -126,6 +126,41 @@ def test_a_key_has_the_parts_that_are_tested(monkeypatch: pytest.MonkeyPatch) ->
         sorted_points.placed(each)
     keys: Any = sorted_points._kinds
     assert {len(key) for key in keys} == {len(PARTS)}
+
+
+LIMITS = {
+    "all of the type": ({"allowed": allowed((0, 65534))}, {"allowed": allowed((0, 65535))}),
+    "several intervals": ({"allowed": allowed((0, 40))}, {"allowed": allowed((0, 9), (20, 40))}),
+    "the way from a count to its raw number": (
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 7300))},
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 8000))},
+    ),
+    "that of what is only read": (
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 7300)), "access": "r"},
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 8000)), "access": "r"},
+    ),
+    "counts of their own": (
+        {"scale": scaled(1), "decimals": 0, "allowed": allowed((10, 40))},
+        {"scale": scaled(1), "decimals": 0, "allowed": allowed((10, 99))},
+    ),
+    "digits": ({"allowed": allowed((0, 99))}, {"allowed": allowed((0, 100))}),
+    "units": ({"unit": HERTZ, "allowed": allowed((0, 10))}, {"unit": CELSIUS, "allowed": allowed((0, 10))}),
+    "codes": ({"specials": FAULT, "allowed": allowed((0, 9))}, {"specials": FAULT, "allowed": allowed((0, 65535))}),
+}
+"""Facts of points of one type whose limits differ, by what the difference is."""
+
+
+@pytest.mark.parametrize("differs", LIMITS)
+@pytest.mark.parametrize("type_name", ["u16", "s32"])
+def test_points_with_other_limits_read_as_each_would_alone(
+    differs: str, type_name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = LIMITS[differs]
+    points = (point("one", 1, type_name, **first), point("two", 3, type_name, **second))
+    device = for_code(device_of("pair", points))
+    shared = texts(device)
+    cut(monkeypatch, None)
+    assert texts(device) == shared
 
 
 class CutTerms(dict[Any, Any]):
