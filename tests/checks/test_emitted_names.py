@@ -180,6 +180,44 @@ def test_the_lists_hold_what_is_defined(folder: Path) -> None:
         assert len(list(target(name).identifiers(device))) > len(device.points)
 
 
+FLAGS = "0: {name: on, values: {0: stopped, 1: running}}, 2..1: {name: mode, values: {0: a, 1: b}}, 3: {name: low, active: 0}"
+NAMES_OF_FLAGS = {
+    "c": {
+        "on": ("MADE_UP_STATE_ON_MASK",),
+        "mode": (
+            "MADE_UP_STATE_MODE_MASK",
+            "MADE_UP_STATE_MODE_SHIFT",
+            "MADE_UP_STATE_MODE_A",
+            "MADE_UP_STATE_MODE_B",
+            "made_up_state_mode",
+        ),
+        "low": ("MADE_UP_STATE_LOW_MASK",),
+    },
+    "python": {"on": ("ON", "on"), "mode": ("MODE", "mode"), "low": ("LOW", "low")},
+    "rust": {
+        "on": ("ON", "on", "with_on"),
+        "mode": ("MODE", "mode", "with_mode", "MODE_A", "MODE_B"),
+        "low": ("LOW_ACTIVE_LOW", "low", "with_low"),
+    },
+}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_flag_has_its_names_and_is_named_as_their_owner(language: str, tmp_path: Path) -> None:
+    """A single bit has no names for its numbers; a finding about a name leads to the flag, which is of its point."""
+    device = loaded_in(tmp_path, described(f"- {{name: state, at: 1, flags: {{{FLAGS}}}}}\n"))
+    found: dict[str, tuple[str, ...]] = {}
+    for _, owner, names in target(language).identifiers(device):
+        flag = owner.of if owner.kind == "value" and owner.of is not None else owner
+        if flag.kind == "flag":
+            assert flag.of is not None
+            assert (flag.of.kind, flag.of.name) == ("point", "state")
+            found[flag.name] = (*found.get(flag.name, ()), *names)
+    assert found == NAMES_OF_FLAGS[language]
+    text = "".join(text for _, path, text in outputs(device, [language]) if "made_up" in path)
+    assert set(re.findall(r"\w+", text)) >= {name for names in found.values() for name in names}
+
+
 def test_every_old_name_of_a_function_leads_to_one(tmp_path: Path) -> None:
     """Of points of each form, among them some whose counts are too fine for an integer, or that need none."""
     forms = ("scale: raw = value / 3", "scale: value = raw * 0.1", "enum: {0: off, 1: on}", "type: f32", "range: 0..9")

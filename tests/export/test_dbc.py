@@ -16,11 +16,11 @@ from fieldscribe.cli import main
 from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
 from fieldscribe.families.can.export.dbc import export_dbc
-from fieldscribe.families.can.export.dbc_points import decimal
+from fieldscribe.families.can.export.dbc_points import decimal, signals_of_point
 from fieldscribe.families.can.facts import of_bus
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.model import Entry, Enum, Message, Role, Unit
+from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
 from support.described import shipped
@@ -74,6 +74,24 @@ def named_parts(one: Point) -> list[tuple[str, int]]:
     if len(slots) == 1:
         return [(one.name, one.addresses[0] // CYCLIC.words)]
     return [(f"{one.name}_{half}", at // CYCLIC.words) for half, at in zip(("high", "low"), one.addresses, strict=True)]
+
+
+def test_the_head_of_a_database() -> None:
+    """In the order of the format: version, symbols, bit timing, nodes, and then the messages."""
+    before, messages = export_dbc(DEVICE, UNIT).split("\nBO_ ", 1)
+    lines = before.splitlines()
+    assert lines[:3] == [f'VERSION "{DEVICE.id} {DEVICE.version}"', "", "NS_ :"]
+    assert lines[-4:] == ["", "BS_:", "", f"BU_: master unit_{UNIT}"]
+    assert all(line.startswith("\t") for line in lines[3:-4])
+    assert "BU_:" not in messages
+
+
+@pytest.mark.parametrize(("last", "listed"), [(0x101F, True), (0x1020, False)], ids=["32 codes", "33 codes"])
+def test_a_long_band_of_special_codes_is_told_in_the_comment_alone(last: int, listed: bool) -> None:
+    band = Special(0x1000, last, "fault", titles("Fault"), True)
+    (signal,) = signals_of_point(sample_device(), point("speed", 1, specials=(band,)), 3, joins=True)
+    assert signal.values == (tuple((raw, "fault") for raw in range(0x1000, last + 1)) if listed else ())
+    assert ("No quantity" in signal.comment) is not listed
 
 
 def test_every_word_is_a_signal() -> None:

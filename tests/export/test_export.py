@@ -11,9 +11,12 @@ from typing import Any
 
 import fieldscribe
 import pytest
+from fieldscribe import export
 from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
+from fieldscribe.families import families, family
 from fieldscribe.model import Factor, Limit, Special
+from fieldscribe.records import replace as replace_record
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in, made
 from support.models import linear, point, sample_device, scaled, titles, value_of
@@ -261,6 +264,48 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     doubled = point("doubled", 1, scale=scaled("1/2", 0))
     constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
     assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
+
+
+def test_documents_and_commands() -> None:
+    assert _model()["documents"] == [
+        {"id": "manual", "title": "Sample manual", "language": "de", "file": None, "sha256": None}
+    ]
+    assert _model()["commands"] == [
+        {
+            "name": "enter",
+            "title": {"en": "Store parameters"},
+            "space": "holding",
+            "address": 0x900,
+            "function": 6,
+            "value": None,
+            "wears": 100000,
+            "busy": "running",
+            "source": {"document": "manual", "section": "Gruppe A", "page": None, "line": 780},
+        }
+    ]
+
+
+def test_the_limits_of_frames_are_empty_where_another_family_has_them() -> None:
+    expected = {
+        "framings": ["rtu", "tcp"],
+        "units": [1, 32],
+        "broadcast": 0,
+        "most": {"1": 32, "3": 4, "5": 1, "6": 1, "15": 32, "16": 4},
+        "gaps": {"holding": [[0x30, 0x8FF]]},
+        "timing": {"silent_characters": "3.5"},
+        "pad_coil_bytes": "even",
+        "pzd": [0, 0],
+    }
+    assert {key: value for key, value in _model()["limits"].items() if value or key in expected} == expected
+    of_can: Any = export_model(made("kitchen_can"))
+    assert of_can["limits"]["pad_coil_bytes"] is None
+    assert list(of_can["limits"]) == list(_model()["limits"])
+
+
+def test_a_family_that_exports_nothing_of_its_own_is_no_obstacle(monkeypatch: pytest.MonkeyPatch) -> None:
+    bare = replace_record(family("modbus"), name="bare", folder="support")
+    monkeypatch.setattr(export, "families", lambda: (*families(), bare))
+    assert export_model(DEVICE)["limits"] == _model()["limits"]
 
 
 @pytest.mark.parametrize("slope", [1, -1])

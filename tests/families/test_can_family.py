@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.families.can.frames import CanFrame, build, parse
+from fieldscribe.families.can.frames import CanFrame, build, parse, telegram_words
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Message, Role, Source, Telegram
 from hypothesis import given
@@ -95,6 +95,16 @@ def taken(*frames: tuple[int, int, int, int]) -> Receiver:
         data = bytes((0xDD, mux)) + b"".join(word.to_bytes(2, "big") for word in words)
         assert receiver.take(CanFrame(0x325, data))
     return receiver
+
+
+@pytest.mark.parametrize(
+    ("mux", "words"),
+    [(0, {0: 7, 1: 1, 2: 0x86A0}), (16, {48: 7, 49: 1, 50: 0x86A0}), (22, {66: 7, 67: 1, 68: 0x86A0})],
+)
+def test_the_multiplexer_says_which_words_a_frame_brings(mux: int, words: dict[int, int]) -> None:
+    """Three words each: multiplexer 16 brings the numbers 49 to 51 of the manual, which counts from 1."""
+    frame = CanFrame(0x325, bytes((0xDD, mux, 0x00, 0x07, 0x00, 0x01, 0x86, 0xA0)))
+    assert telegram_words(CYCLIC, frame) == words
 
 
 def test_words_of_one_frame() -> None:

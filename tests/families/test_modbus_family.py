@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.existence import Comparison, Condition
 from fieldscribe.families.modbus.blocks import plan_blocks
+from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
-from fieldscribe.model import Bus, Code, Point, Variant
+from fieldscribe.model import Bus, Code, Own, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -481,6 +482,11 @@ def test_vectors_exchange_nothing_that_one_request_cannot_carry(
     function: int, addresses: tuple[int, ...], words: tuple[int, ...]
 ) -> None:
     assert ModbusWire(sample_device(), "rtu").script(function, addresses, words) is None
+
+
+def test_a_bus_of_which_nothing_is_said_pads_nothing() -> None:
+    assert not profile_of(bus(own=Own())).pad_coil_bytes_even
+    assert profile_of(bus(own=ModbusBus("even"))).pad_coil_bytes_even
 
 
 def test_profile_takes_the_smaller_most() -> None:

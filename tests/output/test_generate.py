@@ -332,6 +332,18 @@ def test_a_depfile_names_the_paths_of_windows_with_slashes(tmp_path: Path) -> No
     assert (tmp_path / "made.d").read_text("utf-8") == "c:/out/a\\ b.h: in/a\\#.yaml \\\n  in/b.yaml\n"
 
 
+def test_a_depfile_may_be_a_terminal(tmp_path: Path) -> None:
+    """A character device such as /dev/stdout is written to: it cannot be replaced."""
+    reader, terminal = os.openpty()
+    place = os.ttyname(terminal)
+    os.set_blocking(reader, False)
+    write_depfile(Path(place), [Path("out")], [Path("in")])
+    assert os.read(reader, 100).split() == [b"out:", b"in"]
+    assert os.ttyname(terminal) == place
+    for handle in (reader, terminal):
+        os.close(handle)
+
+
 @pytest.mark.parametrize("kind", ["pipe", "folder"])
 def test_a_depfile_replaces_only_a_file(project: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     put(kind, project / "docs.d")

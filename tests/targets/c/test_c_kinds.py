@@ -163,6 +163,18 @@ def test_points_with_other_limits_read_as_each_would_alone(
     assert texts(device) == shared
 
 
+@pytest.mark.parametrize("names", [("zero", "mode", "made"), ("mode", "zero", "made"), ("zero", "made", "mode")])
+def test_an_enum_of_its_own_is_told_from_that_of_another_point(
+    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whichever comes first: what is named after the point itself moves with its name."""
+    points = tuple(point(name, at, enum=MODES) for at, name in enumerate(names))
+    device = for_code(device_of("pair", points))
+    shared = texts(device)
+    cut(monkeypatch, None)
+    assert texts(device) == shared
+
+
 class CutTerms(dict[Any, Any]):
     """Numbers of terms of which a part is left out."""
 

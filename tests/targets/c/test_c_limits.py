@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
+import pytest
 from fieldscribe.model import Limit
+from fieldscribe.targets.c.rules import limit
+from fieldscribe.targets.c.scope import scope_of
 from support.c_device import write_headers
 from support.models import allowed, device_of, linear, point, value_of
 from support.toolchains import compiled, run
@@ -154,3 +158,27 @@ def test_limits_are_those_worked_out_by_hand(tmp_path: Path) -> None:
     flags = ("-std=c99", "-ftrapv", f"-I{folder / 'c'}")
     program = compiled("gcc", flags, tmp_path / "limits.c", tmp_path / "limits")
     assert run([program]).stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("rule", "fits"),
+    [
+        (linear(Fraction(2**31, 2**31 - 1), 0, value_of("big")), True),  # 2^31 * (2^32 - 1) + 2^31 - 1 = 2^63 - 1
+        (linear(Fraction(2**31, 2**31 + 1), 0, value_of("big")), False),
+        (linear(Fraction(2**31 - 1, 2**31), 0, value_of("big")), True),
+        (linear(Fraction(1, 2**63 - 2**32), 0, value_of("big")), True),
+        (linear(Fraction(1, 2**63 - 2**32 + 1), 0, value_of("big")), False),
+        (linear(1, 2**31 - 1, value_of("big", -1)), True),  # 1 + (2^32 - 1) * 2^31
+        (linear(1, 2**31, value_of("big", -1)), False),
+        (linear(1, "1/2", value_of("big")), True),
+        (linear(3, 0, value_of("big"), value_of("factor")), True),
+        (linear(3, 0, value_of("big"), value_of("big_too")), False),
+        (linear(3, 0, value_of("divisor", -1)), False),
+        (linear(3, 0, value_of("exponent", ten_to=True)), False),
+        (linear(3, 0, value_of("gain")), False),
+    ],
+)
+def test_a_limit_is_one_quotient_where_64_bits_suffice(rule: Linear, fits: bool) -> None:
+    """Counted by hand: numerator and divisor at their largest, with the half that rounding adds; else step by step."""
+    text = limit(Limit(rule, (), 0, 2**32 - 1), scope_of(device_of("limits", OTHERS)), is_low=False)
+    assert ("fieldscribe_rule_of" not in text) is fits

@@ -176,7 +176,7 @@ def test_a_factory_setting(facts: dict[str, Any], in_sheet: str, in_page: str) -
     device = sample_device((point("setting", 1, **facts),))
     assert _rows(device)["setting"]["default"] == in_sheet
     page = _page(device)
-    heads = next(line for line in page.splitlines() if line.startswith("| Name | Title"))
+    heads = next(line for line in page.splitlines() if line.startswith("| Name | Title | Wire"))
     cells = dict(zip((head.strip() for head in _cells(heads)), _row(page, "setting"), strict=True))
     assert cells.get("Default", "") == in_page  # a column that is empty in all rows is left out
 
