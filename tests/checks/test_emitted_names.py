@@ -180,7 +180,10 @@ def test_the_lists_hold_what_is_defined(folder: Path) -> None:
         assert len(list(target(name).identifiers(device))) > len(device.points)
 
 
-FLAGS = "0: {name: on, values: {0: stopped, 1: running}}, 2..1: {name: mode, values: {0: a, 1: b}}, 3: {name: low, active: 0}"
+FLAGS = (
+    "0: {name: on, values: {0: stopped, 1: running}}, 2..1: {name: mode, values: {0: a, 1: b}}, "
+    "3: {name: low, active: 0}"
+)
 NAMES_OF_FLAGS = {
     "c": {
         "on": ("MADE_UP_STATE_ON_MASK",),
@@ -216,6 +219,43 @@ def test_each_flag_has_its_names_and_is_named_as_their_owner(language: str, tmp_
     assert found == NAMES_OF_FLAGS[language]
     text = "".join(text for _, path, text in outputs(device, [language]) if "made_up" in path)
     assert set(re.findall(r"\w+", text)) >= {name for names in found.values() for name in names}
+
+
+@pytest.mark.parametrize(
+    ("language", "first", "second"),
+    [
+        ("c", ("MADE_UP_MODE_OFF",), ("MADE_UP_MODE_SLOW_ONE",)),
+        ("python", ("OFF",), ("SLOW_ONE",)),
+        ("rust", ("Off",), ("SlowOne",)),
+    ],
+)
+def test_each_entry_of_an_enum_is_named_as_the_owner_of_its_names(
+    language: str, first: tuple[str, ...], second: tuple[str, ...], tmp_path: Path
+) -> None:
+    device = loaded_in(
+        tmp_path, described("- {name: state, at: 1, enum: mode}\n", enums="{mode: {0: 'off', 1: slow_one}}")
+    )
+    owned = {owner: names for _, owner, names in target(language).identifiers(device) if owner.kind == "entry"}
+    assert {(owner.name, owner.of and owner.of.kind, owner.of and owner.of.name) for owner in owned} == {
+        ("off", "enum", "mode"),
+        ("slow_one", "enum", "mode"),
+    }
+    assert {owner.name: tuple(names) for owner, names in owned.items()} == {"off": first, "slow_one": second}
+
+
+@pytest.mark.parametrize(
+    ("entries", "variant"),
+    [
+        ("0: 'off'", "Unknown"),
+        ("0: unknown", "Other"),
+        ("0: unknown, 1: other", "Unnamed"),
+        ("0: unknown, 1: other, 2: unnamed", "Number"),
+    ],
+)
+def test_the_variant_for_unnamed_numbers_steps_aside_in_rust(entries: str, variant: str, tmp_path: Path) -> None:
+    device = loaded_in(tmp_path, described(f"- {{name: state, at: 1, open: yes, enum: {{{entries}}}}}\n"))
+    texts = "".join(text for _, path, text in outputs(device, ["rust"]) if "made_up" in path)
+    assert re.search(rf"^ +{variant}\(", texts, re.MULTILINE)
 
 
 def test_every_old_name_of_a_function_leads_to_one(tmp_path: Path) -> None:

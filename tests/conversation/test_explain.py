@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 
 import pytest
+from fieldscribe.asked import quoted
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.hexadecimal import number_of
@@ -84,6 +85,7 @@ def test_bit_groups_share_an_address() -> None:
 def test_printed_references_that_are_text() -> None:
     device = sample_device((point("power", 7, references={"parameter": "P1082"}),))
     assert [one.reading for one in find(device, "p1082")] == ["parameter P1082"]
+    assert find(device, "P1083") == []
 
 
 @pytest.mark.parametrize(
@@ -97,6 +99,14 @@ def test_printed_references_that_are_text() -> None:
 )
 def test_what_is_near(what: str, names: list[str]) -> None:
     assert near(DEVICE, what)[: len(names)] == names
+
+
+@pytest.mark.parametrize(
+    ("typed", "shown"),
+    [("a" * 60, "a" * 60), ("a" * 61, "a" * 57 + "..."), ("a\x1b[31m\nb", "a[31m b"), ("a" * 9999, "a" * 57 + "...")],
+)
+def test_what_was_typed_is_repeated_clean_and_short(typed: str, shown: str) -> None:
+    assert quoted(typed) == shown
 
 
 def test_nothing_is_near_nonsense() -> None:

@@ -331,10 +331,32 @@ def test_tasks_and_process_data_of_a_drive() -> None:
     assert {one["direction"] for one in exported["points"] if one["name"] not in travels} == {None}
 
 
-@pytest.mark.parametrize("factor", [value_of("other", intercept=5), value_of("other", slope=99, ten_to=True)])
-def test_what_the_format_cannot_say_is_refused(factor: Factor) -> None:
-    with pytest.raises(ExportError, match=r"other\.raw"):
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (value_of("other", intercept=5), "(other.raw * 1 + 5)"),
+        (value_of("other", slope=99, ten_to=True), "10 ** (other.raw * 99 + 0)"),
+        (value_of("other", slope=9, ten_to=True), "10 ** (other.raw * 9 + 0)"),
+        (value_of("other", intercept=1001, ten_to=True), "10 ** (other.raw * 1 + 1001)"),
+    ],
+)
+def test_what_the_format_cannot_say_is_refused(factor: Factor, said: str) -> None:
+    with pytest.raises(ExportError) as refused:
         use_of(factor, point("other", 1))
+    assert str(refused.value) == f"the export has no way to say the factor {said}"
+
+
+def test_a_factor_that_is_a_number_of_floating_point() -> None:
+    expected = (Fraction(1), [{"point": "other", "part": "value", "power": -1}])
+    assert use_of(value_of("other", -1), point("other", 1, "f32")) == expected
+
+
+def test_the_layout_of_a_message() -> None:
+    exported: Any = export_model(made("kitchen_can"))
+    read = next(one for one in exported["messages"] if one["name"] == "read_request")
+    assert list(read) == ["name", "title", "direction", "answers", "can_id", "adds_unit", "layout", "source"]
+    assert len(read["layout"]) == 8
+    assert read["layout"][0] == {"holds": "constant", "number": 0xFF}
 
 
 def test_computed_ends_as_expressions() -> None:

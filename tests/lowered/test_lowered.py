@@ -29,6 +29,23 @@ def test_a_line_is_its_rule(ratio: Fraction, offset: Fraction, decimals: int, co
     assert min(line.divisor, back.divisor) > 0
 
 
+@pytest.mark.parametrize(
+    ("line", "ends", "largest"),
+    [
+        (Line(3, 1, 7), (0, 10), 31),
+        (Line(-3, 1, 7), (0, 10), 30),
+        (Line(-3, -1, 7), (0, 10), 31),
+        (Line(2, -100, 7), (0, 10), 100),
+        (Line(1, 5, 7), (-20, 3), 20),
+        (Line(1, -5, 7), (-20, 3), 25),
+        (Line(0, 0, 1), (-9, 4), 9),
+    ],
+)
+def test_the_largest_integer_on_the_way_of_a_line(line: Line, ends: tuple[int, int], largest: int) -> None:
+    """Of the argument, of its product, and of their sum, whatever its sign."""
+    assert line.largest(*ends) == largest
+
+
 def test_a_line_is_in_lowest_terms() -> None:
     assert count_line(linear(256), 1) == Line(128, 0, 5)
     assert count_line(linear("10"), 1).does_nothing

@@ -188,6 +188,19 @@ def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
     assert main(["generate", "--target", "docs,vectors", "--check"]) == 1
 
 
+def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe.targets import docs
+
+    monkeypatch.setattr(docs, "outputs", lambda *_: [("docs/hitachi_l200.md", "half a pair: \ud800")])
+    assert main(["generate", "--target", "docs"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "internal error in a text: UnicodeEncodeError: " in said
+    assert "descriptions/hitachi_l200/device.yaml:1:1" in said
+    assert not (project / "generated/docs").exists()
+
+
 def test_a_compiler_that_fails_on_one_device_writes_the_others(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import errno
 import os
-from typing import TYPE_CHECKING
+from importlib.util import find_spec, module_from_spec
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe import reading, resources
@@ -34,6 +35,39 @@ def test_a_file_is_opened_so_that_nothing_hangs(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr(os, "open", lambda path, how: flags.append(how) or opened(path, how))
     assert read_regular(tmp_path / "a", 1).data == b"1"
     assert flags == [os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC]
+
+
+WINDOWS = {"O_BINARY": 1 << 28, "O_NOINHERIT": 1 << 29}
+"""What opens a file as it is, and keeps it from children, where no O_CLOEXEC is known."""
+
+
+@pytest.mark.parametrize(
+    ("module", "use"),
+    [
+        ("reading", lambda module, path: module.read_regular(path, 9)),
+        ("output.writing", lambda module, path: module.replace(path, (b"new",))),
+        ("output.lock", lambda module, path: module.only_run(path.parent, None).__enter__()),
+    ],
+    ids=["read", "written", "locked"],
+)
+def test_files_are_opened_as_windows_needs_it(
+    module: str, use: Callable[[Any, Path], object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Line ends stay as they are, also where the system would change them."""
+    (tmp_path / "a").write_bytes(b"1")
+    flags: list[int] = []
+    opened, both = os.open, sum(WINDOWS.values())
+    for name, bit in WINDOWS.items():
+        monkeypatch.setattr(os, name, bit, raising=False)
+    spec = find_spec(f"fieldscribe.{module}")
+    assert spec is not None
+    assert spec.loader is not None
+    fresh = module_from_spec(spec)
+    spec.loader.exec_module(fresh)
+    monkeypatch.setattr(os, "open", lambda path, how, *more: flags.append(how) or opened(path, how & ~both, *more))
+    use(fresh, tmp_path / "a")
+    assert flags
+    assert all(how & both == both for how in flags)
 
 
 @pytest.mark.parametrize(

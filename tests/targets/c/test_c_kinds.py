@@ -14,6 +14,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import c
 from fieldscribe.targets.c import kinds
+from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.scope import scope_of
 from support.described import DEVICES, loaded
 from support.models import CELSIUS, HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
@@ -173,6 +174,23 @@ def test_an_enum_of_its_own_is_told_from_that_of_another_point(
     shared = texts(device)
     cut(monkeypatch, None)
     assert texts(device) == shared
+
+
+@pytest.mark.parametrize(
+    ("line", "parts"),
+    [
+        ("a" * 100 + " " + "b" * 19, ["a" * 100 + " " + "b" * 19]),
+        ("a" * 100 + " " + "b" * 20, ["a" * 100, "    " + "b" * 20]),
+        ("  return " + "a" * 90 + " " + "b" * 30, ["  return " + "a" * 90, "      " + "b" * 30]),
+        ("#define A " + "a" * 80 + " " + "b" * 40, ["#define A " + "a" * 80 + " \\", "    " + "b" * 40]),
+        ("#define A " + "a" * 107 + " bb", ["#define A " + "a" * 107 + " bb"]),
+        ("#define A " + "a" * 108 + " bb", ["#define A " + "a" * 108 + " \\", "    bb"]),
+        ('x = "' + "a b " * 30 + '" + 1;', ["x =", '    "' + "a b " * 30 + '" + 1;']),
+    ],
+)
+def test_a_long_line_is_folded_and_a_macro_goes_on_behind_a_backslash(line: str, parts: list[str]) -> None:
+    """At the last space up to 120 characters that is in no string."""
+    assert folded(line).split("\n") == parts
 
 
 class CutTerms(dict[Any, Any]):

@@ -11,9 +11,11 @@ from functools import lru_cache
 from typing import Any
 
 import pytest
+from fieldscribe.families import family
 from fieldscribe.model import Device, Enum, Place, Special
+from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
-from fieldscribe.targets.docs import outputs
+from fieldscribe.targets.docs import bus, outputs
 from fieldscribe.targets.docs.cells import anchor, link, target
 from support.models import HERTZ, NUMBER, changed, entry, point, sample_device, titles
 
@@ -195,6 +197,21 @@ def test_an_anchor_has_only_what_every_reader_of_markdown_keeps(name: str, found
     assert anchor("point", name) == found
     assert link("point", name).endswith(f"](#{found})")
     assert target("point", name).startswith(f'<a id="{found}"></a>')
+
+
+def test_a_number_of_floating_point_has_no_raw_limits() -> None:
+    """Its raw number is a pattern of bits; the range says what it may be."""
+    row = _rows()["float_setpoint"]
+    assert (row["raw_min"], row["raw_max"], row["raw_range"], row["range"]) == ("", "", "", "0..650 Hz")
+
+
+def test_a_family_that_adds_nothing_has_the_facts_of_every_bus(monkeypatch: pytest.MonkeyPatch) -> None:
+    bare = replace_record(family("modbus"), name="bare", folder="support")
+    monkeypatch.setattr(bus, "family", lambda _: bare)
+    view = bus.bus_view(DEVICE)
+    assert "| Unit numbers | 1..32 |" in view.facts
+    assert "padded" not in view.facts
+    assert "Functions" in dict(view.sections)
 
 
 def test_the_sheet_has_one_row_a_point() -> None:
