@@ -85,7 +85,8 @@ def test_a_description_with_an_error_is_not_audited(
     form: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Its findings come as lines for people, or as JSON where that was asked for."""
-    place = write(tmp_path / "audited", DEVICE.replace("unit: Hz, line: 7", "unit: Hertz, line: 7"))
+    wrong = DEVICE.replace("unit: Hz, line: 7", "unit: Hertz, line: 7").replace("SHA", "a" * 64)
+    place = write(tmp_path / "audited", wrong)
     assert main(["audit", str(place.parent), "--manual", "none.txt", "--report", form]) == 1
     printed = capsys.readouterr()
     if form == "json":

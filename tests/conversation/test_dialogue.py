@@ -15,10 +15,10 @@ from fieldscribe.families.answers import refused
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
-from fieldscribe.model import Place
+from fieldscribe.model import Code, Place
 from hypothesis import given
 from hypothesis import strategies as st
-from support.models import changed, named, sample_device
+from support.models import changed, named, sample_device, titles
 
 if TYPE_CHECKING:
     from fieldscribe.families.answers import Heard
@@ -104,6 +104,16 @@ def test_what_a_request_writes_is_not_taken_for_known() -> None:
     answer = rtu("01 03 02 00 64")
     assert "= 200 V" not in said(hear(ratio, setpoint, answer))[0]
     assert "= 200 V" in said(hear(ratio, ratio, setpoint, answer))[0]
+
+
+@pytest.mark.parametrize("space", ["input", "discrete"])
+def test_nothing_is_sent_where_no_function_writes(space: str) -> None:
+    """Not by chance a request that reads."""
+    reads = tuple(Code(number, f"read_{number}", titles("Read"), None) for number in (2, 4))
+    device = replace(DEVICE, bus=replace(DEVICE.bus, functions=(*DEVICE.bus.functions, *reads)))
+    with pytest.raises(RefusedError) as refusal:
+        write_request(device, changed(named(DEVICE, "third"), space=space), 1, None, None)
+    assert refusal.value.status == "bad_function"
 
 
 def test_a_reply_of_three_bytes_looks_like_a_request() -> None:

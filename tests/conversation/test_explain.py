@@ -9,6 +9,7 @@ import pytest
 from fieldscribe.asked import quoted
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
+from fieldscribe.conversation.others import explain_others
 from fieldscribe.hexadecimal import number_of
 from support.models import changed, named, point, sample_device
 
@@ -107,6 +108,24 @@ def test_what_is_near(what: str, names: list[str]) -> None:
 )
 def test_what_was_typed_is_repeated_clean_and_short(typed: str, shown: str) -> None:
     assert quoted(typed) == shown
+
+
+@pytest.mark.parametrize(
+    ("what", "readings"),
+    [
+        ("enter", ["command enter"]),
+        ("name:ENTER", ["command enter"]),
+        ("code:enter", []),
+        ("wire:enter", []),
+        ("a020_wire", ["erratum a020_wire"]),
+        ("code:a020_wire", []),
+        ("wire:900h", ["wire address 0900h (2304), holding"]),
+        ("name:900h", []),
+    ],
+)
+def test_what_is_no_point_is_found_by_its_name_or_its_place_alone(what: str, readings: list[str]) -> None:
+    found = explain_others(DEVICE, what)
+    assert [reading for answer, _ in found for reading in answer][: len(readings) or None] == readings
 
 
 def test_nothing_is_near_nonsense() -> None:

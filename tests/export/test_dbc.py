@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -23,7 +24,7 @@ from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
-from support.described import shipped
+from support.described import made, shipped
 from support.models import named, point, sample_device, titles
 from support.python_package import imported, write_package
 
@@ -84,6 +85,16 @@ def test_the_head_of_a_database() -> None:
     assert lines[-4:] == ["", "BS_:", "", f"BU_: master unit_{UNIT}"]
     assert all(line.startswith("\t") for line in lines[3:-4])
     assert "BU_:" not in messages
+
+
+def test_a_signal_is_written_as_the_format_has_it() -> None:
+    """Multiplexed ones say by which number; nothing is said where there is nothing to say."""
+    text = export_dbc(DEVICE, UNIT) + export_dbc(made("kitchen_can"), 1)
+    signals = [line for line in text.splitlines() if line.startswith(" SG_ ")]
+    form = r" SG_ \w+( M| m\d+M?)? : \d+\|\d+@[01][+-] \(\S+,\S+\) \[\S+\|\S+\] \"[^\"]*\" \w+"
+    assert [line for line in signals if not re.fullmatch(form, line)] == []
+    assert len(signals) > 100
+    assert not [line for line in text.splitlines() if line.startswith("CM_") and line.endswith('"";')]
 
 
 @pytest.mark.parametrize(("last", "listed"), [(0x101F, True), (0x1020, False)], ids=["32 codes", "33 codes"])

@@ -15,11 +15,11 @@ from fieldscribe import export
 from fieldscribe.export import export_model
 from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.families import families, family
-from fieldscribe.model import Factor, Limit, Special
+from fieldscribe.model import Factor, Flag, Limit, Special
 from fieldscribe.records import replace as replace_record
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in, made
-from support.models import linear, point, sample_device, scaled, titles, value_of
+from support.models import allowed, linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
@@ -252,6 +252,25 @@ def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: li
             total *= Fraction(10) ** int(number * sign) if kind == "ten_to" else number**sign
         inner = raw * factor.slope + factor.intercept
         assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
+
+
+@pytest.mark.parametrize(("last", "listed"), [(4095, True), (4096, False)])
+def test_a_long_list_of_numbers_is_exported_as_ranges_alone(last: int, listed: bool) -> None:
+    """4096 numbers one by one, and no more."""
+    numbers = allowed((0, last - 10), (60000, 60009), listed=True)
+    exported: Any = export_model(sample_device((point("level", 1, allowed=numbers),)))
+    raw = exported["points"][0]["raw"]
+    assert raw["ranges"] == [[0, last - 10], [60000, 60009]]
+    assert (raw["values"] or [])[-1:] == ([60009] if listed else [])
+    assert len(raw["values"] or ()) == (4096 if listed else 0)
+
+
+def test_only_a_single_bit_has_a_number_that_makes_it_true() -> None:
+    flags = (Flag(0, 1, "low", titles("Low"), 0, ()), Flag(1, 3, "mode", titles("Mode"), 1, ()))
+    exported: Any = export_model(sample_device((point("state", 1, flags=flags),)))
+    low, mode = exported["points"][0]["flags"]
+    assert low == {"bits": [0, 0], "name": "low", "values": {"0": {"name": "low", "title": {"en": "Low"}}}}
+    assert mode == {"bits": [3, 1], "name": "mode", "values": {}}
 
 
 def test_an_erratum_names_its_points() -> None:

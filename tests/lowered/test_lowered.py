@@ -46,6 +46,13 @@ def test_the_largest_integer_on_the_way_of_a_line(line: Line, ends: tuple[int, i
     assert line.largest(*ends) == largest
 
 
+def test_a_line_is_read_both_ways() -> None:
+    line = Line(3, -2, 7)
+    assert line.result(10) == 4
+    assert line.argument(4) == 10
+    assert line.argument(Fraction(1, 7)) == 1
+
+
 def test_a_line_is_in_lowest_terms() -> None:
     assert count_line(linear(256), 1) == Line(128, 0, 5)
     assert count_line(linear("10"), 1).does_nothing

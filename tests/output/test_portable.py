@@ -131,6 +131,22 @@ def test_who_may_not_open_the_lock_waits_on_windows_alone(
         raise AssertionError("locked")
 
 
+def test_a_lock_that_others_keep_removing_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of many short runs may be gone between our two looks."""
+    tries = iter(range(20))
+    opened = os.open
+
+    def crowded(place: Path, flags: int, *more: int) -> int:
+        if flags & os.O_EXCL and next(tries) < 10:
+            raise FileExistsError(errno.EEXIST, "File exists")
+        return opened(place, flags, *more)
+
+    monkeypatch.setattr(lock, "os", SimpleNamespace(**{**vars(os), "open": crowded}))
+    monkeypatch.setattr(lock, "_PAUSE", 0.0)
+    with only_run(tmp_path, lambda: None):
+        assert (tmp_path / NAME).exists()
+
+
 def test_locks_as_on_windows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A stand-in for msvcrt, and a file that cannot be removed while it is open."""
     import fcntl

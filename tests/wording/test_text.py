@@ -128,6 +128,29 @@ def test_a_markdown_cell_shows_its_text(hostile: str) -> None:
     assert plain == text.line(hostile)
 
 
+PLAIN_CELLS = {
+    "": "",
+    "speed": "speed",
+    "a b": "a b",
+    "a  b": "a b",
+    "a ": "a",
+    "a,b": '"a,b"',
+    'say "x"': '"say ""x"""',
+    "=1+1": "'=1+1",
+    "-5": "-5",
+    "+0.5": "+0.5",
+    "-a": "'-a",
+    "@a,b": '"\'@a,b"',
+    "a\nb": "a b",
+}
+
+
+@pytest.mark.parametrize("plain", PLAIN_CELLS)
+def test_a_csv_cell_as_spreadsheets_read_it(plain: str) -> None:
+    """Quoted where it must be, a number as it is, and nothing that is run."""
+    assert text.csv_cell(plain) == PLAIN_CELLS[plain]
+
+
 @pytest.mark.parametrize("hostile", HOSTILE)
 def test_a_csv_cell_is_one_cell_and_no_formula(hostile: str) -> None:
     row = f"first,{text.csv_cell(hostile)},last"

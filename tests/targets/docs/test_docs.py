@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.families import family
-from fieldscribe.model import Device, Enum, Place, Special
+from fieldscribe.model import Device, Enum, Place, Source, Special
 from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
 from fieldscribe.targets.docs import bus, outputs
@@ -197,6 +197,19 @@ def test_an_anchor_has_only_what_every_reader_of_markdown_keeps(name: str, found
     assert anchor("point", name) == found
     assert link("point", name).endswith(f"](#{found})")
     assert target("point", name).startswith(f'<a id="{found}"></a>')
+
+
+@pytest.mark.parametrize(
+    ("source", "facts"),
+    [
+        (Source("manual", None, None, None), "1 point; space holding"),
+        (Source("manual", "4.1", "7", None), "1 point; space holding; source: 4.1, page 7"),
+    ],
+)
+def test_the_facts_of_a_group(source: Source, facts: str) -> None:
+    groups = tuple(replace(group, source=source) for group in DEVICE.groups)
+    page = _page(replace(sample_device((point("speed", 1),)), groups=groups))
+    assert f"Group `main`: {facts}." in page.splitlines()
 
 
 def test_a_number_of_floating_point_has_no_raw_limits() -> None:
