@@ -15,6 +15,7 @@ from fieldscribe.families.answers import refused
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
+from fieldscribe.hexadecimal import typed_bytes
 from fieldscribe.model import Code, Place
 from hypothesis import given
 from hypothesis import strategies as st
@@ -104,6 +105,13 @@ def test_what_a_request_writes_is_not_taken_for_known() -> None:
     answer = rtu("01 03 02 00 64")
     assert "= 200 V" not in said(hear(ratio, setpoint, answer))[0]
     assert "= 200 V" in said(hear(ratio, ratio, setpoint, answer))[0]
+
+
+@pytest.mark.parametrize(
+    "typed", ["01 03 0A", "01h 03h 0Ah", "01H 03H 0AH", "0x1 0x03 0xA", "01,03,0a", "01030A", "0103 0A"]
+)
+def test_bytes_may_be_typed_as_manuals_and_tools_print_them(typed: str) -> None:
+    assert typed_bytes(typed, "frame", "01 03") == bytes.fromhex("01 03 0A")
 
 
 @pytest.mark.parametrize("space", ["input", "discrete"])

@@ -113,6 +113,13 @@ def test_words_of_one_frame() -> None:
     assert receiver.words((44, 45)) == ("missing", ())
 
 
+def test_a_text_is_given_as_its_words_came_last() -> None:
+    """More than two words over several frames: no two of them need to belong together."""
+    receiver = taken((0, 1, 2, 3), (1, 4, 5, 6), (2, 7, 8, 9), (0, 11, 2, 3))
+    assert receiver.words((0, 3, 6)) == ("ok", (11, 4, 7))
+    assert receiver.words((0, 3, 9)) == ("missing", ())
+
+
 HIGH, LOW = 14, 15  # operating hours: Nr 45 is word 3 of multiplexer 14, Nr 46 word 1 of multiplexer 15
 
 

@@ -15,6 +15,7 @@ from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.depfile import write_depfile
 from fieldscribe.pipeline import find_devices
+from fieldscribe.reading import UnfitFileError
 from support.places import ROOT
 from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool
@@ -339,6 +340,13 @@ def test_make_reads_every_path_of_a_depfile(tmp_path: Path) -> None:
         succeed([tool("make"), "--question", "--file", tmp_path / "made.d", output])
 
 
+@pytest.mark.parametrize("char", ["\n", "\t", "\x1f", "\x7f"])
+def test_a_path_with_a_control_character_is_refused(char: str, tmp_path: Path) -> None:
+    with pytest.raises(UnfitFileError, match="make cannot name the path"):
+        write_depfile(tmp_path / "made.d", [Path("out")], [Path(f"a{char}b")])
+    assert not (tmp_path / "made.d").exists()
+
+
 def test_a_depfile_names_the_paths_of_windows_with_slashes(tmp_path: Path) -> None:
     paths: list[Any] = [PureWindowsPath(path) for path in ("c:\\out\\a b.h", "in\\a#.yaml", "in\\b.yaml")]
     write_depfile(tmp_path / "made.d", paths[:1], paths[1:])
@@ -389,6 +397,16 @@ def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
     assert "docs/hitachi_l200.md" in made
     assert not any("broken" in path for path in made)
     assert "descriptions/broken/device.yaml" in capsys.readouterr().err
+
+
+def test_where_no_device_is_sound_no_folder_is_made_or_locked(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from fieldscribe.output import lock
+
+    monkeypatch.setattr(lock, "only_run", None)  # whoever called it would fail
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    place.write_text("nonsense: 1\n", "utf-8")
+    assert main(["generate", "--target", "docs", "--out", "made"]) == 1
+    assert not (project / "made").exists()
 
 
 def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,6 +16,7 @@ from fieldscribe.targets import c
 from fieldscribe.targets.c import kinds
 from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.scope import scope_of
+from fieldscribe.targets.c.special_codes import encoded_limits
 from support.described import DEVICES, loaded
 from support.models import CELSIUS, HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
 
@@ -191,6 +192,23 @@ def test_an_enum_of_its_own_is_told_from_that_of_another_point(
 def test_a_long_line_is_folded_and_a_macro_goes_on_behind_a_backslash(line: str, parts: list[str]) -> None:
     """At the last space up to 120 characters that is in no string."""
     assert folded(line).split("\n") == parts
+
+
+@pytest.mark.parametrize(
+    ("type_name", "facts", "limits"),
+    [
+        ("u64", {}, (0, 2**64 - 1)),
+        ("u64", {"specials": FAULT}, (0, 2**64 - 1)),
+        ("u64", {"specials": FAULT, "scale": scaled(10), "decimals": 1}, (0, 2**63 - 1)),
+        ("u16", {"specials": FAULT, "allowed": allowed((5, 9))}, (5, 65535)),
+        ("s16", {"specials": (Special(-9, -8, "lost", titles("Lost"), True),), "allowed": allowed((5, 9))}, (-9, 9)),
+    ],
+)
+def test_values_are_checked_between_limits_and_special_codes(
+    type_name: str, facts: dict[str, Any], limits: tuple[int, int]
+) -> None:
+    """Values that are computed have signed 64 bits; plain ones all of their type."""
+    assert encoded_limits(point("one", 1, type_name, **facts)) == limits
 
 
 class CutTerms(dict[Any, Any]):

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.families import family
-from fieldscribe.model import Device, Enum, Place, Source, Special
+from fieldscribe.model import Device, Document, Enum, Place, Source, Special
 from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
 from fieldscribe.targets.docs import bus, outputs
@@ -197,6 +197,14 @@ def test_an_anchor_has_only_what_every_reader_of_markdown_keeps(name: str, found
     assert anchor("point", name) == found
     assert link("point", name).endswith(f"](#{found})")
     assert target("point", name).startswith(f'<a id="{found}"></a>')
+
+
+def test_documents_with_and_without_a_file() -> None:
+    documents = (DEVICE.documents[0], Document("errata", "Errata", "en", "errata.pdf", "ab" * 32))
+    lines = _page(replace(DEVICE, documents=documents)).splitlines()
+    at = lines.index("| Document | Title | Language | File | SHA-256 |")
+    assert lines[at + 2] == "| `manual` | Sample manual | de |  |  |"
+    assert lines[at + 3] == f"| `errata` | Errata | en | errata.pdf | `{'ab' * 32}` |"
 
 
 @pytest.mark.parametrize(
