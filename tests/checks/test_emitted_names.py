@@ -260,8 +260,10 @@ def test_the_variant_for_unnamed_numbers_steps_aside_in_rust(entries: str, varia
 
 def test_every_old_name_of_a_function_leads_to_one(tmp_path: Path) -> None:
     """Of points of each form, among them some whose counts are too fine for an integer, or that need none."""
-    forms = ("scale: raw = value / 3", "scale: value = raw * 0.1", "enum: {0: off, 1: on}", "type: f32", "range: 0..9")
-    forms = (*forms, "type: text, characters: 4", "scale: value = raw / new_1", "flags: {0: a, 2..1: b}", "access: r")
+    forms = (
+        *("scale: raw = value / 3", "scale: value = raw * 0.1", "enum: {0: off, 1: on}", "type: f32", "range: 0..9"),
+        *("type: text, characters: 4", "scale: value = raw / new_1", "flags: {0: a, 2..1: b}", "access: r"),
+    )
     lines = [f"- {{name: new_{at}, at: {10 * at}, was: [old_{at}], {form}}}\n" for at, form in enumerate(forms)]
     texts = {path: text for _, path, text in outputs(loaded_in(tmp_path, described("".join(lines))), ["c"])}
     code = re.sub(r"/\*.*?\*/", "", texts["c/made_up.h"], flags=re.DOTALL)

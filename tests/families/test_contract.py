@@ -13,16 +13,23 @@ def test_a_family_has_only_what_it_says() -> None:
     assert (bare.lays_out_messages, bare.writes_elsewhere, bare.chooses_memory) == (False, False, False)
     assert (bare.commands_in, bare.options, bare.exports) == (None, (), ())
     assert bare.widest("word") == 64
+    assert (bare.bus.codes, bare.bus.last_exception, bare.bus.last_unit, bare.bus.broadcast) == (
+        (0, 255),
+        255,
+        255,
+        None,
+    )
+    assert ("units" in bare.bus, "bitrate" in bare.bus) == (True, False)
     assert bare.part("export") is None
 
 
-CAN_DO = {
+CAN_DO: dict[str, dict[str, object]] = {
     "modbus": {"commands_in": "holding", "writes_elsewhere": True},
     "can": {"lays_out_messages": True, "exports": ("dbc",)},
     "uss": {"chooses_memory": True},
 }
 """As the manuals of their devices have it: only USS chooses between RAM and EEPROM by the task of a request."""
-NOTHING = {
+NOTHING: dict[str, object] = {
     "lays_out_messages": False,
     "commands_in": None,
     "writes_elsewhere": False,

@@ -19,6 +19,19 @@ if TYPE_CHECKING:
     from fieldscribe.reading import State
 
 
+def noted(monkeypatch: pytest.MonkeyPatch, without: int = 0) -> list[int]:
+    """How files are opened from now on; the system itself does not get to see the flags of `without`."""
+    flags: list[int] = []
+    opened = os.open
+
+    def noting(path: Any, how: int, *more: Any) -> int:
+        flags.append(how)
+        return opened(path, how & ~without, *more)
+
+    monkeypatch.setattr(os, "open", noting)
+    return flags
+
+
 def test_a_file_is_read_with_its_state(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"12345")
@@ -30,9 +43,7 @@ def test_a_file_is_read_with_its_state(tmp_path: Path) -> None:
 def test_a_file_is_opened_so_that_nothing_hangs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A pipe does not wait for a writer, a terminal does not take over, and no child inherits the file."""
     (tmp_path / "a").write_bytes(b"1")
-    flags: list[int] = []
-    opened = os.open
-    monkeypatch.setattr(os, "open", lambda path, how: flags.append(how) or opened(path, how))
+    flags = noted(monkeypatch)
     assert read_regular(tmp_path / "a", 1).data == b"1"
     assert flags == [os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC]
 
@@ -55,8 +66,7 @@ def test_files_are_opened_as_windows_needs_it(
 ) -> None:
     """Line ends stay as they are, also where the system would change them."""
     (tmp_path / "a").write_bytes(b"1")
-    flags: list[int] = []
-    opened, both = os.open, sum(WINDOWS.values())
+    both = sum(WINDOWS.values())
     for name, bit in WINDOWS.items():
         monkeypatch.setattr(os, name, bit, raising=False)
     spec = find_spec(f"fieldscribe.{module}")
@@ -64,7 +74,7 @@ def test_files_are_opened_as_windows_needs_it(
     assert spec.loader is not None
     fresh = module_from_spec(spec)
     spec.loader.exec_module(fresh)
-    monkeypatch.setattr(os, "open", lambda path, how, *more: flags.append(how) or opened(path, how & ~both, *more))
+    flags = noted(monkeypatch, without=both)
     use(fresh, tmp_path / "a")
     assert flags
     assert all(how & both == both for how in flags)

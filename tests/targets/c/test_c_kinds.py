@@ -130,7 +130,7 @@ def test_a_key_has_the_parts_that_are_tested(monkeypatch: pytest.MonkeyPatch) ->
     assert {len(key) for key in keys} == {len(PARTS)}
 
 
-LIMITS = {
+LIMITS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "all of the type": ({"allowed": allowed((0, 65534))}, {"allowed": allowed((0, 65535))}),
     "several intervals": ({"allowed": allowed((0, 40))}, {"allowed": allowed((0, 9), (20, 40))}),
     "the way from a count to its raw number": (
