@@ -349,6 +349,7 @@ def test_a_path_with_a_control_character_is_refused(char: str, tmp_path: Path) -
 
 def test_a_depfile_names_the_paths_of_windows_with_slashes(tmp_path: Path) -> None:
     paths: list[Any] = [PureWindowsPath(path) for path in ("c:\\out\\a b.h", "in\\a#.yaml", "in\\b.yaml")]
+    (tmp_path / "made.d").write_text("an older rule", "utf-8")
     write_depfile(tmp_path / "made.d", paths[:1], paths[1:])
     assert (tmp_path / "made.d").read_text("utf-8") == "c:/out/a\\ b.h: in/a\\#.yaml \\\n  in/b.yaml\n"
 
