@@ -94,8 +94,10 @@ language_server=yaml-language-server@1.25.0
 if [ "$purpose" = tests ] && [ "$(cat .cache/node/installed 2>/dev/null)" != "$language_server" ] && command -v npm >/dev/null 2>&1; then
     echo "setting up $language_server in .cache"
     mkdir -p .cache/node
+    system_certificates=/etc/ssl/certs/ca-certificates.crt # npm brings its own and knows none that a firm added
+    [ -f "$system_certificates" ] && export npm_config_cafile="$system_certificates"
     # without it one test is skipped, which says so; the rest needs no network
-    if npm install --prefix .cache/node --no-save --no-package-lock --no-audit --no-fund --silent "$language_server"; then
+    if timeout 300 npm install --fetch-retries=1 --prefix .cache/node --no-save --no-package-lock --no-audit --no-fund --silent "$language_server"; then
         echo "$language_server" >.cache/node/installed
     else
         echo "npm could not install $language_server: the tests that need it are skipped" >&2

@@ -81,6 +81,21 @@ def test_what_stands_where_it_is_cited_is_clean(tmp_path: Path, capsys: pytest.C
     assert found["same_text"] is True
 
 
+@pytest.mark.parametrize("form", ["text", "json", "html"])
+def test_a_description_with_an_error_is_not_audited(
+    form: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its findings come as lines for people, or as JSON where that was asked for."""
+    wrong = DEVICE.replace("unit: Hz, line: 7", "unit: Hertz, line: 7").replace("SHA", "a" * 64)
+    place = write(tmp_path / "audited", wrong)
+    assert main(["audit", str(place.parent), "--manual", "none.txt", "--report", form]) == 1
+    printed = capsys.readouterr()
+    if form == "json":
+        assert [one["rule"] for one in json.loads(printed.out)["findings"]] == ["unknown-unit"]
+    else:
+        assert (printed.out + printed.err).lstrip().startswith("error[unknown-unit]: ")
+
+
 @pytest.mark.parametrize(
     ("old", "new", "missing"),
     [

@@ -13,7 +13,7 @@ from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
-from support.described import DEVICES, compile_in, group, head, loaded, together
+from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -178,6 +178,100 @@ def test_the_lists_hold_what_is_defined(folder: Path) -> None:
     assert listed - set(re.findall(r"\w+", code)) == set(), "a name that no header has would be refused for nothing"
     for name in LANGUAGES:
         assert len(list(target(name).identifiers(device))) > len(device.points)
+
+
+FLAGS = (
+    "0: {name: on, values: {0: stopped, 1: running}}, 2..1: {name: mode, values: {0: a, 1: b}}, "
+    "3: {name: low, active: 0}"
+)
+NAMES_OF_FLAGS = {
+    "c": {
+        "on": ("MADE_UP_STATE_ON_MASK",),
+        "mode": (
+            "MADE_UP_STATE_MODE_MASK",
+            "MADE_UP_STATE_MODE_SHIFT",
+            "MADE_UP_STATE_MODE_A",
+            "MADE_UP_STATE_MODE_B",
+            "made_up_state_mode",
+        ),
+        "low": ("MADE_UP_STATE_LOW_MASK",),
+    },
+    "python": {"on": ("ON", "on"), "mode": ("MODE", "mode"), "low": ("LOW", "low")},
+    "rust": {
+        "on": ("ON", "on", "with_on"),
+        "mode": ("MODE", "mode", "with_mode", "MODE_A", "MODE_B"),
+        "low": ("LOW_ACTIVE_LOW", "low", "with_low"),
+    },
+}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_flag_has_its_names_and_is_named_as_their_owner(language: str, tmp_path: Path) -> None:
+    """A single bit has no names for its numbers; a finding about a name leads to the flag, which is of its point."""
+    device = loaded_in(tmp_path, described(f"- {{name: state, at: 1, flags: {{{FLAGS}}}}}\n"))
+    found: dict[str, tuple[str, ...]] = {}
+    for _, owner, names in target(language).identifiers(device):
+        flag = owner.of if owner.kind == "value" and owner.of is not None else owner
+        if flag.kind == "flag":
+            assert flag.of is not None
+            assert (flag.of.kind, flag.of.name) == ("point", "state")
+            found[flag.name] = (*found.get(flag.name, ()), *names)
+    assert found == NAMES_OF_FLAGS[language]
+    text = "".join(text for _, path, text in outputs(device, [language]) if "made_up" in path)
+    assert set(re.findall(r"\w+", text)) >= {name for names in found.values() for name in names}
+
+
+@pytest.mark.parametrize(
+    ("language", "first", "second"),
+    [
+        ("c", ("MADE_UP_MODE_OFF",), ("MADE_UP_MODE_SLOW_ONE",)),
+        ("python", ("OFF",), ("SLOW_ONE",)),
+        ("rust", ("Off",), ("SlowOne",)),
+    ],
+)
+def test_each_entry_of_an_enum_is_named_as_the_owner_of_its_names(
+    language: str, first: tuple[str, ...], second: tuple[str, ...], tmp_path: Path
+) -> None:
+    device = loaded_in(
+        tmp_path, described("- {name: state, at: 1, enum: mode}\n", enums="{mode: {0: 'off', 1: slow_one}}")
+    )
+    owned = {owner: names for _, owner, names in target(language).identifiers(device) if owner.kind == "entry"}
+    assert {(owner.name, owner.of and owner.of.kind, owner.of and owner.of.name) for owner in owned} == {
+        ("off", "enum", "mode"),
+        ("slow_one", "enum", "mode"),
+    }
+    assert {owner.name: tuple(names) for owner, names in owned.items()} == {"off": first, "slow_one": second}
+
+
+@pytest.mark.parametrize(
+    ("entries", "variant"),
+    [
+        ("0: 'off'", "Unknown"),
+        ("0: unknown", "Other"),
+        ("0: unknown, 1: other", "Unnamed"),
+        ("0: unknown, 1: other, 2: unnamed", "Number"),
+    ],
+)
+def test_the_variant_for_unnamed_numbers_steps_aside_in_rust(entries: str, variant: str, tmp_path: Path) -> None:
+    device = loaded_in(tmp_path, described(f"- {{name: state, at: 1, open: yes, enum: {{{entries}}}}}\n"))
+    texts = "".join(text for _, path, text in outputs(device, ["rust"]) if "made_up" in path)
+    assert re.search(rf"^ +{variant}\(", texts, re.MULTILINE)
+
+
+def test_every_old_name_of_a_function_leads_to_one(tmp_path: Path) -> None:
+    """Of points of each form, among them some whose counts are too fine for an integer, or that need none."""
+    forms = (
+        *("scale: raw = value / 3", "scale: value = raw * 0.1", "enum: {0: off, 1: on}", "type: f32", "range: 0..9"),
+        *("type: text, characters: 4", "scale: value = raw / new_1", "flags: {0: a, 2..1: b}", "access: r"),
+    )
+    lines = [f"- {{name: new_{at}, at: {10 * at}, was: [old_{at}], {form}}}\n" for at, form in enumerate(forms)]
+    texts = {path: text for _, path, text in outputs(loaded_in(tmp_path, described("".join(lines))), ["c"])}
+    code = re.sub(r"/\*.*?\*/", "", texts["c/made_up.h"], flags=re.DOTALL)
+    functions = set(re.findall(r"^[A-Za-z].*?\b(\w+)\([^;]*?\)(?=\n\{| \{)", code, re.MULTILINE))
+    renamed = dict(re.findall(r"^#define (made_up_old_\d\w*) (\w+)$", code, re.MULTILINE))
+    arrays = {"made_up_new_5_addresses"}
+    assert {new.replace("_new_", "_old_") for new in renamed.values()} == set(renamed)
+    assert {name for name in functions | arrays if "_new_" in name} == set(renamed.values())
 
 
 def test_the_constants_of_rust_are_those_of_its_traits() -> None:

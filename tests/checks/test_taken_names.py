@@ -13,7 +13,7 @@ from fieldscribe.targets import target
 from fieldscribe.targets.python.identifiers import HELPERS, Identifiers, attribute, parameter, word_attribute
 from fieldscribe.targets.rust.literals import type_name, value_name, variant_name
 from fieldscribe.targets.rust.words import getter_name
-from support.described import described, loaded_in, made
+from support.described import compile_in, described, loaded_in, made
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -59,6 +59,18 @@ def test_no_device_is_called_like(language: str, names: str, why: str) -> None:
     for name in names.split():
         assert re.fullmatch(why.format(name), taken(name)), name
     assert taken("hitachi_l200") == ""
+
+
+@pytest.mark.parametrize("name", ["fieldscribe", "fieldscribe_runtime", "nul", "aux", "com1", "lpt9"])
+def test_no_device_takes_a_name_of_ours_or_of_windows(name: str, tmp_path: Path) -> None:
+    device, findings = compile_in(tmp_path, described("- {name: speed, at: 1}\n", device=name))
+    assert device is None
+    assert [finding.rule for finding in findings] == ["unsafe-name"]
+
+
+@pytest.mark.parametrize("name", ["fieldscribes", "my_fieldscribe", "nulls", "com10", "lpt"])
+def test_a_device_may_come_near_such_a_name(name: str, tmp_path: Path) -> None:
+    assert loaded_in(tmp_path, described("- {name: speed, at: 1}\n", device=name)).id == name
 
 
 def test_rust_steps_aside() -> None:

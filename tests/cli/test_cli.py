@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe import __version__
 from fieldscribe.cli import COMMANDS, command_of, main
+from fieldscribe.cli.common import description_paths, print_json
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, write
 
@@ -537,6 +538,28 @@ def test_what_the_chosen_variant_does_not_have_is_refused(run: Callable[..., Res
     assert (told.code, told.out) == (1, "")
     assert only in told.err
     assert run("explain", "small_drive", "cascade").code == 0
+
+
+def test_without_descriptions_the_shipped_ones_are_meant(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And that is said; a folder of one's own, and a device that lies here, come first."""
+    monkeypatch.chdir(tmp_path)
+    assert description_paths([]) == [descriptions_dir()]
+    assert capsys.readouterr().err == (
+        "there is no folder descriptions here: these are the devices that come with fieldscribe\n"
+    )
+    (tmp_path / "descriptions").mkdir()
+    assert description_paths([]) == [Path("descriptions")]
+    (tmp_path / "device.yaml").touch()
+    assert description_paths([]) == [Path("device.yaml")]
+    assert description_paths([Path("descriptions")]) == [Path("descriptions")]
+    assert capsys.readouterr().err == ""
+
+
+def test_json_ends_with_its_line(capsys: pytest.CaptureFixture[str]) -> None:
+    print_json({"ü": [1]})
+    assert capsys.readouterr().out == '{\n  "\\u00fc": [\n    1\n  ]\n}\n'
 
 
 def test_of_points_at_one_address_the_chosen_variant_has_one(run: Callable[..., Result], small: Path) -> None:

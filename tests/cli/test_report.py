@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.diagnostics import Diagnostic, Span
+from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
 from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
 
 if TYPE_CHECKING:
@@ -66,6 +66,27 @@ def test_long_lines_are_cut_around_the_place() -> None:
     assert lines[3].count("^") == 4
 
 
+@pytest.mark.parametrize(
+    ("size", "column", "shown"),
+    [
+        (70, 1, "a" * 70),
+        (71, 1, "a" * 60 + " ..."),
+        (120, 51, "a" * 120),
+        (121, 52, "... " + "a" * 110),
+        (131, 51, "a" * 110 + " ..."),
+        (200, 101, "... " + "a" * 100 + " ..."),
+    ],
+)
+def test_a_line_is_cut_forty_characters_before_and_sixty_behind(size: int, column: int, shown: str) -> None:
+    """But not for the sake of ten more, which the dots would take up again."""
+    lines = [
+        "".join(piece for _, piece in one)
+        for one in as_lines([Diagnostic("x", "m", Span("a", 1, column))], {"a": ["a" * size]}.get)
+    ]
+    assert lines[2] == f"1 | {shown}"
+    assert lines[3] == "  | " + " " * (column - 1 if column <= 51 else 44) + "^"
+
+
 def test_marks_stand_below_wide_characters() -> None:
     lines = _text(Diagnostic("x", "m", Span("wide.yaml", 1, 11, 3)))
     assert columns(lines[3][: lines[3].index("^")]) == columns(lines[2][: lines[2].index("bad")])
@@ -112,6 +133,41 @@ def test_data() -> None:
         "hint": None,
         "related": [{"message": "there", "file": "b", "line": 4, "column": 5, "width": 1}],
     }
+
+
+def test_a_report_keeps_findings_in_order_and_each_once() -> None:
+    """By file and place; nothing that a terminal obeys gets into them, and a hint is not needed."""
+    report = Report()
+    report.error("b", "later\nline", Span("a", 2, 1), "do\x1b this", [(Span("b", 1, 1), "there")])
+    report.warning("c", "odd", Span("a", 1, 9))
+    assert (report.has_errors, report.count) == (True, 2)
+    report.error("a", "sooner", Span("a", 1, 9))
+    report.error("a", "sooner", Span("a", 1, 9))
+    assert report.findings == (
+        Diagnostic("a", "sooner", Span("a", 1, 9), None, (), "error"),
+        Diagnostic("c", "odd", Span("a", 1, 9), None, (), "warning"),
+        Diagnostic("b", "later line", Span("a", 2, 1), "do this", ((Span("b", 1, 1), "there"),), "error"),
+    )
+    warned = Report()
+    warned.warning("c", "odd", Span("a", 1, 9), "what\u202e now")
+    assert not warned.has_errors
+    assert [finding.hint for finding in warned.findings] == ["what now"]
+
+
+def test_a_report_takes_no_more_than_people_read() -> None:
+    report = Report()
+    for number in range(MOST_FINDINGS + 2):
+        assert report.full == (number >= 1000)
+        report.error("a", f"{number}", Span("a", 1, 1))
+    assert report.count == 1000
+
+
+def test_a_further_place_is_told_but_not_to_whom_it_happened() -> None:
+    report, elsewhere = Report(), (Span("a", 3, 1), "used here")
+    report.error("a", "here", Span("a", 3, 1, 5))
+    report.error("a", "there", Span("a", 1, 1), related=[(Span("b", 1, 1), "first")])
+    related = [finding.related for finding in report.also(*elsewhere).findings]
+    assert related == [((Span("b", 1, 1), "first"), elsewhere), ()]
 
 
 def test_lines_are_counted_as_yaml_counts_them() -> None:

@@ -74,7 +74,9 @@ def send(item: str, value: str, options: Options | None = None) -> tuple[str, ..
     ],
 )
 def test_notations(texts: list[str], can_id: str | None, shown: list[str]) -> None:
-    assert [one.shown for one in read_frames(texts, can_id)] == shown
+    pasted = read_frames(texts, can_id)
+    assert [one.shown for one in pasted] == shown
+    assert all(isinstance(word, str) for one in pasted for word in (one.stamp, one.bus))
 
 
 @pytest.mark.parametrize(

@@ -15,10 +15,11 @@ from fieldscribe.families.answers import refused
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
-from fieldscribe.model import Place
+from fieldscribe.hexadecimal import typed_bytes
+from fieldscribe.model import Code, Place
 from hypothesis import given
 from hypothesis import strategies as st
-from support.models import changed, named, sample_device
+from support.models import changed, named, sample_device, titles
 
 if TYPE_CHECKING:
     from fieldscribe.families.answers import Heard
@@ -86,6 +87,41 @@ def test_read_and_reply() -> None:
     alone = hear(reply)
     assert alone.items == ()
     assert "--request" in alone.notes[0]
+
+
+def test_a_second_expected_request_takes_the_place_of_the_first() -> None:
+    """It is a request whatever was expected before, and the replies that follow are its own."""
+    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE))
+    listening.expect_reply_to(rtu("01 03 10 13 00 02"))
+    assert listening.expect_reply_to(rtu("01 03 10 28 00 01")).kind == "request"
+    heard = listening.hear(rtu("01 03 02 01 F4"))
+    assert (heard.kind, heard.faults) == ("reply", ())
+    assert said(heard) == ["A020 base_frequency = 50 Hz (raw 500 = 01F4h): Base frequency"]
+
+
+def test_what_a_request_writes_is_not_taken_for_known() -> None:
+    """Only what the device reported, or has taken, tells what later numbers mean."""
+    ratio, setpoint = rtu("01 06 20 07 00 C8"), rtu("01 03 20 08 00 01")
+    answer = rtu("01 03 02 00 64")
+    assert "= 200 V" not in said(hear(ratio, setpoint, answer))[0]
+    assert "= 200 V" in said(hear(ratio, ratio, setpoint, answer))[0]
+
+
+@pytest.mark.parametrize(
+    "typed", ["01 03 0A", "01h 03h 0Ah", "01H 03H 0AH", "0x1 0x03 0xA", "01,03,0a", "01030A", "0103 0A"]
+)
+def test_bytes_may_be_typed_as_manuals_and_tools_print_them(typed: str) -> None:
+    assert typed_bytes(typed, "frame", "01 03") == bytes.fromhex("01 03 0A")
+
+
+@pytest.mark.parametrize("space", ["input", "discrete"])
+def test_nothing_is_sent_where_no_function_writes(space: str) -> None:
+    """Not by chance a request that reads."""
+    reads = tuple(Code(number, f"read_{number}", titles("Read"), None) for number in (2, 4))
+    device = replace(DEVICE, bus=replace(DEVICE.bus, functions=(*DEVICE.bus.functions, *reads)))
+    with pytest.raises(RefusedError) as refusal:
+        write_request(device, changed(named(DEVICE, "third"), space=space), 1, None, None)
+    assert refusal.value.status == "bad_function"
 
 
 def test_a_reply_of_three_bytes_looks_like_a_request() -> None:

@@ -6,8 +6,10 @@ import json
 from dataclasses import replace
 
 import pytest
+from fieldscribe.asked import quoted
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
+from fieldscribe.conversation.others import explain_others
 from fieldscribe.hexadecimal import number_of
 from support.models import changed, named, point, sample_device
 
@@ -84,6 +86,7 @@ def test_bit_groups_share_an_address() -> None:
 def test_printed_references_that_are_text() -> None:
     device = sample_device((point("power", 7, references={"parameter": "P1082"}),))
     assert [one.reading for one in find(device, "p1082")] == ["parameter P1082"]
+    assert find(device, "P1083") == []
 
 
 @pytest.mark.parametrize(
@@ -97,6 +100,32 @@ def test_printed_references_that_are_text() -> None:
 )
 def test_what_is_near(what: str, names: list[str]) -> None:
     assert near(DEVICE, what)[: len(names)] == names
+
+
+@pytest.mark.parametrize(
+    ("typed", "shown"),
+    [("a" * 60, "a" * 60), ("a" * 61, "a" * 57 + "..."), ("a\x1b[31m\nb", "a[31m b"), ("a" * 9999, "a" * 57 + "...")],
+)
+def test_what_was_typed_is_repeated_clean_and_short(typed: str, shown: str) -> None:
+    assert quoted(typed) == shown
+
+
+@pytest.mark.parametrize(
+    ("what", "readings"),
+    [
+        ("enter", ["command enter"]),
+        ("name:ENTER", ["command enter"]),
+        ("code:enter", []),
+        ("wire:enter", []),
+        ("a020_wire", ["erratum a020_wire"]),
+        ("code:a020_wire", []),
+        ("wire:900h", ["wire address 0900h (2304), holding"]),
+        ("name:900h", []),
+    ],
+)
+def test_what_is_no_point_is_found_by_its_name_or_its_place_alone(what: str, readings: list[str]) -> None:
+    found = explain_others(DEVICE, what)
+    assert [reading for answer, _ in found for reading in answer][: len(readings) or None] == readings
 
 
 def test_nothing_is_near_nonsense() -> None:

@@ -24,7 +24,7 @@ from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
-from support.described import shipped
+from support.described import made, shipped
 from support.frames_by_hand import coded, uss_bytes
 from support.models import sample_device
 
@@ -80,6 +80,25 @@ def test_single_words_by_the_length_of_the_part() -> None:
     short = pkw("12BC 0000 0000", "12BC 0000 0002", link=3)
     assert short[1].items[0].raw == 2
     assert "does not fit" in pkw("343A 0000 4220", link=3)[0].findings[0]
+
+
+def test_an_error_in_a_part_that_is_too_short_is_told_all_the_same() -> None:
+    """Its one value word may be the second: then what the first held was never sent."""
+    (short,) = pkw("743A 0000 0011", link=4, direction="response")
+    assert short.exception == 17
+    assert short.faults
+    assert not any("second" in note for note in short.notes)
+    (whole,) = pkw("743A 0000 0011 0005", link=4, direction="response")
+    assert any("stand in the second, which holds 5" in note for note in whole.notes)
+
+
+def test_a_request_for_what_the_chosen_model_lacks_says_so() -> None:
+    """P3900 exists only in the model mm440; what an answer is about, the device has."""
+    read, refused = "176C 8000 0000 0000", "776C 8000 0000"
+    for model, told in (("mm420", True), ("mm440", False)):
+        device = choose_variants(made("kitchen_uss"), [f"model={model}"])
+        request, _ = decode(device, {}, (read, refused), asked(framing="pkw", pkw=127))
+        assert any("exists only when" in each for item in request.items for each in item.findings) is told
 
 
 def test_pages_and_indices() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -16,14 +17,14 @@ from fieldscribe.cli import main
 from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
 from fieldscribe.families.can.export.dbc import export_dbc
-from fieldscribe.families.can.export.dbc_points import decimal
+from fieldscribe.families.can.export.dbc_points import decimal, signals_of_point
 from fieldscribe.families.can.facts import of_bus
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.model import Entry, Enum, Message, Role, Unit
+from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
-from support.described import shipped
+from support.described import made, shipped
 from support.models import named, point, sample_device, titles
 from support.python_package import imported, write_package
 
@@ -74,6 +75,34 @@ def named_parts(one: Point) -> list[tuple[str, int]]:
     if len(slots) == 1:
         return [(one.name, one.addresses[0] // CYCLIC.words)]
     return [(f"{one.name}_{half}", at // CYCLIC.words) for half, at in zip(("high", "low"), one.addresses, strict=True)]
+
+
+def test_the_head_of_a_database() -> None:
+    """In the order of the format: version, symbols, bit timing, nodes, and then the messages."""
+    before, messages = export_dbc(DEVICE, UNIT).split("\nBO_ ", 1)
+    lines = before.splitlines()
+    assert lines[:3] == [f'VERSION "{DEVICE.id} {DEVICE.version}"', "", "NS_ :"]
+    assert lines[-4:] == ["", "BS_:", "", f"BU_: master unit_{UNIT}"]
+    assert all(line.startswith("\t") for line in lines[3:-4])
+    assert "BU_:" not in messages
+
+
+def test_a_signal_is_written_as_the_format_has_it() -> None:
+    """Multiplexed ones say by which number; nothing is said where there is nothing to say."""
+    text = export_dbc(DEVICE, UNIT) + export_dbc(made("kitchen_can"), 1)
+    signals = [line for line in text.splitlines() if line.startswith(" SG_ ")]
+    form = r" SG_ \w+( M| m\d+M?)? : \d+\|\d+@[01][+-] \(\S+,\S+\) \[\S+\|\S+\] \"[^\"]*\" \w+"
+    assert [line for line in signals if not re.fullmatch(form, line)] == []
+    assert len(signals) > 100
+    assert not [line for line in text.splitlines() if line.startswith("CM_") and line.endswith('"";')]
+
+
+@pytest.mark.parametrize(("last", "listed"), [(0x101F, True), (0x1020, False)], ids=["32 codes", "33 codes"])
+def test_a_long_band_of_special_codes_is_told_in_the_comment_alone(last: int, listed: bool) -> None:
+    band = Special(0x1000, last, "fault", titles("Fault"), True)
+    (signal,) = signals_of_point(sample_device(), point("speed", 1, specials=(band,)), 3, joins=True)
+    assert signal.values == (tuple((raw, "fault") for raw in range(0x1000, last + 1)) if listed else ())
+    assert ("No quantity" in signal.comment) is not listed
 
 
 def test_every_word_is_a_signal() -> None:

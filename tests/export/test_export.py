@@ -11,12 +11,15 @@ from typing import Any
 
 import fieldscribe
 import pytest
+from fieldscribe import export
 from fieldscribe.export import export_model
 from fieldscribe.export.rules import bound_of, use_of
-from fieldscribe.model import Factor, Limit, Special
+from fieldscribe.families import families, family
+from fieldscribe.model import Factor, Flag, Limit, Special
+from fieldscribe.records import replace as replace_record
 from jsonschema import Draft202012Validator
-from support.described import described, loaded_in
-from support.models import linear, point, sample_device, scaled, titles, value_of
+from support.described import described, loaded_in, made
+from support.models import allowed, linear, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
 SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
@@ -279,6 +282,25 @@ def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: li
         assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
 
 
+@pytest.mark.parametrize(("last", "listed"), [(4095, True), (4096, False)])
+def test_a_long_list_of_numbers_is_exported_as_ranges_alone(last: int, listed: bool) -> None:
+    """4096 numbers one by one, and no more."""
+    numbers = allowed((0, last - 10), (60000, 60009), listed=True)
+    exported: Any = export_model(sample_device((point("level", 1, allowed=numbers),)))
+    raw = exported["points"][0]["raw"]
+    assert raw["ranges"] == [[0, last - 10], [60000, 60009]]
+    assert (raw["values"] or [])[-1:] == ([60009] if listed else [])
+    assert len(raw["values"] or ()) == (4096 if listed else 0)
+
+
+def test_only_a_single_bit_has_a_number_that_makes_it_true() -> None:
+    flags = (Flag(0, 1, "low", titles("Low"), 0, ()), Flag(1, 3, "mode", titles("Mode"), 1, ()))
+    exported: Any = export_model(sample_device((point("state", 1, flags=flags),)))
+    low, mode = exported["points"][0]["flags"]
+    assert low["values"] == {"0": {"name": "low", "title": {"en": "Low"}}}
+    assert (mode["bits"], mode["values"]) == ([3, 1], {})
+
+
 def test_an_erratum_names_its_points() -> None:
     several = replace(DEVICE.errata[0], points=("base_frequency", "ready"))
     exported: Any = export_model(replace(DEVICE, errata=(several,)))
@@ -289,6 +311,73 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
     doubled = point("doubled", 1, scale=scaled("1/2", 0))
     constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
     assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
+
+
+def test_documents_and_commands() -> None:
+    assert _model()["documents"] == [
+        {"id": "manual", "title": "Sample manual", "language": "de", "file": None, "sha256": None}
+    ]
+    assert _model()["commands"] == [
+        {
+            "name": "enter",
+            "title": {"en": "Store parameters"},
+            "note": {},
+            "space": "holding",
+            "address": 0x900,
+            "function": 6,
+            "value": None,
+            "wears": 100000,
+            "busy": "running",
+            "source": {"document": "manual", "section": "Gruppe A", "page": None, "line": 780},
+        }
+    ]
+
+
+def test_the_limits_of_frames_are_empty_where_another_family_has_them() -> None:
+    expected = {
+        "framings": ["rtu", "tcp"],
+        "units": [1, 32],
+        "broadcast": 0,
+        "most": {"1": 32, "3": 4, "5": 1, "6": 1, "15": 32, "16": 4},
+        "gaps": {"holding": [[0x30, 0x8FF]]},
+        "timing": {"silent_characters": "3.5"},
+        "pad_coil_bytes": "even",
+        "pzd": [0, 0],
+    }
+    assert {key: value for key, value in _model()["limits"].items() if value or key in expected} == expected
+    of_can: Any = export_model(made("kitchen_can"))
+    assert of_can["limits"]["pad_coil_bytes"] is None
+    assert list(of_can["limits"]) == list(_model()["limits"])
+
+
+def test_a_family_that_exports_nothing_of_its_own_is_no_obstacle(monkeypatch: pytest.MonkeyPatch) -> None:
+    bare = replace_record(family("modbus"), name="bare", folder="support")
+    monkeypatch.setattr(export, "families", lambda: (*families(), bare))
+    assert export_model(DEVICE)["limits"] == _model()["limits"]
+
+
+@pytest.mark.parametrize("slope", [1, -1])
+def test_ten_to_a_raw_number_is_said_of_the_raw_number(slope: int) -> None:
+    """Also where the value is as large, so that every consumer finds one form."""
+    other = point("other", 1, "s16", scale=scaled(slope))
+    said = use_of(value_of("other", slope=slope, ten_to=True), other)
+    assert said == (Fraction(1), [{"point": "other", "part": "raw", "ten_to": slope}])
+
+
+def test_tasks_and_process_data_of_a_drive() -> None:
+    """Of a drive over USS: what answers and what refuses a task, and which way a word travels."""
+    exported: Any = export_model(made("kitchen_uss"))
+    assert exported["codes"]["functions"]["2"] == {
+        "name": "write_word",
+        "title": {"en": "Write word"},
+        "answers": [1],
+        "refusals": [7, 8],
+        "broadcast": None,
+    }
+    travels = {one["name"]: (one["telegram"], one["direction"]) for one in exported["points"] if one["telegram"]}
+    assert travels["control_word"] == ("task", "request")
+    assert travels["status_word"] == ("answer", "response")
+    assert {one["direction"] for one in exported["points"] if one["name"] not in travels} == {None}
 
 
 @pytest.mark.parametrize(
@@ -302,6 +391,19 @@ def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
 def test_a_factor_that_is_no_plain_multiple_is_said_with_all_its_numbers(factor: Factor, said: dict[str, int]) -> None:
     constant, uses = use_of(factor, point("other", 1))
     assert (constant, uses) == (Fraction(1), [{"point": "other", "part": "raw", **said}])
+
+
+def test_a_factor_that_is_a_number_of_floating_point() -> None:
+    expected = (Fraction(1), [{"point": "other", "part": "value", "power": -1}])
+    assert use_of(value_of("other", -1), point("other", 1, "f32")) == expected
+
+
+def test_the_layout_of_a_message() -> None:
+    exported: Any = export_model(made("kitchen_can"))
+    read = next(one for one in exported["messages"] if one["name"] == "read_request")
+    assert list(read) == ["name", "title", "direction", "answers", "identifier", "adds_unit", "layout", "source"]
+    assert len(read["layout"]) == 8
+    assert read["layout"][0] == {"holds": "constant", "number": 0xFF}
 
 
 def test_computed_ends_as_expressions() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.families.can.frames import CanFrame, build, parse
+from fieldscribe.families.can.frames import CanFrame, build, parse, telegram_words
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Message, Role, Source, Telegram
 from hypothesis import given
@@ -97,10 +97,27 @@ def taken(*frames: tuple[int, int, int, int]) -> Receiver:
     return receiver
 
 
+@pytest.mark.parametrize(
+    ("mux", "words"),
+    [(0, {0: 7, 1: 1, 2: 0x86A0}), (16, {48: 7, 49: 1, 50: 0x86A0}), (22, {66: 7, 67: 1, 68: 0x86A0})],
+)
+def test_the_multiplexer_says_which_words_a_frame_brings(mux: int, words: dict[int, int]) -> None:
+    """Three words each: multiplexer 16 brings the numbers 49 to 51 of the manual, which counts from 1."""
+    frame = CanFrame(0x325, bytes((0xDD, mux, 0x00, 0x07, 0x00, 0x01, 0x86, 0xA0)))
+    assert telegram_words(CYCLIC, frame) == words
+
+
 def test_words_of_one_frame() -> None:
     receiver = taken((16, 7, 0x0001, 0x86A0))
     assert receiver.words((49, 50)) == ("ok", (0x0001, 0x86A0))  # Nr 50 and 51: multiplexer 16, words 2 and 3
     assert receiver.words((44, 45)) == ("missing", ())
+
+
+def test_a_text_is_given_as_its_words_came_last() -> None:
+    """More than two words over several frames: no two of them need to belong together."""
+    receiver = taken((0, 1, 2, 3), (1, 4, 5, 6), (2, 7, 8, 9), (0, 11, 2, 3))
+    assert receiver.words((0, 3, 6)) == ("ok", (11, 4, 7))
+    assert receiver.words((0, 3, 9)) == ("missing", ())
 
 
 HIGH, LOW = 14, 15  # operating hours: Nr 45 is word 3 of multiplexer 14, Nr 46 word 1 of multiplexer 15

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.existence import Comparison, Condition
 from fieldscribe.families.modbus.blocks import plan_blocks
+from fieldscribe.families.modbus.facts import ModbusBus
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
-from fieldscribe.families.modbus.remarks import flaw_text
+from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
-from fieldscribe.model import Bus, Code, Point, Variant
+from fieldscribe.families.modbus.targets.vectors import ModbusWire
+from fieldscribe.model import Bus, Code, Own, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -34,7 +36,7 @@ from pymodbus.pdu.register_message import (
     WriteMultipleRegistersRequest,
     WriteSingleRegisterRequest,
 )
-from support.models import changed, point, sample_bus, titles
+from support.models import changed, point, sample_bus, sample_device, titles
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -326,6 +328,28 @@ def test_what_is_wrong_with_a_request(framing: str, data: bytes, reason: str) ->
     assert flaw_text(flaw) == reason
 
 
+@pytest.mark.parametrize(
+    ("code", "name"),
+    [
+        (0x01, "illegal function"),
+        (0x02, "illegal data address"),
+        (0x03, "illegal data value"),
+        (0x04, "device failure"),
+        (0x05, "acknowledged, still working"),
+        (0x06, "device busy"),
+        (0x08, "memory parity error"),
+        (0x0A, "gateway path unavailable"),
+        (0x0B, "gateway target did not answer"),
+    ],
+)
+def test_exceptions_have_the_meaning_of_the_protocol(code: int, name: str) -> None:
+    """The Modbus application protocol, section 7; a device may name others itself."""
+    said = exception_text(sample_device(), code)
+    assert name in said
+    assert f"{code:02X}h" in said
+    assert "value_out_of_range" in exception_text(sample_device(), 0x21)
+
+
 def at(*addresses: int, **facts: Any) -> Point:
     """A readable word (or more) at these addresses, the high part first, named after the first."""
     type_name = {1: "u16", 2: "u32", 4: "u64"}[len(addresses)]
@@ -427,6 +451,42 @@ def test_blocks_come_by_space_then_address() -> None:
         ("holding", 3, 2),
         ("input", 4, 1),
     ]
+
+
+@pytest.mark.parametrize(
+    ("framing", "function", "addresses", "words", "sent", "received"),
+    [
+        ("rtu", 3, (0x1013, 0x1014), (1, 2), "01 03 10 13 00 02", "01 03 04 00 01 00 02"),
+        ("rtu", 3, (0x1014, 0x1013), (1, 2), "01 03 10 13 00 02", "01 03 04 00 01 00 02"),
+        ("rtu", 6, (0xFFFF,), (7,), "01 06 FF FF 00 07", "01 06 FF FF 00 07"),
+        ("rtu", 16, (5, 6), (7, 8), "01 10 00 05 00 02 04 00 07 00 08", "01 10 00 05 00 02"),
+        ("rtu", 1, (9,), (1,), "01 01 00 09 00 01", "01 01 01 01"),
+        ("tcp", 3, (9,), (3,), "00 01 00 00 00 06 01 03 00 09 00 01", "00 01 00 00 00 05 01 03 02 00 03"),
+    ],
+)
+def test_vectors_exchange_what_stands_in_a_row(  # noqa: PLR0917 - the columns of the table
+    framing: str, function: int, addresses: tuple[int, ...], words: tuple[int, ...], sent: str, received: str
+) -> None:
+    """By hand, from the protocol: the lowest address travels, and a single write is answered by itself."""
+    script = ModbusWire(sample_device(), framing).script(function, addresses, words)
+    whole = [(text + tail(text)) if framing == "rtu" else text for text in (f"{sent} ", f"{received} ")]
+    assert script == [(bytes.fromhex(whole[0]), bytes.fromhex(whole[1]))]
+
+
+@pytest.mark.parametrize(
+    ("function", "addresses", "words"),
+    [(3, (5, 7), (1, 2)), (3, (0xFFFF, 0x10000), (1, 2)), (4, (5,), (1,)), (3, tuple(range(5)), (0,) * 5)],
+    ids=["a hole", "behind the last address", "no such function", "more than at once"],
+)
+def test_vectors_exchange_nothing_that_one_request_cannot_carry(
+    function: int, addresses: tuple[int, ...], words: tuple[int, ...]
+) -> None:
+    assert ModbusWire(sample_device(), "rtu").script(function, addresses, words) is None
+
+
+def test_a_bus_of_which_nothing_is_said_pads_nothing() -> None:
+    assert not profile_of(bus(own=Own())).pad_coil_bytes_even
+    assert profile_of(bus(own=ModbusBus("even"))).pad_coil_bytes_even
 
 
 def test_profile_takes_the_smaller_most() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.families.uss.facts import UssBus, of_bus
@@ -12,7 +13,12 @@ from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_
 from fieldscribe.model import Bus, Code
 from hypothesis import given
 from hypothesis import strategies as st
-from support.described import shipped
+from support.c_device import write_headers
+from support.described import made, shipped
+from support.toolchains import succeed, tool
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_variants_may_take_fewer_words() -> None:
@@ -208,3 +214,14 @@ def test_no_turned_bit_passes(bit: int) -> None:
     data = bytearray(answer("243A 0000 4248 0000"))
     data[bit >> 3] ^= 1 << (bit & 7)
     assert parse(BUS, VARIABLE, ASK, bytes(data)).status != "ok"
+
+
+@pytest.mark.parametrize(("unit", "listed"), [(None, "NO_BROADCAST"), (32, "0x20U")])
+def test_the_header_of_a_bus_with_and_without_broadcast_compiles(unit: int | None, listed: str, tmp_path: Path) -> None:
+    device = made("kitchen_uss")
+    points = tuple(point for point in device.points if point.name == "control_word")
+    small = replace(device, bus=replace(device.bus, broadcast=unit), points=points, frames=(), enums=())
+    folder = write_headers(small, tmp_path)
+    assert listed in (folder / "c" / "kitchen_uss_uss.h").read_text("utf-8")
+    (tmp_path / "user.c").write_text('#define FIELDSCRIBE_IMPLEMENTATION\n#include "kitchen_uss_uss.h"\n', "utf-8")
+    succeed([tool("gcc"), "-std=c99", "-fsyntax-only", f"-I{folder / 'c'}", tmp_path / "user.c"])

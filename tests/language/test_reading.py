@@ -61,6 +61,8 @@ def test_shipped_descriptions_are_plain() -> None:
         "{a: 1, a: 2}\n",
         "a: {b: 1, b: 2}\n",
         "a:\nb: 1\n",
+        "a:\n  b: 1\na:\n  b: 1\n",
+        "a:\n  b: 1\na: 1\n",
         "a: 1\n  b: 2\n",
         "a:\n    b: 1\n  c: 2\n",
         "a: [1, 2\n",

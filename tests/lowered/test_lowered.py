@@ -29,6 +29,30 @@ def test_a_line_is_its_rule(ratio: Fraction, offset: Fraction, decimals: int, co
     assert min(line.divisor, back.divisor) > 0
 
 
+@pytest.mark.parametrize(
+    ("line", "ends", "largest"),
+    [
+        (Line(3, 1, 7), (0, 10), 31),
+        (Line(-3, 1, 7), (0, 10), 30),
+        (Line(-3, -1, 7), (0, 10), 31),
+        (Line(2, -100, 7), (0, 10), 100),
+        (Line(1, 5, 7), (-20, 3), 20),
+        (Line(1, -5, 7), (-20, 3), 25),
+        (Line(0, 0, 1), (-9, 4), 9),
+    ],
+)
+def test_the_largest_integer_on_the_way_of_a_line(line: Line, ends: tuple[int, int], largest: int) -> None:
+    """Of the argument, of its product, and of their sum, whatever its sign."""
+    assert line.largest(*ends) == largest
+
+
+def test_a_line_is_read_both_ways() -> None:
+    line = Line(3, -2, 7)
+    assert line.result(10) == 4
+    assert line.argument(4) == 10
+    assert line.argument(Fraction(1, 7)) == 1
+
+
 def test_a_line_is_in_lowest_terms() -> None:
     assert count_line(linear(256), 1) == Line(128, 0, 5)
     assert count_line(linear("10"), 1).does_nothing
@@ -54,10 +78,16 @@ def test_the_counts_are_those_of_raw_numbers_in_the_limits(
         ("s16", "100", 2, (False, False, False)),
         ("u32", "100", 2, (True, True, True)),
         ("u16", "1/65536", 0, (True, True, True)),
+        ("s32", "1 + 1", 0, (True, True, True)),  # counts from -2^31 - 1
+        ("s32", "1 - 1", 0, (True, True, True)),  # counts to 2^31
+        ("s32", "2 + 1", 0, (False, True, True)),
+        ("s16", "1 - 1", 0, (False, False, False)),
     ],
 )
 def test_widths(type_name: str, ratio: str, decimals: int, wide: tuple[bool, bool, bool]) -> None:
-    subject = point("subject", 0, type_name, scale=scaled(ratio), decimals=decimals)
+    """32 bits suffice for the counts, on the way to a raw number, and on the way back; a rule is ratio and offset."""
+    times, sign, offset = (ratio if " " in ratio else f"{ratio} + 0").split()
+    subject = point("subject", 0, type_name, scale=scaled(times, f"{sign}{offset}"), decimals=decimals)
     plan = plan_of(subject, *subject.outer)
     assert (plan.count_wide, plan.encode_wide, plan.decode_wide) == wide
 
@@ -80,6 +110,29 @@ def test_what_binary32_holds(type_name: str, ratio: str, fits: bool) -> None:
     """Every whole number up to 2^24 and no more: the constants of a rule, and all that it meets of any raw number."""
     subject = point("subject", 0, type_name, scale=scaled(ratio), decimals=0)
     assert plan_of(subject, 0, 100).fits_float is fits
+
+
+@pytest.mark.parametrize(
+    ("type_name", "ratio", "offset", "beyond"),
+    [
+        ("s32", 1, 0, None),
+        ("s64", 1, 0, None),
+        ("s64", -1, 0, (-(2**63) + 1, 2**63 - 1)),
+        ("s64", 1, -1, (-(2**63), 2**63 - 2)),
+        ("s64", 1, 1, (-(2**63) + 2, 2**63 - 1)),
+        ("s64", 2, 0, (-(2**63) + 2, 2**63 - 2)),  # a half is added to the numerator: 1
+        ("s64", 2, 1, (-(2**63) + 3, 2**63 - 1)),
+        ("s64", 7, 0, (-(2**63) + 4, 2**63 - 4)),
+        ("s64", "1/10", 0, (-922337203685477580, 922337203685477580)),
+        ("u32", "1/4294967296", 0, (0, 2147483647)),
+    ],
+)
+def test_raw_numbers_whose_counts_need_more_than_64_bits(
+    type_name: str, ratio: int | str, offset: int, beyond: tuple[int, int] | None
+) -> None:
+    """A count is (raw - offset) / ratio: no numerator with its half may leave 64 bits, signs turned round included."""
+    subject = point("subject", 0, type_name, scale=scaled(ratio, offset), decimals=0, access="r")
+    assert plan_of(subject, 0, 100).beyond == beyond
 
 
 def test_nothing_that_a_plan_meets_is_wider_than_it_says() -> None:

@@ -52,6 +52,16 @@ OURS = _kinds(records.dataclass, records.field)
 THEIRS = _kinds(dataclasses.dataclass, dataclasses.field)
 
 
+def test_only_attributes_that_were_named_can_be_set() -> None:
+    """A slip of the pen fails at once, and thousands of points need no dictionary each."""
+    frozen, opened, single, _ = _kinds(records.dataclass, records.field)
+    made = opened()
+    made.total = 5
+    with pytest.raises(AttributeError):
+        made.totl = 5
+    assert [hasattr(each, "__dict__") for each in (frozen(1), made, single("a"))] == [False, False, True]
+
+
 @pytest.mark.parametrize(("ours", "theirs"), [*zip(OURS, THEIRS, strict=True)], ids=lambda kind: kind.__name__)
 def test_names_and_signs_are_the_same(ours: Any, theirs: Any) -> None:
     assert list(names_of(ours)) == [field.name for field in dataclasses.fields(theirs)]

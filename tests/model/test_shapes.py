@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.model import Allowed, Enum, Flag, Interner, Limit, Point, Shape, Special
 from fieldscribe.plain import for_code
 from support.described import loaded
-from support.models import allowed, changed, entry, linear, point, scaled, titles, value_of
+from support.models import allowed, changed, entry, linear, point, sample_bus, scaled, titles, value_of
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -81,3 +81,8 @@ def test_what_follows_is_kept_with_the_shape() -> None:
     shared = replace(other, shape=subject.shape)
     assert shared.form == subject.form == "scaled"
     assert vars(subject.shape)["form"] == "scaled"
+
+
+@pytest.mark.parametrize(("units", "usual"), [((1, 247), 1), ((0, 31), 1), ((3, 9), 3), ((2, 2), 2), ((0, 0), 0)])
+def test_examples_go_to_unit_1_or_to_the_lowest_that_there_is(units: tuple[int, int], usual: int) -> None:
+    assert replace(sample_bus(), units=units).usual_unit == usual

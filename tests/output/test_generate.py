@@ -7,15 +7,18 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
+from fieldscribe.output.depfile import write_depfile
 from fieldscribe.pipeline import find_devices
+from fieldscribe.reading import UnfitFileError
 from support.places import ROOT
 from support.strange_files import KINDS, put
+from support.toolchains import succeed, tool
 
 DOCS = [
     *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
@@ -186,6 +189,19 @@ def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
     assert main(["generate", "--target", "docs,vectors", "--check"]) == 1
 
 
+def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe.targets import docs
+
+    monkeypatch.setattr(docs, "outputs", lambda *_: [("docs/hitachi_l200.md", "half a pair: \ud800")])
+    assert main(["generate", "--target", "docs"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "internal error in a text: UnicodeEncodeError: " in said
+    assert "descriptions/hitachi_l200/device.yaml:1:1" in said
+    assert not (project / "generated/docs").exists()
+
+
 def test_a_compiler_that_fails_on_one_device_writes_the_others(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -314,6 +330,42 @@ def test_a_name_that_make_cannot_hold_is_no_rule(project: Path, capsys: pytest.C
     assert not (project / "docs.d").exists()
 
 
+def test_make_reads_every_path_of_a_depfile(tmp_path: Path) -> None:
+    """Held against make itself, which fails for a path that is not there: blanks, remarks and variables."""
+    names = [tmp_path / name for name in ("in a", "in#b", "in$c", "plain", "out 1#$", "out2")]
+    for path in names:
+        path.touch()
+    write_depfile(tmp_path / "made.d", names[4:], names[:4])
+    for output in names[4:]:
+        succeed([tool("make"), "--question", "--file", tmp_path / "made.d", output])
+
+
+@pytest.mark.parametrize("char", ["\n", "\t", "\x1f", "\x7f"])
+def test_a_path_with_a_control_character_is_refused(char: str, tmp_path: Path) -> None:
+    with pytest.raises(UnfitFileError, match="make cannot name the path"):
+        write_depfile(tmp_path / "made.d", [Path("out")], [Path(f"a{char}b")])
+    assert not (tmp_path / "made.d").exists()
+
+
+def test_a_depfile_names_the_paths_of_windows_with_slashes(tmp_path: Path) -> None:
+    paths: list[Any] = [PureWindowsPath(path) for path in ("c:\\out\\a b.h", "in\\a#.yaml", "in\\b.yaml")]
+    (tmp_path / "made.d").write_text("an older rule", "utf-8")
+    write_depfile(tmp_path / "made.d", paths[:1], paths[1:])
+    assert (tmp_path / "made.d").read_text("utf-8") == "c:/out/a\\ b.h: in/a\\#.yaml \\\n  in/b.yaml\n"
+
+
+def test_a_depfile_may_be_a_terminal(tmp_path: Path) -> None:
+    """A character device such as /dev/stdout is written to: it cannot be replaced."""
+    reader, terminal = os.openpty()
+    place = os.ttyname(terminal)
+    os.set_blocking(reader, False)
+    write_depfile(Path(place), [Path("out")], [Path("in")])
+    assert os.read(reader, 100).split() == [b"out:", b"in"]
+    assert os.ttyname(terminal) == place
+    for handle in (reader, terminal):
+        os.close(handle)
+
+
 @pytest.mark.parametrize("kind", ["pipe", "folder"])
 def test_a_depfile_replaces_only_a_file(project: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     put(kind, project / "docs.d")
@@ -346,6 +398,16 @@ def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
     assert "docs/hitachi_l200.md" in made
     assert not any("broken" in path for path in made)
     assert "descriptions/broken/device.yaml" in capsys.readouterr().err
+
+
+def test_where_no_device_is_sound_no_folder_is_made_or_locked(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from fieldscribe.output import lock
+
+    monkeypatch.setattr(lock, "only_run", None)  # whoever called it would fail
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    place.write_text("nonsense: 1\n", "utf-8")
+    assert main(["generate", "--target", "docs", "--out", "made"]) == 1
+    assert not (project / "made").exists()
 
 
 def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -61,6 +61,16 @@ def test_unchanged_input_is_not_compiled(place: Path, compiled: list[str]) -> No
     assert compiled == ["device/device.yaml"]
 
 
+def test_the_state_of_the_compiler_has_its_files_and_not_what_python_keeps_of_them() -> None:
+    """Else a first start would make the second one compile anew."""
+    from fieldscribe.output.memory import _compiler
+
+    parts = _compiler()
+    assert any("'pipeline.py' (" in part for part in parts)
+    assert any("'fieldscribe.h' (" in part for part in parts)
+    assert not any("__pycache__" in part or ".pyc" in part for part in parts)
+
+
 @pytest.mark.parametrize("path", ["device/device.yaml", "made/c/kitchen_can.h"])
 def test_what_was_only_touched_is_not_compiled(place: Path, path: str, compiled: list[str]) -> None:
     os.utime(place / path)
@@ -224,3 +234,29 @@ def test_nothing_executable_is_kept_or_loaded(place: Path, monkeypatch: pytest.M
     assert main(COMMAND) == 0
     kept = [path for path in (place / "cache").rglob("*") if path.is_file()]
     assert [json.loads(path.read_bytes()).keys() for path in kept] == [{"run", "inputs", "outputs"}]
+
+
+@pytest.mark.parametrize(("said", "found"), [("caches", "home/.cache"), ("", "home/.cache"), ("/ABSOLUTE", "absolute")])
+def test_the_place_of_caches_is_that_of_the_specification(
+    said: str, found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A relative XDG_CACHE_HOME is to be ignored."""
+    from fieldscribe.output.cache import cache_dir
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("XDG_CACHE_HOME", said.replace("/ABSOLUTE", str(tmp_path / "absolute")))
+    place = cache_dir("runs")
+    assert place == tmp_path / found / "fieldscribe/runs"
+    assert place.stat().st_mode & 0o777 == 0o700
+
+
+def test_without_a_home_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And no folder that is called `~` is made."""
+    from fieldscribe.output.cache import cache_dir
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr(os.path, "expanduser", lambda path: path)
+    assert cache_dir("runs") is None
+    assert list(tmp_path.iterdir()) == []

@@ -12,6 +12,7 @@ from fieldscribe.output.manifests import Manifests, read_manifest
 from fieldscribe.output.plan import Plan, changed_since, plan_of
 from fieldscribe.output.spool import Spool, kept
 from fieldscribe.output.writing import carry_out
+from fieldscribe.reading import state_of
 from support.strange_files import KINDS, put
 
 if TYPE_CHECKING:
@@ -69,6 +70,19 @@ def test_an_edited_or_deleted_output_is_stale_and_written_anew(tmp_path: Path, s
     place.unlink() if spoil == "delete" else place.write_bytes(HEAD + b"two\n")
     assert generate(tmp_path, "drive", FILES).stale == ["c/drive.h"]
     assert written(tmp_path)["c/drive.h"] == HEAD + b"one\n"
+
+
+def test_a_manifest_that_is_right_is_not_touched(tmp_path: Path) -> None:
+    """Where only an output was edited; and every state that is reported is that of the file as it stands now."""
+    generate(tmp_path, "drive", FILES)
+    record = tmp_path / "manifest/drive.json"
+    (tmp_path / "c/drive.h").write_bytes(HEAD + b"two\n")
+    before = record.stat()
+    plan = planned(tmp_path, "drive", FILES)
+    states = carry_out(tmp_path, Manifests(tmp_path), plan)
+    assert record.stat() == before
+    assert sorted(states) == ["c/drive.h", "c/runtime.h", "docs/drive.csv", "manifest/drive.json"]
+    assert states == {path: state_of((tmp_path / path).stat()) for path in states}
 
 
 def test_removes_only_what_the_manifest_says_of_that_device_and_target(tmp_path: Path) -> None:
@@ -253,6 +267,14 @@ def test_a_broken_manifest_is_no_manifest_and_not_ours(tmp_path: Path, text: str
     carry_out(tmp_path, Manifests(tmp_path), planned(tmp_path, "drive", FILES, force=True))
     assert (tmp_path / "c/drive.h").is_file()
     assert planned(tmp_path, "drive", FILES).stale == []
+
+
+def test_the_manifest_of_another_device_is_none_of_ours(tmp_path: Path) -> None:
+    """Copied beside its own, it would have the outputs of that device removed."""
+    generate(tmp_path, "drive", FILES)
+    (tmp_path / "manifest/copy.json").write_bytes((tmp_path / "manifest/drive.json").read_bytes())
+    assert read_manifest(tmp_path / "manifest/copy.json") == {}
+    assert sorted(read_manifest(tmp_path / "manifest/drive.json")) == ["c", "docs"]
 
 
 def test_a_manifest_with_a_conflict_of_git_is_still_ours(tmp_path: Path) -> None:

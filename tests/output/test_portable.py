@@ -11,10 +11,11 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
+from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
 from support.places import ROOT, TESTS
 
@@ -113,6 +114,37 @@ def test_a_file_system_that_cannot_lock(tmp_path: Path, monkeypatch: pytest.Monk
 
     monkeypatch.setattr(fcntl, "flock", cannot)
     excludes(tmp_path)
+
+
+@pytest.mark.parametrize(("system", "waits"), [("nt", True), ("posix", False)])
+def test_who_may_not_open_the_lock_waits_on_windows_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, system: str, waits: bool
+) -> None:
+    """There a file that is being removed cannot be opened for a while; elsewhere no patience helps."""
+    (tmp_path / NAME).touch()
+
+    def refused(place: Path, flags: int, *_: object) -> int:
+        raise (FileExistsError if flags & os.O_EXCL else PermissionError)(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(lock, "os", SimpleNamespace(**{**vars(os), "name": system, "open": refused}))
+    with pytest.raises(TimeoutError if waits else PermissionError), only_run(tmp_path, lambda: None, 0.0):
+        raise AssertionError("locked")
+
+
+def test_a_lock_that_others_keep_removing_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of many short runs may be gone between our two looks."""
+    tries = iter(range(20))
+    opened = os.open
+
+    def crowded(place: Path, flags: int, *more: int) -> int:
+        if flags & os.O_EXCL and next(tries) < 10:
+            raise FileExistsError(errno.EEXIST, "File exists")
+        return opened(place, flags, *more)
+
+    monkeypatch.setattr(lock, "os", SimpleNamespace(**{**vars(os), "open": crowded}))
+    monkeypatch.setattr(lock, "_PAUSE", 0.0)
+    with only_run(tmp_path, lambda: None):
+        assert (tmp_path / NAME).exists()
 
 
 def test_locks_as_on_windows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

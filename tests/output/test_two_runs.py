@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import signal
@@ -148,9 +149,19 @@ def test_a_folder_that_takes_no_files_is_no_other_run(tmp_path: Path, monkeypatc
 )
 def test_what_is_no_lock_is_refused_and_left(tmp_path: Path, put: Callable[[Path], object]) -> None:
     put(tmp_path / NAME)
-    with pytest.raises(UnfitFileError, match="move it away"), only_run(tmp_path, nobody, 1.0):
+    with pytest.raises(UnfitFileError, match="move it away") as refused, only_run(tmp_path, nobody, 1.0):
         raise AssertionError("taken for a lock")
+    assert (refused.value.errno, refused.value.filename) == (errno.EEXIST, str(tmp_path / NAME))
     assert os.path.lexists(tmp_path / NAME)
+
+
+def test_a_lock_that_another_run_made_meanwhile_is_left_to_it(tmp_path: Path) -> None:
+    """Somebody removed the folder during a run, so another one has begun there: its lock is not ours to remove."""
+    with only_run(tmp_path / "made", nobody, 1.0):
+        shutil.rmtree(tmp_path / "made")
+        (tmp_path / "made").mkdir()
+        (tmp_path / "made" / NAME).touch()
+    assert (tmp_path / "made" / NAME).exists()
 
 
 @pytest.fixture

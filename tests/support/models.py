@@ -55,7 +55,7 @@ def titles(english: str, german: str | None = None) -> dict[str, str]:
     return {"en": english} if german is None else {"en": english, "de": german}
 
 
-def linear(ratio: int | str, offset: int | str = 0, *factors: Factor) -> Linear:
+def linear(ratio: int | str | Fraction, offset: int | str = 0, *factors: Factor) -> Linear:
     """The rule raw = value * ratio * factors + offset."""
     return Linear(Fraction(ratio), Fraction(offset), factors)
 

@@ -128,6 +128,46 @@ def test_a_markdown_cell_shows_its_text(hostile: str) -> None:
     assert plain == text.line(hostile)
 
 
+@pytest.mark.parametrize(
+    ("plain", "shown"),
+    [
+        ("see http://a.b", "see http&#58;//a.b"),
+        ("www.a.b", "www&#46;a.b"),
+        ("me@a.b", "me&#64;a.b"),
+        ("$x$ and $y$", "&#36;x&#36; and &#36;y&#36;"),
+        ("a < b & c > d", "a &lt; b &amp; c &gt; d"),
+        ("`a` *b* _c_ #1 | d", r"\`a\` \*b\* \_c\_ \#1 \| d"),
+        ("&#36;", r"&amp;\#36;"),
+        ("10 kHz", "10 kHz"),
+    ],
+)
+def test_nothing_in_markdown_becomes_a_link_or_a_mark(plain: str, shown: str) -> None:
+    assert text.markdown(plain) == shown
+
+
+PLAIN_CELLS = {
+    "": "",
+    "speed": "speed",
+    "a b": "a b",
+    "a  b": "a b",
+    "a ": "a",
+    "a,b": '"a,b"',
+    'say "x"': '"say ""x"""',
+    "=1+1": "'=1+1",
+    "-5": "-5",
+    "+0.5": "+0.5",
+    "-a": "'-a",
+    "@a,b": '"\'@a,b"',
+    "a\nb": "a b",
+}
+
+
+@pytest.mark.parametrize("plain", PLAIN_CELLS)
+def test_a_csv_cell_as_spreadsheets_read_it(plain: str) -> None:
+    """Quoted where it must be, a number as it is, and nothing that is run."""
+    assert text.csv_cell(plain) == PLAIN_CELLS[plain]
+
+
 @pytest.mark.parametrize("hostile", HOSTILE)
 def test_a_csv_cell_is_one_cell_and_no_formula(hostile: str) -> None:
     row = f"first,{text.csv_cell(hostile)},last"

@@ -8,7 +8,7 @@ import pytest
 from fieldscribe import wording
 from fieldscribe.model import Factor
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, value_multiple
-from support.models import HERTZ, named, point, sample_device, scaled
+from support.models import HERTZ, named, point, sample_device, scaled, value_of
 
 DEVICE = sample_device()
 POINTS = {one.name: one for one in DEVICE.points}
@@ -123,6 +123,20 @@ def test_a_scale_that_nobody_knows_is_not_made_up() -> None:
     assert wording.scale_text(unknown) == ""
     assert wording.range_text(unknown) == ""
     assert wording.raw_range_text(unknown) == "0..4294967295"
+
+
+@pytest.mark.parametrize(
+    ("factor", "text"),
+    [
+        (value_of("unit_mode", slope=2), "raw / (unit_mode.raw x 2)"),
+        (value_of("unit_mode", intercept=-3), "raw / (unit_mode.raw - 3)"),
+        (value_of("unit_mode", slope=-1, intercept=3), "raw / (unit_mode.raw x -1 + 3)"),
+        (value_of("unit_mode", -1, slope=2), "raw x (unit_mode.raw x 2)"),
+        (value_of("unit_mode", slope=2, ten_to=True), "raw / 10^(unit_mode.raw x 2)"),
+    ],
+)
+def test_a_factor_of_a_scale_says_how_it_is_made_of_a_raw_number(factor: Factor, text: str) -> None:
+    assert wording.scale_text(point("subject", 1, scale=scaled(1, 0, factor))) == text
 
 
 def test_words_bits_and_flags() -> None:

@@ -108,13 +108,14 @@ def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
     """The raw numbers whose counts are computed in 64 bits; None if those are all of the type.
 
     A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: both sides of
-    `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is multiplied or divided, the smallest number
-    of 64 bits needs no room for a sign that is turned round.
+    `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is computed, the smallest number of 64
+    bits needs no room for a sign that is turned round.
     """
     p, q, r = to_raw
     most = INT64[1] - abs(p) // 2
     low, high = -((most - q) // r), (most + q) // r
-    return None if (low <= raws[0] or p == r == 1) and raws[1] <= high else (max(low, raws[0]), min(high, raws[1]))
+    all_are = (low <= raws[0] or to_raw.does_nothing) and raws[1] <= high
+    return None if all_are else (max(low, raws[0]), min(high, raws[1]))
 
 
 def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:

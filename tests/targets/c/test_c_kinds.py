@@ -14,9 +14,11 @@ from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import c
 from fieldscribe.targets.c import kinds
+from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.scope import scope_of
+from fieldscribe.targets.c.special_codes import encoded_limits
 from support.described import DEVICES, loaded
-from support.models import HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
+from support.models import CELSIUS, HERTZ, SOURCE, allowed, device_of, entry, point, scaled, titles
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -126,6 +128,87 @@ def test_a_key_has_the_parts_that_are_tested(monkeypatch: pytest.MonkeyPatch) ->
         sorted_points.placed(each)
     keys: Any = sorted_points._kinds
     assert {len(key) for key in keys} == {len(PARTS)}
+
+
+LIMITS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "all of the type": ({"allowed": allowed((0, 65534))}, {"allowed": allowed((0, 65535))}),
+    "several intervals": ({"allowed": allowed((0, 40))}, {"allowed": allowed((0, 9), (20, 40))}),
+    "the way from a count to its raw number": (
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 7300))},
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 8000))},
+    ),
+    "that of what is only read": (
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 7300)), "access": "r"},
+        {"scale": scaled("3/7"), "decimals": 1, "allowed": allowed((0, 8000)), "access": "r"},
+    ),
+    "counts of their own": (
+        {"scale": scaled(1), "decimals": 0, "allowed": allowed((10, 40))},
+        {"scale": scaled(1), "decimals": 0, "allowed": allowed((10, 99))},
+    ),
+    "digits": ({"allowed": allowed((0, 99))}, {"allowed": allowed((0, 100))}),
+    "units": ({"unit": HERTZ, "allowed": allowed((0, 10))}, {"unit": CELSIUS, "allowed": allowed((0, 10))}),
+    "codes": ({"specials": FAULT, "allowed": allowed((0, 9))}, {"specials": FAULT, "allowed": allowed((0, 65535))}),
+}
+"""Facts of points of one type whose limits differ, by what the difference is."""
+
+
+@pytest.mark.parametrize("differs", LIMITS)
+@pytest.mark.parametrize("type_name", ["u16", "s32"])
+def test_points_with_other_limits_read_as_each_would_alone(
+    differs: str, type_name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = LIMITS[differs]
+    points = (point("one", 1, type_name, **first), point("two", 3, type_name, **second))
+    device = for_code(device_of("pair", points))
+    shared = texts(device)
+    cut(monkeypatch, None)
+    assert texts(device) == shared
+
+
+@pytest.mark.parametrize("names", [("zero", "mode", "made"), ("mode", "zero", "made"), ("zero", "made", "mode")])
+def test_an_enum_of_its_own_is_told_from_that_of_another_point(
+    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whichever comes first: what is named after the point itself moves with its name."""
+    points = tuple(point(name, at, enum=MODES) for at, name in enumerate(names))
+    device = for_code(device_of("pair", points))
+    shared = texts(device)
+    cut(monkeypatch, None)
+    assert texts(device) == shared
+
+
+@pytest.mark.parametrize(
+    ("line", "parts"),
+    [
+        ("a" * 100 + " " + "b" * 19, ["a" * 100 + " " + "b" * 19]),
+        ("a" * 100 + " " + "b" * 20, ["a" * 100, "    " + "b" * 20]),
+        ("  return " + "a" * 90 + " " + "b" * 30, ["  return " + "a" * 90, "      " + "b" * 30]),
+        ("#define A " + "a" * 80 + " " + "b" * 40, ["#define A " + "a" * 80 + " \\", "    " + "b" * 40]),
+        ("#define A " + "a" * 107 + " bb", ["#define A " + "a" * 107 + " bb"]),
+        ("#define A " + "a" * 108 + " bb", ["#define A " + "a" * 108 + " \\", "    bb"]),
+        ('x = "' + "a b " * 30 + '" + 1;', ["x =", '    "' + "a b " * 30 + '" + 1;']),
+    ],
+)
+def test_a_long_line_is_folded_and_a_macro_goes_on_behind_a_backslash(line: str, parts: list[str]) -> None:
+    """At the last space up to 120 characters that is in no string."""
+    assert folded(line).split("\n") == parts
+
+
+@pytest.mark.parametrize(
+    ("type_name", "facts", "limits"),
+    [
+        ("u64", {}, (0, 2**64 - 1)),
+        ("u64", {"specials": FAULT}, (0, 2**64 - 1)),
+        ("u64", {"specials": FAULT, "scale": scaled(10), "decimals": 1}, (0, 2**63 - 1)),
+        ("u16", {"specials": FAULT, "allowed": allowed((5, 9))}, (5, 65535)),
+        ("s16", {"specials": (Special(-9, -8, "lost", titles("Lost"), True),), "allowed": allowed((5, 9))}, (-9, 9)),
+    ],
+)
+def test_values_are_checked_between_limits_and_special_codes(
+    type_name: str, facts: dict[str, Any], limits: tuple[int, int]
+) -> None:
+    """Values that are computed have signed 64 bits; plain ones all of their type."""
+    assert encoded_limits(point("one", 1, type_name, **facts)) == limits
 
 
 class CutTerms(dict[Any, Any]):

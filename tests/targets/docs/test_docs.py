@@ -6,13 +6,18 @@ import csv
 import io
 import re
 from dataclasses import replace
+from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 import pytest
-from fieldscribe.model import Device, Enum, Place, Special
+from fieldscribe.families import family
+from fieldscribe.model import Device, Document, Enum, Place, Source, Special
+from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
-from fieldscribe.targets.docs import outputs
-from support.models import NUMBER, changed, entry, point, sample_device, titles
+from fieldscribe.targets.docs import bus, outputs
+from fieldscribe.targets.docs.cells import anchor, link, target
+from support.models import HERTZ, NUMBER, changed, entry, point, sample_device, titles
 
 HOSTILE = "a | b `c` </td><script>alert(1)</script> [x](http://e) {{ 7*7 }} \\"
 DEVICE = sample_device()
@@ -157,6 +162,77 @@ def test_a_row_of_the_sheet() -> None:
         "reason": "",
     }
     assert {key: row[key] for key in expected} == expected
+
+
+@pytest.mark.parametrize(
+    ("facts", "in_sheet", "in_page"),
+    [
+        ({}, "", ""),
+        ({"default_raw": 7}, "raw 7", "raw 7"),
+        ({"default_raw": 7, "default": Fraction(7, 10), "unit": HERTZ}, "0.7", "0.7 Hz"),
+        ({"default": Fraction(1, 3)}, "1/3", "1/3"),
+    ],
+)
+def test_a_factory_setting(facts: dict[str, Any], in_sheet: str, in_page: str) -> None:
+    """In the unit, or as a raw number where only that is known."""
+    device = sample_device((point("setting", 1, **facts),))
+    assert _rows(device)["setting"]["default"] == in_sheet
+    page = _page(device)
+    heads = next(line for line in page.splitlines() if line.startswith("| Name | Title | Wire"))
+    cells = dict(zip((head.strip() for head in _cells(heads)), _row(page, "setting"), strict=True))
+    assert cells.get("Default", "") == in_page  # a column that is empty in all rows is left out
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("speed_2-a", "point-speed_2-a"),
+        ("Speed", "point-speed"),
+        ("Über .x", "point--ber--x"),
+        ("a.b", "point-a-b"),
+    ],
+)
+def test_an_anchor_has_only_what_every_reader_of_markdown_keeps(name: str, found: str) -> None:
+    """GitHub and others change large letters and drop signs; link and target go through the same function."""
+    assert anchor("point", name) == found
+    assert link("point", name).endswith(f"](#{found})")
+    assert target("point", name).startswith(f'<a id="{found}"></a>')
+
+
+def test_documents_with_and_without_a_file() -> None:
+    documents = (DEVICE.documents[0], Document("errata", "Errata", "en", "errata.pdf", "ab" * 32))
+    lines = _page(replace(DEVICE, documents=documents)).splitlines()
+    at = lines.index("| Document | Title | Language | File | SHA-256 |")
+    assert lines[at + 2] == "| `manual` | Sample manual | de |  |  |"
+    assert lines[at + 3] == f"| `errata` | Errata | en | errata.pdf | `{'ab' * 32}` |"
+
+
+@pytest.mark.parametrize(
+    ("source", "facts"),
+    [
+        (Source("manual", None, None, None), "1 point; space holding"),
+        (Source("manual", "4.1", "7", None), "1 point; space holding; source: 4.1, page 7"),
+    ],
+)
+def test_the_facts_of_a_group(source: Source, facts: str) -> None:
+    groups = tuple(replace(group, source=source) for group in DEVICE.groups)
+    page = _page(replace(sample_device((point("speed", 1),)), groups=groups))
+    assert f"Group `main`: {facts}." in page.splitlines()
+
+
+def test_a_number_of_floating_point_has_no_raw_limits() -> None:
+    """Its raw number is a pattern of bits; the range says what it may be."""
+    row = _rows()["float_setpoint"]
+    assert (row["raw_min"], row["raw_max"], row["raw_range"], row["range"]) == ("", "", "", "0..650 Hz")
+
+
+def test_a_family_that_adds_nothing_has_the_facts_of_every_bus(monkeypatch: pytest.MonkeyPatch) -> None:
+    bare = replace_record(family("modbus"), name="bare", folder="support")
+    monkeypatch.setattr(bus, "family", lambda _: bare)
+    view = bus.bus_view(DEVICE)
+    assert "| Unit numbers | 1..32 |" in view.facts
+    assert "padded" not in view.facts
+    assert "Functions" in dict(view.sections)
 
 
 def test_the_sheet_has_one_row_a_point() -> None:

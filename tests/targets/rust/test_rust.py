@@ -20,7 +20,7 @@ from fieldscribe.targets.rust.documentation import facts_text, left_out, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.identity import KnownLimits, words_of
-from fieldscribe.targets.rust.layout import Item, assignment, binding, calls, chain, chained, comparison, filled
+from fieldscribe.targets.rust.layout import Item, assignment, binding, called, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.literals import nearest_float
 from fieldscribe.targets.rust.subjects import scope_of
 from support.described import kitchen_sink, made, shipped
@@ -184,6 +184,33 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     )
     assert comparison(8, name, "== 0") == (f"{name} == 0",)
     assert comparison(36, name, "== 0") == (name, "    == 0")
+
+
+@pytest.mark.parametrize(
+    ("indent", "items", "lines"),
+    [
+        (4, [("A", ("1",)), ("B", ("2", "3"))], ("&[A(1), B(2, 3)]",)),
+        (4, [("A", ("x" * 29, "y" * 29)), ("B", ("1",))], ("&[", f"    A({'x' * 29}, {'y' * 29}),", "    B(1),", "]")),
+        (
+            4,
+            [("A", ("x" * 29, "y" * 30)), ("B", ("1",))],
+            ("&[", "    A(", f"        {'x' * 29},", f"        {'y' * 30},", "    ),", "    B(1),", "]"),
+        ),
+        (4, [("A" * 39, ("x" * 50,)), ("B", ("1",))], ("&[", f"    {'A' * 39}({'x' * 50}),", "    B(1),", "]")),
+        (
+            4,
+            [("A" * 40, ("x" * 50,)), ("B", ("1",))],
+            ("&[", f"    {'A' * 40}(", f"        {'x' * 50},", "    ),", "    B(1),", "]"),
+        ),
+        (4, [("A", ("x" * 30, "y" * 30))], ("&[A(", f"    {'x' * 30},", f"    {'y' * 30},", ")]")),
+    ],
+    ids=["short", "60 of arguments", "61 of arguments", "100 of a line", "101 of a line", "alone"],
+)
+def test_a_list_of_calls_breaks_as_rustfmt_breaks_it(
+    indent: int, items: list[tuple[str, tuple[str, ...]]], lines: tuple[str, ...]
+) -> None:
+    """Of its defaults: lines of 100 characters, and 60 for the arguments of a call."""
+    assert called(indent, items) == lines
 
 
 def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:

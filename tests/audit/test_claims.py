@@ -1,0 +1,76 @@
+"""What descriptions of messages and codes claim that the manual prints, and where: worked out by hand."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.audit.citing import Citing
+from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry
+from fieldscribe.audit.wordings import Wordings
+from fieldscribe.language.lines import plain_documents
+from fieldscribe.language.source import SourceFile
+
+if TYPE_CHECKING:
+    from fieldscribe.language.nodes import Map
+
+
+def written(text: str) -> Map:
+    """A mapping of a description."""
+    documents = plain_documents(SourceFile("a.yaml", text))
+    assert documents is not None
+    (root,) = documents
+    return root
+
+
+def test_a_message_claims_its_numbers_and_both_ends_of_its_bytes() -> None:
+    """Bytes between the ends may be printed; other facts stand where `lines` says."""
+    entry = written(
+        "name: go\nat: 7\nvalue: 1\nline: 5\ntitle: Go 2\n"
+        "layout: {0: FFh, 2..5: address, 6..7: raw}\nlines: {value: 9}\n"
+    )
+    claims = list(claims_of_entry("command", entry, Wordings(written("documents: {}\n")["documents"])))
+    assert {claim.subject for claim in claims} == {"command go"}
+    assert [(claim.fact, claim.shown, claim.cited, claim.optional) for claim in claims] == [
+        ("at", "7", ((5, 0),), False),
+        ("value", "1", ((9, 0),), False),
+        ("layout", "0", ((5, 0),), False),
+        ("layout", "255", ((5, 0),), False),
+        ("layout", "2", ((5, 0),), False),
+        ("layout", "5", ((5, 0),), False),
+        ("layout", "3", ((5, 0),), True),
+        ("layout", "4", ((5, 0),), True),
+        ("layout", "6", ((5, 0),), False),
+        ("layout", "7", ((5, 0),), False),
+    ]
+
+
+def test_codes_that_share_a_row_may_be_printed_by_its_ends() -> None:
+    """As in "2 - 9": the number itself helps to find the row again, if it stands in the code's own line."""
+    codes = written(
+        "2: {name: a, line: 4, max: 8}\n5: {name: b, line: 4, lines: {number: 7}, answers: [1, 3]}\n"
+        "9: {name: c, line: 4, printed: {bytes: 16}}\n11: {name: d, line: 6}\n12: plain\n"
+    )
+    claims = list(claims_of_codes("function", codes))
+    assert [(claim.subject, claim.fact, claim.shown, claim.cited, claim.anchor) for claim in claims] == [
+        ("function 2", "number", "2", ((4, 0),), True),
+        ("function 2", "max", "8", ((4, 0),), False),
+        ("function 5", "number", "5", ((7, 0),), False),
+        ("function 5", "answers", "1", ((4, 0),), False),
+        ("function 5", "answers", "3", ((4, 0),), False),
+        ("function 9", "number", "9", ((4, 0),), True),
+        ("function 9", "printed bytes", "16", ((4, 0),), False),
+        ("function 11", "number", "11", ((6, 0),), True),
+    ]
+    assert [sorted(claim.between) for claim in claims if claim.fact == "number"] == [[2, 9], [2, 9], [2, 9], []]
+
+
+@pytest.mark.parametrize(
+    ("lines", "cited", "anchor"), [("", ((5, 0),), True), ("lines: {code: 8..9}\n", ((8, 9),), False)]
+)
+def test_a_word_is_an_anchor_in_the_line_of_its_subject(
+    lines: str, cited: tuple[tuple[int, int], ...], anchor: bool
+) -> None:
+    point = written(f"name: speed\n{lines}")
+    (claim,) = Citing("speed", point.span("name"), 5, point.get("lines")).words("code", "P1", "P 1")
+    assert (claim.words, claim.cited, claim.anchor) == (("P1", "P 1"), cited, anchor)
