@@ -170,6 +170,8 @@ _LAYOUTS = {
     "a section moved": OLD.replace(_FRAMES, "") + "\n" + _FRAMES,
     "other dashes": OLD.replace("200-550", "200\u2013550").replace("Soll-wert", "Soll\u00adwert"),
     "a word parted": OLD.replace("cooling kit", "cool-\ning kit"),
+    "a word parted in a cell": OLD.replace("Hysteresis |", "Hyste-<br>resis |"),
+    "line breaks in cells": OLD.replace("Pump delay", "Pump<br>delay").replace("1 heating, ", "1 heating,<br />"),
     "soft spaces": OLD.replace("0.1 °C", "0.1\u00a0°C"),
     "a sentence that holds nothing": OLD.replace("Pin 1", "Mind the colours.\n\nPin 1"),
 }
@@ -336,6 +338,7 @@ def test_the_whole_way(described: Described) -> None:
         ("a 1\nb 2\nc 3", "a 1\nb 2\nc 3", []),
         ("a 1 2", "a 12", ["changed"]),
         ("a 1 b 2", "a 1 b\n2", []),
+        ("a b-<br>c 1<br>2", "a bc<br/>1 2", []),
         ("x -4", "x 4", ["changed"]),
         ("x 4 - 9", "x 4\u20139", []),
         ("one 1\ntwo 2\n", "one 1\nthree 3\ntwo 2\n", ["added"]),
