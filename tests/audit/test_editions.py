@@ -288,6 +288,55 @@ def test_what_was_looked_through_takes_in_no_new_lines(described: Described) -> 
     assert "lines: [21..23, 25], why: Wiring." in described.text
 
 
+FOLLOWED = [
+    # a row, the point as it was, what the new row says instead, what the point says then
+    (
+        "| H07 | Outputs 11, 12 | 0017h | R/W | Bit 0 = [11], Bit 1 = [12] | |",
+        "{code: H07, name: outputs, at: 0017h, flags: {0: OUTPUT_11, 1: OUTPUT_12}, line: 26}",
+        {"Bit 0 = [11], Bit 1 = [12]": "Bit 0 = [12], Bit 1 = [11]"},
+        {"OUTPUT_11, 1: OUTPUT_12": "OUTPUT_12, 1: OUTPUT_11"},
+    ),
+    (
+        "| H08 | Curve | 0018h | R/W | 2 curves: 00 linear, 02 round 2 | 0, 2 |",
+        """{code: H08, name: curve, at: 0018h, range: '0, 2', line: 26, printed: {range: '0, 2', choices: 2},
+  enum: {0: {name: linear, en: linear}, 2: {name: round, en: round 2}}}""",
+        {"02 round": "03 round", "0, 2 |": "0, 3 |"},
+        {"range: '0, 2'": "range: '0, 3'", " 2: {name": " 3: {name"},
+    ),
+]
+_OUTPUTS = {f"OUTPUT_{number}": f"{{name: output_{number}, title: {{en: Output {number}}}}}" for number in (11, 12)}
+
+
+def _replaced(text: str, replacements: dict[str, str]) -> str:
+    for old, new in replacements.items():
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.mark.parametrize(("row", "point", "new_row", "new_point"), FOLLOWED, ids=["labels swapped", "renumbered"])
+def test_what_followed_the_manual_is_explained(
+    row: str, point: str, new_row: dict[str, str], new_point: dict[str, str], described: Described
+) -> None:
+    """Also where the numbers that were changed stand in the same row as other facts."""
+    old = f"{OLD}\n{row}\n"
+    (described.folder / "old.txt").write_text(old, "utf-8")
+    described.edit("names: [HP 12]", 'names: [HP 12], writes: {Output 11: ["[11]"], Output 12: ["[12]"]}')
+    text = described.text
+    for now, explained in ((point, False), (_replaced(point, new_point), True)):
+        outputs = {key: label for key, label in _OUTPUTS.items() if key in now}
+        described.file.write_text(f"{text}- {_replaced(now, outputs)}\n", "utf-8")
+        [finding] = described.audit(_replaced(old, new_row))[1]["findings"]
+        assert finding["explained"] == explained
+
+
+def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(described: Described) -> None:
+    new = OLD.replace("kit 4711", "kit 4712")
+    described.edit("- {lines: 21..24,", "- {lines: 15, why: The kit.}\n- {lines: 21..24,")
+    assert described.audit(new)[0] == 0
+    assert described.audit_alone(new)["uncited"] == []
+
+
 REFUSALS = [
     (OLD.replace("200-550", "200-600"), ("--accept",), 1, "not everything in the new edition is explained"),
     ("\n" + OLD, ("--accept",), 1, "--renumber comes first"),
