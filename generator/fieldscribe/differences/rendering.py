@@ -78,7 +78,7 @@ def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
         said = id(difference) if whole else (fact_of(difference), repr(difference.old), repr(difference.new))
         about = difference.things[0].kind if difference.things else ""
         if _is_moved(difference):
-            about, said = "", _is_moved
+            about, said = "", ("source", "", "")
         groups[difference.weight].setdefault((about, said), _Alike(difference, [])).all.append(difference)
     return ((weight, list(alike.values())) for weight, alike in groups.items() if alike)
 
