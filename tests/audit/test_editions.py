@@ -337,6 +337,17 @@ def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(descri
     assert described.audit_alone(new)["uncited"] == []
 
 
+def test_the_words_of_a_long_value_may_stand_in_two_rows(described: Described) -> None:
+    rows = "| H07 (low) | Hours | 0017h | R | | |\n| H07 (high) | | 0018h | R | | |\n"
+    point = "{code: H07, name: hours, at: 0017h, type: u32, words: low first, access: r, line: 26, printed: PRINTED}"
+    described.edit("- {lines: [15,", "- {lines: 13, numbers: [1], why: A second.}\n- {lines: [15,")
+    text = described.text
+    for printed, unused in (("{wire: 0017h}", ["0018h"]), ("{wire: 0017h, high_wire: 0018h}", [])):
+        described.file.write_text(f"{text}- {point.replace('PRINTED', printed)}\n", "utf-8")
+        report = described.audit_alone(f"{OLD}\n{rows}")
+        assert ([number["number"] for number in report["unused_numbers"]], report["missing"]) == (unused, [])
+
+
 REFUSALS = [
     (OLD.replace("200-550", "200-600"), ("--accept",), 1, "not everything in the new edition is explained"),
     ("\n" + OLD, ("--accept",), 1, "--renumber comes first"),
