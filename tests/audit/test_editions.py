@@ -233,7 +233,12 @@ def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
         '  unit: "°C"',
         "  line: 13",
     ]
-    described.file.write_text(described.text + draft["yaml"] + "\n", "utf-8")
+    text = described.text
+    described.file.write_text(f"{text}{draft['yaml'].replace('..100', '..90')}\n", "utf-8")
+    _, report = described.audit(new)
+    [finding] = report["findings"]
+    assert (finding["explained"], finding["drafts"]) == (False, [])
+    described.file.write_text(f"{text}{draft['yaml']}\n", "utf-8")
     code, report = described.audit(new)
     assert (code, report["explained"]) == (0, True), report
 
