@@ -170,6 +170,8 @@ _LAYOUTS = {
     "a section moved": OLD.replace(_FRAMES, "") + "\n" + _FRAMES,
     "other dashes": OLD.replace("200-550", "200\u2013550").replace("Soll-wert", "Soll\u00adwert"),
     "a word parted": OLD.replace("cooling kit", "cool-\ning kit"),
+    "a word parted in a cell": OLD.replace("Hysteresis |", "Hyste-<br>resis |"),
+    "line breaks in cells": OLD.replace("Pump delay", "Pump<br>delay").replace("1 heating, ", "1 heating,<br />"),
     "soft spaces": OLD.replace("0.1 °C", "0.1\u00a0°C"),
     "a sentence that holds nothing": OLD.replace("Pin 1", "Mind the colours.\n\nPin 1"),
 }
@@ -231,7 +233,12 @@ def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
         '  unit: "°C"',
         "  line: 13",
     ]
-    described.file.write_text(described.text + draft["yaml"] + "\n", "utf-8")
+    text = described.text
+    described.file.write_text(f"{text}{draft['yaml'].replace('..100', '..90')}\n", "utf-8")
+    _, report = described.audit(new)
+    [finding] = report["findings"]
+    assert (finding["explained"], finding["drafts"]) == (False, [])
+    described.file.write_text(f"{text}{draft['yaml']}\n", "utf-8")
     code, report = described.audit(new)
     assert (code, report["explained"]) == (0, True), report
 
@@ -286,6 +293,66 @@ def test_what_was_looked_through_takes_in_no_new_lines(described: Described) -> 
     assert "lines: [21..23, 25], why: Wiring." in described.text
 
 
+FOLLOWED = [
+    # a row, the point as it was, what the new row says instead, what the point says then
+    (
+        "| H07 | Outputs 11, 12 | 0017h | R/W | Bit 0 = [11], Bit 1 = [12] | |",
+        "{code: H07, name: outputs, at: 0017h, flags: {0: OUTPUT_11, 1: OUTPUT_12}, line: 26}",
+        {"Bit 0 = [11], Bit 1 = [12]": "Bit 0 = [12], Bit 1 = [11]"},
+        {"OUTPUT_11, 1: OUTPUT_12": "OUTPUT_12, 1: OUTPUT_11"},
+    ),
+    (
+        "| H08 | Curve | 0018h | R/W | 2 curves: 00 linear, 02 round 2 | 0, 2 |",
+        """{code: H08, name: curve, at: 0018h, range: '0, 2', line: 26, printed: {range: '0, 2', choices: 2},
+  enum: {0: {name: linear, en: linear}, 2: {name: round, en: round 2}}}""",
+        {"02 round": "03 round", "0, 2 |": "0, 3 |"},
+        {"range: '0, 2'": "range: '0, 3'", " 2: {name": " 3: {name"},
+    ),
+]
+_OUTPUTS = {f"OUTPUT_{number}": f"{{name: output_{number}, title: {{en: Output {number}}}}}" for number in (11, 12)}
+
+
+def _replaced(text: str, replacements: dict[str, str]) -> str:
+    for old, new in replacements.items():
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.mark.parametrize(("row", "point", "new_row", "new_point"), FOLLOWED, ids=["labels swapped", "renumbered"])
+def test_what_followed_the_manual_is_explained(
+    row: str, point: str, new_row: dict[str, str], new_point: dict[str, str], described: Described
+) -> None:
+    """Also where the numbers that were changed stand in the same row as other facts."""
+    old = f"{OLD}\n{row}\n"
+    (described.folder / "old.txt").write_text(old, "utf-8")
+    described.edit("names: [HP 12]", 'names: [HP 12], writes: {Output 11: ["[11]"], Output 12: ["[12]"]}')
+    text = described.text
+    for now, explained in ((point, False), (_replaced(point, new_point), True)):
+        outputs = {key: label for key, label in _OUTPUTS.items() if key in now}
+        described.file.write_text(f"{text}- {_replaced(now, outputs)}\n", "utf-8")
+        [finding] = described.audit(_replaced(old, new_row))[1]["findings"]
+        assert finding["explained"] == explained
+
+
+def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(described: Described) -> None:
+    new = OLD.replace("kit 4711", "kit 4712")
+    described.edit("- {lines: 21..24,", "- {lines: 15, why: The kit.}\n- {lines: 21..24,")
+    assert described.audit(new)[0] == 0
+    assert described.audit_alone(new)["uncited"] == []
+
+
+def test_the_words_of_a_long_value_may_stand_in_two_rows(described: Described) -> None:
+    rows = "| H07 (low) | Hours | 0017h | R | | |\n| H07 (high) | | 0018h | R | | |\n"
+    point = "{code: H07, name: hours, at: 0017h, type: u32, words: low first, access: r, line: 26, printed: PRINTED}"
+    described.edit("- {lines: [15,", "- {lines: 13, numbers: [1], why: A second.}\n- {lines: [15,")
+    text = described.text
+    for printed, unused in (("{wire: 0017h}", ["0018h"]), ("{wire: 0017h, high_wire: 0018h}", [])):
+        described.file.write_text(f"{text}- {point.replace('PRINTED', printed)}\n", "utf-8")
+        report = described.audit_alone(f"{OLD}\n{rows}")
+        assert ([number["number"] for number in report["unused_numbers"]], report["missing"]) == (unused, [])
+
+
 REFUSALS = [
     (OLD.replace("200-550", "200-600"), ("--accept",), 1, "not everything in the new edition is explained"),
     ("\n" + OLD, ("--accept",), 1, "--renumber comes first"),
@@ -336,6 +403,7 @@ def test_the_whole_way(described: Described) -> None:
         ("a 1\nb 2\nc 3", "a 1\nb 2\nc 3", []),
         ("a 1 2", "a 12", ["changed"]),
         ("a 1 b 2", "a 1 b\n2", []),
+        ("a b-<br>c 1<br>2", "a bc<br/>1 2", []),
         ("x -4", "x 4", ["changed"]),
         ("x 4 - 9", "x 4\u20139", []),
         ("one 1\ntwo 2\n", "one 1\nthree 3\ntwo 2\n", ["added"]),

@@ -148,6 +148,18 @@ def test_markdown(diff: Diff) -> None:
     assert diff("old", "new", "--format", "markdown") == Result(1, MARKDOWN, "")
 
 
+def test_other_lines_of_the_manual_are_told_together(diff: Diff) -> None:
+    """A new edition moves nearly every line: what else changed is not lost among them."""
+    points = "".join(f"- {{name: p{number}, at: {number}, line: {number}}}\n" for number in range(1, 6))
+    diff.write("old", points)
+    moved = "".join(f"- {{name: p{number}, at: {number}, line: {number + 9}}}\n" for number in range(1, 6))
+    diff.write("new", moved.replace("line: 14", "line: 14, note: It moved."))
+    assert "    5 things: other lines of the manual\n    p5: note none" in diff("old", "new").out
+    assert "- 5 things: other lines of the manual\n- `p5`: note none" in diff("old", "new", "--format", "markdown").out
+    sources = [change["old"]["line"] for change in diff.changes("old", "new") if change["fact"] == "source"]
+    assert sources == [1, 2, 3, 4, 5]
+
+
 @pytest.mark.parametrize(
     ("points", "codes"),
     [

@@ -136,8 +136,8 @@ def test_defaults_are_raw_named_or_in_units(tmp_path: Path) -> None:
 
 
 def test_pairs_of_low_first_words_are_printed_by_their_first_word(tmp_path: Path) -> None:
-    """`wire` is the address that a request names."""
-    row = "- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77}}\n"
+    """`wire` is the address that a request names; `high_wire` is that of the word behind it."""
+    row = "- {name: a, at: 77h, type: f32, words: low first, printed: {wire: 0x77, low_wire: 0x77, high_wire: 0x78}}\n"
     assert described_so(tmp_path, row).points[0].addresses == (0x78, 0x77)
 
 

@@ -79,7 +79,7 @@ class Claim:
     def is_address(self) -> bool:
         """Whether it is the address of the point's first word, in the protocol or in a numbering of the manual."""
         printed = self.fact.removeprefix("printed ")
-        numbering = printed != self.fact and printed not in OWN_PRINTED and not printed.startswith("low_")
+        numbering = printed != self.fact and printed not in OWN_PRINTED and not printed.startswith(("low_", "high_"))
         return self.fact == "address" or numbering
 
 

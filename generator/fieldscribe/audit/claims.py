@@ -12,7 +12,7 @@ from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.resolve.subject import Subject
@@ -51,11 +51,19 @@ def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Cla
 
 def looked_through_of(subject: Subject) -> dict[int, frozenset[str]]:
     """The lines that the description says hold nothing for it, or only facts and these numbers that are none."""
+    return by_line(
+        (line, frozenset(map(str, passage.get("numbers", ()))))
+        for file in subject.scope.files
+        for passage in file.get("looked_through", ())
+        for first, last in spans_of(passage["lines"])
+        for line in range(first, max(first, last) + 1)
+    )
+
+
+def by_line(passed_over: Iterable[tuple[int, frozenset[str]]]) -> dict[int, frozenset[str]]:
+    """The numbers of each line that are no facts; none where the line as a whole holds nothing."""
     numbers_of_line: dict[int, frozenset[str]] = {}
-    for file in subject.scope.files:
-        for passage in file.get("looked_through", ()):
-            numbers = frozenset(map(str, passage.get("numbers", ())))
-            for first, last in spans_of(passage["lines"]):
-                for line in range(first, max(first, last) + 1):
-                    numbers_of_line[line] = numbers_of_line.get(line, frozenset()) | numbers
+    for line, numbers in passed_over:
+        before = numbers_of_line.get(line, numbers)
+        numbers_of_line[line] = before | numbers if before and numbers else frozenset()
     return numbers_of_line

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Point
     from fieldscribe.resolve.points import Resolved
 
-_LOW, _WRITE = "low_", "write_"
+_LOW, _HIGH, _WRITE = "low_", "high_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}
 _NEEDS = {
     "range": {"range", "type"},
@@ -98,7 +98,8 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map, keys: list[str]
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
     """The point's number in every numbering of its group.
 
-    `low_...` is for the word with the low part, `write_...` for where else the point is written.
+    `low_...` and `high_...` are for the words with the low and the high part, `write_...` for where else the point is
+    written.
     """
     known: dict[str, int] = {}
     for place in resolved.point.places:
@@ -106,8 +107,9 @@ def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
         known[prefix + WIRE] = first = addresses[0] if resolved.point.text is not None else min(addresses)
         known |= _numbered(subject, resolved, first, prefix)
         if len(addresses) > 1:
-            known[prefix + _LOW + WIRE] = addresses[-1]
-            known |= _numbered(subject, resolved, addresses[-1], prefix + _LOW)
+            for part, address in ((_LOW, addresses[-1]), (_HIGH, addresses[0])):
+                known[prefix + part + WIRE] = address
+                known |= _numbered(subject, resolved, address, prefix + part)
     return known
 
 

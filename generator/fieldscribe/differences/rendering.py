@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _MOST_NAMES = 12
 _MOST_SYMBOLS = 3
+_OTHER_LINES = "other lines of the manual"
 _ARROW = "\N{RIGHTWARDS ARROW}"
 
 
@@ -33,6 +34,11 @@ class _Alike(NamedTuple):
     def subjects(self) -> list[str]:
         """The points, or the one thing that is no point."""
         return [subject for difference in self.all if (subject := subject_of(difference)) is not None]
+
+    @property
+    def moved(self) -> str:
+        """How many things stand at other lines of the manual, if these differences say so of several."""
+        return f"{len(self.all)} things" if len(self.all) > 1 and _is_moved(self.first) else ""
 
 
 def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
@@ -71,11 +77,24 @@ def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
         whole = len(difference.things) == 1 and not difference.fact
         said = id(difference) if whole else (fact_of(difference), repr(difference.old), repr(difference.new))
         about = difference.things[0].kind if difference.things else ""
+        if _is_moved(difference):
+            about, said = "", ("source", "", "")
         groups[difference.weight].setdefault((about, said), _Alike(difference, [])).all.append(difference)
     return ((weight, list(alike.values())) for weight, alike in groups.items() if alike)
 
 
+def _is_moved(difference: Difference) -> bool:
+    """Whether the same stands at another line of the manual: a new edition moves most of them."""
+    old, new = difference.old, difference.new
+    if difference.fact != "source" or not isinstance(old, dict) or not isinstance(new, dict):
+        return False
+    return {**old, "line": None} == {**new, "line": None}
+
+
 def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
+    if alike.moved:
+        yield [("", "    "), ("strong", alike.moved), ("", f": {_OTHER_LINES}")]
+        return
     yield [("", "    "), ("strong", visible(_subject(alike))), ("", visible(_sentence(alike.first)))]
     places = comparison.places(alike.first)
     where = [place for place in dict.fromkeys(places.values()) if place]
@@ -86,6 +105,8 @@ def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
 
 
 def _item(comparison: Comparison, alike: _Alike) -> str:
+    if alike.moved:
+        return f"- {alike.moved}: {_OTHER_LINES}"
     symbols = "; ".join(
         f"{language} {', '.join(map(_code, names[:_MOST_SYMBOLS]))}{_more(len(names) - _MOST_SYMBOLS)}"
         for language, names in comparison.symbols(alike.first).items()
@@ -110,7 +131,8 @@ def _subject(alike: _Alike, quoted: Callable[[str], str] = str) -> str:
     if alike.first.is_rename and len(alike.first.things) == 1:
         return quoted(alike.first.things[0].old or "")
     few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
-    return few if len(subjects) == 1 else f"{len(subjects)} points ({few})"
+    several_points = len(subjects) > 1 and alike.first.things[0].kind == "point"
+    return f"{len(subjects)} points ({few})" if several_points else few
 
 
 def _sentence(difference: Difference, arrow: str = "->") -> str:

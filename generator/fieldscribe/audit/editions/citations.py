@@ -10,7 +10,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
-from fieldscribe.audit.claims import claims_of
+from fieldscribe.audit.claims import by_line, claims_of
 from fieldscribe.audit.comparison import Asked
 from fieldscribe.audit.editions.tracing import Trace
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
@@ -52,10 +52,8 @@ class Cited:
         """All of it held against the text."""
         claims = list(dict.fromkeys(claim for claim in self.claims if claim is not None))
         errata = [erratum for erratum in self.errata if erratum is not None]
-        numbers: dict[int, frozenset[str]] = {}
-        for passage in self.looked_through:
-            numbers.update((line, numbers.get(line, frozenset()) | passage.numbers) for line in passage.lines)
-        return Trace(text, manual, Asked(claims, errata, numbers))
+        passed_over = by_line((line, passage.numbers) for passage in self.looked_through for line in passage.lines)
+        return Trace(text, manual, Asked(claims, errata, passed_over))
 
 
 class Citations:

@@ -93,8 +93,8 @@ class Drafts:
         return Row(line, [" ".join(piece.replace("<br>", " ").split()) for piece in pieces], tokens)
 
     def of(self, lines: Iterable[int]) -> Iterator[Draft]:
-        """The drafts of new lines that are rows of a kind that the description knows."""
-        for line in lines:
+        """The drafts of new lines that are rows of a kind that the description knows, and not points of it already."""
+        for line in (line for line in lines if line not in self.models):
             row = self._row(line)
             model = None if row is None else self._nearest(row)
             if row is not None and model is not None and (facts := self._facts(row, model)):

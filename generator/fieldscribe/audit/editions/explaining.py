@@ -130,17 +130,26 @@ class Explaining:
     def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
         """Facts that were printed twice, and once otherwise now, where the new word is no news to the description."""
         pairs = self.pairs_of.get(number, ())
+        come = {word for _, new in change.gaps for word in new}
         for old, new in change.gaps:
             if not old or not new or self._is_passed_over(new) or not self._is_known_already(new, pairs):
                 continue
             for pair in pairs:
-                if pair.new not in self.new.missed and _is_of_numbers(pair.claim) and self._lost_one(pair, old, new):
+                if pair.new in self.new.missed or not _is_of_numbers(pair.claim) or self._stands_anew(pair, come):
+                    continue
+                if self._lost_one(pair, old, new):
                     text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} here"
                     yield Reason(text, pair.claim.where)
 
     def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
         """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
         return not _borne(self.old, pair.old).isdisjoint(old) and _borne(self.new, pair.new).isdisjoint(new)
+
+    def _stands_anew(self, pair: Pair, come: set[int]) -> bool:
+        """Whether a label stands right beside its number on a word that is new: it changed places with another."""
+        if not pair.claim.beside or pair.new is None or self.new.named[pair.new].isdisjoint(come):
+            return False
+        return bool(self.new.sides_of(pair.new))
 
     def _is_passed_over(self, words: range) -> bool:
         """Whether the description says of these words that they are no fact, and means no others of the line."""
@@ -160,6 +169,8 @@ class Explaining:
         return False
 
     def _stood_before(self, pair: Pair) -> bool:
+        if pair.old is None or pair.old in self.old.missed:
+            return False
         return any(not self.editions.is_gone(word) for word in _borne(self.old, pair.old))
 
     def _numbers(self, line: int, change: Change) -> Iterator[Reason]:

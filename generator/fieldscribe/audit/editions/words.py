@@ -1,4 +1,4 @@
-"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks, kinds of dashes."""
+"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks (`<br>`), dashes."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
 _WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
 _AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
 _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
+_BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
 _HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
@@ -34,6 +35,7 @@ class Words:
 
     def _add(self, number: int, line: str) -> None:
         marks = _HEADING_MARKS.match(line)
+        line = _BREAK.sub(lambda match: " " * len(match[0]), line)
         for match in _WORD.finditer(line, marks.end() if marks else 0):
             written = match[0]
             self.texts.append(written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN)))
