@@ -330,6 +330,21 @@ def test_the_whole_way(described: Described) -> None:
     assert described.audit(new, "--accept")[0] == 0
 
 
+def test_what_was_edited_counts_its_old_lines_until_it_is_renumbered(described: Described) -> None:
+    """Also where what it says now stands at these lines of the new edition, and not at those of the old one."""
+    kit = "- {id: kit, where: a note, line: 15, printed: The kit is 4711., taken: None., why: None., certainty: likely}"
+    described.edit("---\ngroup", f"{kit}\n---\ngroup")
+    described.edit("kit is 4711", "kit is 4712")
+    described.audit("Second series.\n\n" + OLD.replace("4711", "4712"), "--renumber")
+    assert "line: 17, printed: The kit is 4712." in described.text
+
+
+def test_numbers_that_were_looked_through_count_the_lines_where_they_stand(described: Described) -> None:
+    described.edit("{lines: [15, 19], numbers: [4711, 40.5]", "{lines: 19, numbers: [40.5]")
+    described.audit("".join(f"Foreword, part {part}.\n" for part in "abcdefghijklmnopqrstuvwxyz") + OLD, "--renumber")
+    assert "{lines: 45, numbers: [40.5]" in described.text
+
+
 @pytest.mark.parametrize(
     ("old", "new", "kinds"),
     [
