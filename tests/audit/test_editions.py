@@ -52,7 +52,8 @@ documents:
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_holding_registers, 06h: write_register}}
 looked_through:
 - {lines: 1..3, why: Title.}
-- {lines: 21..24, why: Wiring.}
+- {lines: 21..23, why: Wiring.}
+- {lines: 24, why: Wiring.}
 - {lines: [15, 19], numbers: [4711, 40.5], why: The kit and the example.}
 frames:
 - {name: write_target, line: 19, direction: request, bytes: 01 06 00 11 01 95 18 30}
@@ -196,6 +197,7 @@ CHANGES = [
     ("01 95 18 30", "01 95 18 31", "changed", "bytes", "name: write_target"),
     ("kit 4711", "kit 4712", "changed", "nothing cites line 15: `4712`", ""),
     ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", "", "removed", "which is gone", "name: hysteresis"),
+    ("Pin 2 plus\n", "", "removed", "looked_through cites line 24, which is gone", "{lines: 24, why"),
     ("| H06", "| H09 | New | 0019h | R/W | 0-9 | 1 s |\n| H06", "added", "is `0019h`", "name: hysteresis"),
     ("## Wiring", "## Timing\n\nWait for 20 ms.\n\n## Wiring", "added", "nothing cites line 23: `20`", ""),
 ]  # fmt: skip
@@ -261,7 +263,7 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
     assert (code, report["renumbered"]) == (0, True)
     after = described.text
     for old, now in (
-        ("lines: 1..3", "lines: 6..8"), ("lines: 21..24", "lines: 26..29"), ("lines: [15, 19]", "lines: [20, 24]"),
+        ("lines: 1..3", "lines: 6..8"), ("lines: 21..23", "lines: 26..28"), ("lines: 24,", "lines: 29,"), ("lines: [15, 19]", "lines: [20, 24]"),
         ("line: 19,", "line: 24,"), ("  line: 13\n", "  line: 18\n"), ("(line 12)", "(line 17)"),
         ("  line: 3\n", "  line: 8\n"),
         ("from line 9 on", "from line 14 on"), ("°C, line: 9}", "°C, line: 14}"), ("  line: 10\n", "  line: 15\n"),
@@ -282,8 +284,14 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
 
 
 def test_what_was_looked_through_takes_in_no_new_lines(described: Described) -> None:
+    described.edit("21..23, why: Wiring.}\n- {lines: 24,", "21..24,")
     described.audit(OLD.replace("Pin 2", "Pin 3 earth\nPin 2"), "--renumber")
     assert "lines: [21..23, 25], why: Wiring." in described.text
+
+
+def test_a_whole_line_was_looked_through_whatever_numbers_are_named_besides(described: Described) -> None:
+    described.edit("- {lines: [15, 19]", "- {lines: 15, why: The note.}\n- {lines: [15, 19]")
+    assert described.audit(OLD.replace("kit 4711", "kit 4712"))[0] == 0
 
 
 REFUSALS = [

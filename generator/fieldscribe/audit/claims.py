@@ -57,5 +57,10 @@ def looked_through_of(subject: Subject) -> dict[int, frozenset[str]]:
             numbers = frozenset(map(str, passage.get("numbers", ())))
             for first, last in spans_of(passage["lines"]):
                 for line in range(first, max(first, last) + 1):
-                    numbers_of_line[line] = numbers_of_line.get(line, frozenset()) | numbers
+                    numbers_of_line[line] = said_twice(numbers_of_line.get(line, numbers), numbers)
     return numbers_of_line
+
+
+def said_twice(numbers: frozenset[str], more: frozenset[str]) -> frozenset[str]:
+    """What two passages say of one line: no numbers are all of it, and take in any."""
+    return numbers | more if numbers and more else frozenset()

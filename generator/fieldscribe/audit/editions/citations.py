@@ -10,7 +10,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
-from fieldscribe.audit.claims import claims_of
+from fieldscribe.audit.claims import claims_of, said_twice
 from fieldscribe.audit.comparison import Asked
 from fieldscribe.audit.editions.tracing import Trace
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
@@ -38,6 +38,8 @@ class LookedThrough:
     lines: frozenset[int]
     numbers: frozenset[str]
     place: Span
+    spans: tuple[tuple[int, int], ...]
+    """The lines (first, last) as they are written."""
 
 
 @dataclass(slots=True)
@@ -54,7 +56,7 @@ class Cited:
         errata = [erratum for erratum in self.errata if erratum is not None]
         numbers: dict[int, frozenset[str]] = {}
         for passage in self.looked_through:
-            numbers.update((line, numbers.get(line, frozenset()) | passage.numbers) for line in passage.lines)
+            numbers |= {line: said_twice(numbers.get(line, passage.numbers), passage.numbers) for line in passage.lines}
         return Trace(text, manual, Asked(claims, errata, numbers))
 
 
@@ -184,6 +186,14 @@ class Citations:
         for erratum in self.errata:
             yield from ((erratum, line) for line in self._gone(erratum.id, erratum.cited))
 
+    def gone_passages(self) -> Iterator[tuple[LookedThrough, int]]:
+        """Lines that were looked through of which the new edition has none, with the first of them."""
+        for passage in (passage for passage in self.looked_through if not self.is_of_new(passage)):
+            for first, last in passage.spans:
+                lines = [line for line in range(first, max(first, last) + 1) if self.editions.old.of_line(line)]
+                if lines and all(self.editions.now(line) is None for line in lines):
+                    yield passage, lines[0]
+
     def _gone(self, name: str, cited: Iterable[tuple[int, int]]) -> list[int]:
         if name in self.counts_new:
             return []
@@ -194,9 +204,10 @@ def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:
     """What the description says under `looked_through`."""
     for file in files:
         for passage in file.get("looked_through", ()):
-            spans = spans_of(passage["lines"])
+            spans = list(spans_of(passage["lines"]))
             lines = frozenset(line for first, last in spans for line in range(first, max(first, last) + 1))
-            yield LookedThrough(lines, frozenset(map(str, passage.get("numbers", ()))), passage.span("lines"))
+            numbers = frozenset(map(str, passage.get("numbers", ())))
+            yield LookedThrough(lines, numbers, passage.span("lines"), tuple(spans))
 
 
 def _distance(place: Span, other: Span) -> tuple[bool, int]:
