@@ -263,7 +263,8 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
     assert (code, report["renumbered"]) == (0, True)
     after = described.text
     for old, now in (
-        ("lines: 1..3", "lines: 6..8"), ("lines: 21..23", "lines: 26..28"), ("lines: 24,", "lines: 29,"), ("lines: [15, 19]", "lines: [20, 24]"),
+        ("lines: 1..3", "lines: 6..8"), ("lines: 21..23", "lines: 26..28"), ("lines: 24,", "lines: 29,"),
+        ("lines: [15, 19]", "lines: [20, 24]"),
         ("line: 19,", "line: 24,"), ("  line: 13\n", "  line: 18\n"), ("(line 12)", "(line 17)"),
         ("  line: 3\n", "  line: 8\n"),
         ("from line 9 on", "from line 14 on"), ("°C, line: 9}", "°C, line: 14}"), ("  line: 10\n", "  line: 15\n"),
@@ -351,6 +352,35 @@ def test_numbers_that_were_looked_through_count_the_lines_where_they_stand(descr
     described.edit("{lines: [15, 19], numbers: [4711, 40.5]", "{lines: 19, numbers: [40.5]")
     described.audit("".join(f"Foreword, part {part}.\n" for part in "abcdefghijklmnopqrstuvwxyz") + OLD, "--renumber")
     assert "{lines: 45, numbers: [40.5]" in described.text
+
+
+def test_an_erratum_about_a_line_that_is_explained_is_named(
+    described: Described, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (described.folder / "new.txt").write_text(OLD.replace("2024-03", "2025-01"), "utf-8")
+    files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
+    assert main(["audit", str(described.folder / "audited"), *files]) == 0
+    assert "erratum flow_word cites it: does it still hold?" in capsys.readouterr().out
+
+
+def test_a_corrected_checksum_says_which_erratum_is_corrected(described: Described) -> None:
+    wrong = "- {id: sum, frame: write_target, line: 19, printed: {crc: 18 31}, taken: {crc: 18 30}"
+    described.edit("95 18 30", "95 18 31")
+    described.edit("---\ngroup", f"{wrong}, why: x, certainty: likely}}\n---\ngroup")
+    (described.folder / "old.txt").write_text(OLD.replace("95 18 30", "95 18 31"), "utf-8")
+    _, report = described.audit(OLD)
+    assert [(void["erratum"], void["is_corrected"]) for void in report["void_errata"]] == [("sum", True)]
+
+
+def test_an_index_in_brackets_is_no_negative_number(described: Described) -> None:
+    group = "group: more\nspace: holding\naccess: r\ntype: ~\nsource: {document: manual, section: Registers}"
+    point = '- {code: "P70[1]", name: fault, title: Fault, at: 70, index: 1, line: 14, printed: {wire: 4480}}'
+    described.file.write_text(
+        f"{described.text}---\n{group}\naddressing: number * 64 + index - 1\npoints:\n{point}\n", "utf-8"
+    )
+    row = "| P70 [-01] | Fault | 4480 | R | | |\n"
+    code, report = described.audit(OLD.replace("\nCooling needs", f"{row}\nCooling needs"))
+    assert code == 0, [finding["reasons"] for finding in report["findings"]]
 
 
 @pytest.mark.parametrize(
