@@ -52,7 +52,8 @@ documents:
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_holding_registers, 06h: write_register}}
 looked_through:
 - {lines: 1..3, why: Title.}
-- {lines: 21..24, why: Wiring.}
+- {lines: 21..23, why: Wiring.}
+- {lines: 24, why: Wiring.}
 - {lines: [15, 19], numbers: [4711, 40.5], why: The kit and the example.}
 frames:
 - {name: write_target, line: 19, direction: request, bytes: 01 06 00 11 01 95 18 30}
@@ -198,6 +199,7 @@ CHANGES = [
     ("01 95 18 30", "01 95 18 31", "changed", "bytes", "name: write_target"),
     ("kit 4711", "kit 4712", "changed", "nothing cites line 15: `4712`", ""),
     ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", "", "removed", "which is gone", "name: hysteresis"),
+    ("Pin 2 plus\n", "", "removed", "looked_through cites line 24, which is gone", "{lines: 24, why"),
     ("| H06", "| H09 | New | 0019h | R/W | 0-9 | 1 s |\n| H06", "added", "is `0019h`", "name: hysteresis"),
     ("## Wiring", "## Timing\n\nWait for 20 ms.\n\n## Wiring", "added", "nothing cites line 23: `20`", ""),
 ]  # fmt: skip
@@ -268,7 +270,8 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
     assert (code, report["renumbered"]) == (0, True)
     after = described.text
     for old, now in (
-        ("lines: 1..3", "lines: 6..8"), ("lines: 21..24", "lines: 26..29"), ("lines: [15, 19]", "lines: [20, 24]"),
+        ("lines: 1..3", "lines: 6..8"), ("lines: 21..23", "lines: 26..28"), ("lines: 24,", "lines: 29,"),
+        ("lines: [15, 19]", "lines: [20, 24]"),
         ("line: 19,", "line: 24,"), ("  line: 13\n", "  line: 18\n"), ("(line 12)", "(line 17)"),
         ("  line: 3\n", "  line: 8\n"),
         ("from line 9 on", "from line 14 on"), ("°C, line: 9}", "°C, line: 14}"), ("  line: 10\n", "  line: 15\n"),
@@ -289,6 +292,7 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
 
 
 def test_what_was_looked_through_takes_in_no_new_lines(described: Described) -> None:
+    described.edit("21..23, why: Wiring.}\n- {lines: 24,", "21..24,")
     described.audit(OLD.replace("Pin 2", "Pin 3 earth\nPin 2"), "--renumber")
     assert "lines: [21..23, 25], why: Wiring." in described.text
 
@@ -337,7 +341,7 @@ def test_what_followed_the_manual_is_explained(
 
 def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(described: Described) -> None:
     new = OLD.replace("kit 4711", "kit 4712")
-    described.edit("- {lines: 21..24,", "- {lines: 15, why: The kit.}\n- {lines: 21..24,")
+    described.edit("- {lines: [15, 19]", "- {lines: 15, why: The kit.}\n- {lines: [15, 19]")
     assert described.audit(new)[0] == 0
     assert described.audit_alone(new)["uncited"] == []
 
@@ -395,6 +399,50 @@ def test_the_whole_way(described: Described) -> None:
     assert described.text.endswith("  line: 15\n")
     assert described.audit_alone(new)["moved"] == []
     assert described.audit(new, "--accept")[0] == 0
+
+
+def test_what_was_edited_counts_its_old_lines_until_it_is_renumbered(described: Described) -> None:
+    """Also where what it says now stands at these lines of the new edition, and not at those of the old one."""
+    kit = "- {id: kit, where: a note, line: 15, printed: The kit is 4711., taken: None., why: None., certainty: likely}"
+    described.edit("---\ngroup", f"{kit}\n---\ngroup")
+    described.edit("kit is 4711", "kit is 4712")
+    described.audit("Second series.\n\n" + OLD.replace("4711", "4712"), "--renumber")
+    assert "line: 17, printed: The kit is 4712." in described.text
+
+
+def test_numbers_that_were_looked_through_count_the_lines_where_they_stand(described: Described) -> None:
+    described.edit("{lines: [15, 19], numbers: [4711, 40.5]", "{lines: 19, numbers: [40.5]")
+    described.audit("".join(f"Foreword, part {part}.\n" for part in "abcdefghijklmnopqrstuvwxyz") + OLD, "--renumber")
+    assert "{lines: 45, numbers: [40.5]" in described.text
+
+
+def test_an_erratum_about_a_line_that_is_explained_is_named(
+    described: Described, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (described.folder / "new.txt").write_text(OLD.replace("2024-03", "2025-01"), "utf-8")
+    files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
+    assert main(["audit", str(described.folder / "audited"), *files]) == 0
+    assert "erratum flow_word cites it: does it still hold?" in capsys.readouterr().out
+
+
+def test_a_corrected_checksum_says_which_erratum_is_corrected(described: Described) -> None:
+    wrong = "- {id: sum, frame: write_target, line: 19, printed: {crc: 18 31}, taken: {crc: 18 30}"
+    described.edit("95 18 30", "95 18 31")
+    described.edit("---\ngroup", f"{wrong}, why: x, certainty: likely}}\n---\ngroup")
+    (described.folder / "old.txt").write_text(OLD.replace("95 18 30", "95 18 31"), "utf-8")
+    _, report = described.audit(OLD)
+    assert [(void["erratum"], void["is_corrected"]) for void in report["void_errata"]] == [("sum", True)]
+
+
+def test_an_index_in_brackets_is_no_negative_number(described: Described) -> None:
+    group = "group: more\nspace: holding\naccess: r\ntype: ~\nsource: {document: manual, section: Registers}"
+    point = '- {code: "P70[1]", name: fault, title: Fault, at: 70, index: 1, line: 14, printed: {wire: 4480}}'
+    described.file.write_text(
+        f"{described.text}---\n{group}\naddressing: number * 64 + index - 1\npoints:\n{point}\n", "utf-8"
+    )
+    row = "| P70 [-01] | Fault | 4480 | R | | |\n"
+    code, report = described.audit(OLD.replace("\nCooling needs", f"{row}\nCooling needs"))
+    assert code == 0, [finding["reasons"] for finding in report["findings"]]
 
 
 @pytest.mark.parametrize(

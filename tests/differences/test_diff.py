@@ -438,6 +438,30 @@ def test_old_names_are_written_to_descriptions_alone(repository: Diff) -> None:
 
 
 @pytest.mark.full(seconds=2)
+def test_settings_of_the_line_are_told_once(diff: Diff) -> None:
+    """A text is its own code where the manual prints no other."""
+    bus = (
+        "{framings: [rtu], units: 1..247, functions: {03h: read_holding_registers}, serial: {baud: RATE, data: {1: 8}}}"
+    )
+    for name, rate in (("before", "9600"), ("after", "19200")):
+        diff.write(name, POINTS, bus=bus.replace("RATE", rate))
+    assert "serial baud 9600; data 1 8 -> baud 19200; data 1 8" in diff("before", "after").out
+
+
+def test_several_things_are_called_what_they_are(diff: Diff) -> None:
+    errata = "".join(
+        f"- {{id: {name}, where: title, line: 1, printed: Nothing., taken: X., why: X., certainty: likely}}\n"
+        for name in ("first", "second")
+    )
+    for name, taken in (("before", "X."), ("after", "Y.")):
+        file = diff.write(name, POINTS)
+        text = file.read_text("utf-8").replace(
+            "---", f"errata:\n{errata}---".replace("taken: X.", f"taken: {taken}"), 1
+        )
+        file.write_text(text, "utf-8")
+    assert "2 errata (erratum:first, erratum:second): taken" in diff("before", "after").out
+
+
 def test_devices_that_have_nothing_in_common() -> None:
     """Every fact, part and value of every family finds its words."""
     models = [{**export_model(made(name)), "device": "one"} for name in KITCHENS]

@@ -46,12 +46,12 @@ def printed_errata_of(subject: Subject) -> Iterator[PrintedErratum]:
 
 
 def _printed_erratum(written: OpenErratum) -> PrintedErratum:
-    printed, lines = written.node.get("printed"), written.node.get("lines")
+    printed, taken, lines = (written.node.get(key) for key in ("printed", "taken", "lines"))
     cited = list(spans_of(written.node["line"]))
     cited += [span for value in lines.values() for span in spans_of(value)] if isinstance(lines, Map) else []
     texts: list[str] = []
     if isinstance(printed, Map):
-        numbers = [number for key, value in printed.items() for number in _printed_numbers(key, value)]
+        numbers = _numbers_of(printed)
     else:
         sentence = str(printed)
         cited += [(int(line), 0) for lines in _LINES_NAMED.findall(sentence) for line in re.findall("[0-9]+", lines)]
@@ -64,10 +64,14 @@ def _printed_erratum(written: OpenErratum) -> PrintedErratum:
         tuple(texts),
         tuple(cited),
         written.subjects,
-        frozenset(abs(number) for number in numbers_in(written.node.get("taken"))),
+        frozenset(map(abs, _numbers_of(taken) if isinstance(taken, Map) else numbers_in(taken))),
         is_sentence=not isinstance(printed, Map),
         taken_text=written.erratum.taken,
     )
+
+
+def _numbers_of(facts: Map) -> list[Fraction]:
+    return [number for key, value in facts.items() for number in _printed_numbers(key, value)]
 
 
 def _printed_numbers(key: str, value: Any) -> list[Fraction]:

@@ -131,8 +131,11 @@ def _subject(alike: _Alike, quoted: Callable[[str], str] = str) -> str:
     if alike.first.is_rename and len(alike.first.things) == 1:
         return quoted(alike.first.things[0].old or "")
     few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
-    several_points = len(subjects) > 1 and alike.first.things[0].kind == "point"
-    return f"{len(subjects)} points ({few})" if several_points else few
+    return few if len(subjects) == 1 else f"{len(subjects)} {_many(alike.first.things[0].kind)} ({few})"
+
+
+def _many(kind: str) -> str:
+    return {"erratum": "errata"}.get(kind, f"{kind}s")
 
 
 def _sentence(difference: Difference, arrow: str = "->") -> str:

@@ -81,12 +81,22 @@ def _condition(condition: Any) -> str:
     )
 
 
+def _settings(serial: Mapping[str, Mapping[str, str]]) -> str:
+    """Settings of a line: each text with the code that chooses it, if it has another."""
+    texts = {
+        setting: ", ".join(text if code == text else f"{code} {text}" for code, text in codes.items())
+        for setting, codes in serial.items()
+    }
+    return "; ".join(f"{setting} {text}" for setting, text in texts.items())
+
+
 _WORDS: Mapping[str, Callable[[Any], str]] = {
     **dict.fromkeys(_ADDRESSES, _number),
     "range": _ranges,
     "gaps": lambda gaps: "; ".join(f"{space} {_ranges(spans)}" for space, spans in gaps.items()),
     "bits": _bits,
     "raw": _raw,
+    "serial": _settings,
     "title": _titles,
     "note": _titles,
     "note of the bus": _titles,

@@ -38,6 +38,8 @@ class LookedThrough:
     lines: frozenset[int]
     numbers: frozenset[str]
     place: Span
+    spans: tuple[tuple[int, int], ...]
+    """The lines (first, last) as they are written."""
 
 
 @dataclass(slots=True)
@@ -72,11 +74,13 @@ class Citations:
         """Find out which subjects count lines of the new edition; `accepted`: whether its digest is recorded."""
         if self.is_unmoved:
             return
-        in_old, in_new = self._misses(old, self.editions.old), self._misses(new, self.editions.new)
         lines = self._lines_of_subjects()
-        fit_new = {name for name in lines if in_new[name] < in_old[name]}
-        fit_old = {name for name in lines if in_old[name] < in_new[name]}
         now, then = self.editions.now, self.editions.then
+        in_old, in_new = self.editions.old, self.editions.new
+        as_old = self._least(lines, self._misses(old, in_old), self._misses(new, in_new, _of_words(in_old, now)))
+        as_new = self._least(lines, self._misses(new, in_new), self._misses(old, in_old, _of_words(in_new, then)))
+        fit_new = {name for name in lines if as_new[name] < as_old[name]}
+        fit_old = {name for name in lines if as_old[name] < as_new[name]}
         renumbered = sum(any(then(line) is not None for line in lines[name]) for name in fit_new)
         left = sum(any(now(line) != (line, line) for line in lines[name]) for name in fit_old)
         self.all_count_new = accepted or renumbered > left
@@ -99,10 +103,19 @@ class Citations:
         lines |= {line for passage in self.looked_through for line in passage.lines}
         return all(self.editions.now(line) in (None, (line, line)) for line in lines)
 
-    def _misses(self, manual: Manual, text: Words) -> Counter[str]:
-        """How much of each subject does not stand in a text at the very lines that are cited."""
-        trace = Cited([*self.claims], [*self.errata], []).trace(manual, text)
-        return Counter(claim.subject for claim in trace.missed) + Counter(trace.void)
+    @staticmethod
+    def _least(names: Iterable[str], before: Counter[str], after: Counter[str]) -> dict[str, int]:
+        """What is missed with the lines of one edition, whether a subject was edited for the new edition or not yet."""
+        return {name: min(before[name], after[name]) for name in names}
+
+    def _misses(self, manual: Manual, text: Words, there: Where | None = None) -> Counter[str]:
+        """How much of each subject does not stand in a text at the lines that are cited, or `there` from these."""
+        claims = [claim if there is None else moved(claim, there) for claim in self.claims]
+        errata = [erratum if there is None else moved(erratum, there) for erratum in self.errata]
+        trace = Cited(claims, errata, []).trace(manual, text)
+        gone = [claim.subject for claim, place in zip(self.claims, claims, strict=True) if place is None]
+        gone += [erratum.id for erratum, place in zip(self.errata, errata, strict=True) if place is None]
+        return Counter(claim.subject for claim in trace.missed) + Counter(trace.void) + Counter(gone)
 
     def in_old(self) -> Cited:
         """Everything in the lines of the old edition."""
@@ -131,7 +144,8 @@ class Citations:
     def is_of_new(self, passage: LookedThrough) -> bool:
         """Whether lines that were looked through are counted as in the new edition.
 
-        They are if all of them are new, and if in the old edition facts or other passages cite all of them.
+        They are if all of them are new and have the numbers, and if in the old edition facts or other passages cite
+        all of them.
         """
         if self.all_count_new:
             return True
@@ -139,6 +153,8 @@ class Citations:
         news = {line for line in passage.lines if editions.new.of_line(line)}
         olds = {line for line in passage.lines if editions.old.of_line(line)}
         if not news or not news <= editions.changed_new:
+            return False
+        if not all(any(number in editions.new.lines[line - 1] for line in news) for number in passage.numbers):
             return False
         others = (other.lines for other in self.looked_through if other is not passage)
         cited = {first for claim in self.claims for first, _ in claim.cited}
@@ -168,6 +184,14 @@ class Citations:
         for erratum in self.errata:
             yield from ((erratum, line) for line in self._gone(erratum.id, erratum.cited))
 
+    def gone_passages(self) -> Iterator[tuple[LookedThrough, int]]:
+        """Lines that were looked through of which the new edition has none, with the first of them."""
+        for passage in (passage for passage in self.looked_through if not self.is_of_new(passage)):
+            for first, last in passage.spans:
+                lines = [line for line in range(first, max(first, last) + 1) if self.editions.old.of_line(line)]
+                if lines and all(self.editions.now(line) is None for line in lines):
+                    yield passage, lines[0]
+
     def _gone(self, name: str, cited: Iterable[tuple[int, int]]) -> list[int]:
         if name in self.counts_new:
             return []
@@ -178,9 +202,10 @@ def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:
     """What the description says under `looked_through`."""
     for file in files:
         for passage in file.get("looked_through", ()):
-            spans = spans_of(passage["lines"])
+            spans = list(spans_of(passage["lines"]))
             lines = frozenset(line for first, last in spans for line in range(first, max(first, last) + 1))
-            yield LookedThrough(lines, frozenset(map(str, passage.get("numbers", ()))), passage.span("lines"))
+            numbers = frozenset(map(str, passage.get("numbers", ())))
+            yield LookedThrough(lines, numbers, passage.span("lines"), tuple(spans))
 
 
 def _distance(place: Span, other: Span) -> tuple[bool, int]:
@@ -202,6 +227,11 @@ def moved(item: T, there: Where) -> T | None:
     """The same with its lines in another edition; None if that has none of them."""
     cited = tuple(span for first, last in item.cited if (span := span_there(first, last, there)) is not None)
     return replace(item, cited=cited) if cited else None
+
+
+def _of_words(text: Words, there: Where) -> Where:
+    """The same for lines that have words: no fact stands on others."""
+    return lambda line: there(line) if text.of_line(line) else None
 
 
 def _with_lines(passage: LookedThrough, there: Where, text: Words) -> LookedThrough:

@@ -82,8 +82,13 @@ class _Comparing:
         """What cites lines that are gone, with the number of the change that took them away, -1 if none is known."""
         for item, line in self.citations.gone():
             name, place = (item.subject, item.where) if isinstance(item, Claim) else self._named(item)
-            changes = (number for number, change in enumerate(self.editions.changes) if line in change.old)
-            yield next(changes, -1), Reason(f"{name} cites line {line}, which is gone", place)
+            yield self._gone_line(name, line, place)
+        for passage, line in self.citations.gone_passages():
+            yield self._gone_line("looked_through", line, _told(passage.place))
+
+    def _gone_line(self, name: str, line: int, place: str) -> tuple[int, Reason]:
+        changes = (number for number, change in enumerate(self.editions.changes) if line in change.old)
+        return next(changes, -1), Reason(f"{name} cites line {line}, which is gone", place)
 
     def _named(self, erratum: PrintedErratum) -> tuple[str, str]:
         return f"erratum {erratum.id}", _told(self.citations.place_of_erratum[erratum.id])

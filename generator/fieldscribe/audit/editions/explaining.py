@@ -211,6 +211,7 @@ class Explaining:
             signed += [(self.editions.there(word + 1), False) for word in old if olds.is_minus(word)]
             for word, has_sign in signed:
                 bearing = [pair.claim for pair in self.pairs_of.get(number, ()) if word in _borne(self.new, pair.new)]
+                bearing = [claim for claim in bearing if claim.fact != "number"]  # of a code: [-01] is no minus one
                 if bearing and all(("-" in claim.shown) != has_sign for claim in bearing):
                     with_or_without = "with" if has_sign else "without"
                     yield Reason(f"{_told(bearing[0])} is printed {with_or_without} a minus sign", bearing[0].where)

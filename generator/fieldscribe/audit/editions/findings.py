@@ -14,6 +14,11 @@ class Cite:
     shown: str
     place: str
 
+    @property
+    def is_erratum(self) -> bool:
+        """Whether it is an erratum, whose subject is named so."""
+        return self.subject.startswith("erratum ")
+
 
 @dataclass(frozen=True, slots=True)
 class Reason:

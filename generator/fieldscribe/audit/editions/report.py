@@ -34,6 +34,7 @@ def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
     explained = " (explained)" if finding.explained else ""
     yield [*_placed(next(iter(places), "")), (severity, finding.kind), ("", visible(f": {_head(finding)}{explained}"))]
     if not whole:
+        yield from _errata_of(finding)
         return
     if finding.kind != "moved":
         yield from _shown("-", finding.was)
@@ -42,6 +43,7 @@ def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
         yield [("", "  "), *_placed(reason.place), ("", visible(reason.text))]
     said = {reason.place for reason in finding.reasons} | set(places[:1] if not finding.reasons else ())
     cites = [cite for cite in finding.cited_by if cite.place and cite.place not in said]
+    cites.sort(key=lambda cite: not cite.is_erratum)
     for cite in cites[:_MOST_CITES]:
         fact = f": {cite.fact} {cite.shown}" if cite.fact else ""
         yield [("", "  "), *_placed(cite.place), ("", visible(f"{cite.subject}{fact} cites it"))]
@@ -49,6 +51,13 @@ def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
         yield [("", f"  and {len(cites) - _MOST_CITES} more cite it")]
     for draft in finding.drafts:
         yield from _of_draft(draft)
+
+
+def _errata_of(finding: Finding) -> Iterator[Line]:
+    """The errata about a line that is explained: whether they still hold is for a reader, as many are sentences."""
+    errata = [cite for cite in finding.cited_by if cite.is_erratum]
+    for cite in errata if finding.kind == "changed" else ():
+        yield [("", "  "), *_placed(cite.place), ("", visible(f"{cite.subject} cites it: does it still hold?"))]
 
 
 def _head(finding: Finding) -> str:

@@ -1017,12 +1017,12 @@ pub fn main(
     run: impl Fn(&str, &Vector) -> Option<Outcome>,
     check: impl Fn(),
 ) -> ExitCode {
-    let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
-    let text = match std::fs::read_to_string(&path) {
+    let vectors = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
+    let text = match std::fs::read_to_string(&vectors) {
         Ok(text) => text,
         Err(error) => {
             let [name, ..] = device;
-            eprintln!("cannot read the vectors {path}: {error}");
+            eprintln!("cannot read the vectors {vectors}: {error}");
             eprintln!("set FIELDSCRIBE_VECTORS to the absolute path of {name}.txt, which");
             eprintln!(
                 "`fieldscribe generate {name} --target vectors` writes into generated/vectors"
