@@ -1036,8 +1036,8 @@ pub fn main(
         let parts: Vec<&str> = line.split('\t').collect();
         match parts[0] {
             "vectors" => {
-                assert_eq!(parts[1], "2", "{path} is of another format");
-                assert_eq!(parts[2..], device, "{path} is of another description");
+                assert_eq!(parts[1], "2", "{vectors} is of another format");
+                assert_eq!(parts[2..], device, "{vectors} is of another description");
                 assert_eq!(parts[3], format!("{major}.{minor}.{patch}"));
                 assert_eq!(number, (major * 1000 + minor) * 1000 + patch);
             }
@@ -1049,7 +1049,7 @@ pub fn main(
                     held.push(fields(&sets[place], &parts[1..]));
                 } else {
                     let kind = kinds.iter_mut().find(|kind| kind.name == name);
-                    let kind = kind.unwrap_or_else(|| panic!("{path}: {line}: what is {name}?"));
+                    let kind = kind.unwrap_or_else(|| panic!("{vectors}: {line}: what is {name}?"));
                     if kind.elsewhere {
                         continue;
                     }
