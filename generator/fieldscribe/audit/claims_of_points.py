@@ -253,9 +253,10 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             bits = () if alike else beside
             number = Fraction(entry.raw)
             yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
-            if not words:
-                shown = f"{flag.name} {entry.raw}"
-                yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
+            row = frozenset((Fraction(flag.low + above),)) if flag.width == 1 else frozenset()
+            if row or not words:
+                shown, optional = f"{flag.name} {entry.raw}", bool(words)
+                yield from citing.numbers("flag values", shown, (number,), "flags", optional=optional, row=row, place=place)
 
 
 def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:

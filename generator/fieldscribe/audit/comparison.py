@@ -34,6 +34,8 @@ _BEHIND_THE_FIRST = ("answers", "refusals")
 """Facts of a code that its row prints behind the code itself."""
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
+_OF_CODES = ("max", "answers", "refusals")
+"""Facts that no manual prints with two or three binary digits."""
 _NEARLY_ALL = 0.75
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
@@ -226,8 +228,17 @@ class Comparison:
         extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
-        if not enough and not claim.optional:
+        if not enough and (not claim.optional or (claim.row and any(map(self._rows_print_values, extents)))):
             self._misses(claim, extents)
+
+    def _rows_print_values(self, extent: Extent) -> bool:
+        """Whether the rows of bits print their values as numbers, too: nearly all of them."""
+        key = (extent, "values in rows")
+        if key not in self._parted:
+            claims = [claim for claim in self._claims_in[extent, "flag values"] if claim.row]
+            stand = [bool(self._numbers_stand(claim, extent)) for claim in claims]
+            self._parted[key] = sum(stand) > _NEARLY_ALL * len(stand)
+        return self._parted[key]
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
         if self._is_taken(claim):
@@ -303,10 +314,16 @@ class Comparison:
         if claim.in_order:
             return self._stand_in_order(claim, passage)
         hits = passage.reading(claim.numbers)
+        if claim.fact in _OF_CODES:
+            hits = [token for token in hits if token.is_plainly(claim.numbers)]
+        if claim.row and (claim.optional or passage.behind(claim.row)):
+            hits = [token for token in hits if token in passage.behind(claim.row)]
         if claim.names and (named := passage.behind_names(claim.names)):
             hits = [token for token in hits if token in named]
         if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
             hits = [token for token in hits if token not in passage.in_first_cell]
+        if claim.first and claim.optional:  # bytes are counted without zeros in front
+            hits = [token for token in hits if not token.text.startswith("0")]
         if claim.first:
             hits = [token for token in hits if token in passage.in_first_cell]
         if claim.unit:

@@ -74,6 +74,31 @@ class Passage:
         char, after = self.text[place], self.text[place + 1 : place + 2]
         return not after.isalnum() or (char.isalpha() and (after.isdigit() or after.isupper()))
 
+    def column(self, place: int) -> int | None:
+        """The column of a table in which a place lies; None outside of tables."""
+        start = 0
+        for line, column, text in self.pieces:
+            if place <= start + len(text):
+                whole = self.manual.line(line)
+                gap = "|" if whole.startswith("|") else "\t"
+                return whole.count(gap, 0, column + place - start) if gap in whole else None
+            start += len(text) + 1
+        return None
+
+    def behind(self, opening: frozenset[Fraction]) -> list[Token]:
+        """The numbers in the row that such a number alone opens; none if not exactly one row begins so."""
+        opens = [
+            token.line
+            for token in self.in_first_cell
+            if token.is_plainly(opening) and sum(other.line == token.line for other in self.in_first_cell) == 1
+        ]
+        if len(opens) != 1 or self.in_first_cell is self.tokens:
+            return []
+        later = [token.line for token in self.in_first_cell if token.line > opens[0]]
+        end = min(later, default=opens[0] + 1)
+        first = set(map(id, self.in_first_cell))
+        return [token for token in self.tokens if opens[0] <= token.line < end and id(token) not in first]
+
     def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
         """What stands behind each number of one's own, up to the next number of others."""
         cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
