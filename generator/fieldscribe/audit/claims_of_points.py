@@ -140,7 +140,7 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         words = tuple(wordings.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
-            numbers = (Fraction(place), Fraction(1 << place))
+            numbers = (Fraction(place),)
             names = tuple(wordings.code("bits")) if place == point.bits[0] else ()
             yield from citing.numbers(
                 "bits", str(place), numbers, words=words, optional=inner, names=names, place=draft.span("bits")
@@ -256,7 +256,9 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             row = frozenset((Fraction(flag.low + above),)) if flag.width == 1 else frozenset()
             if row or not words:
                 shown, optional = f"{flag.name} {entry.raw}", bool(words)
-                yield from citing.numbers("flag values", shown, (number,), "flags", optional=optional, row=row, place=place)
+                yield from citing.numbers(
+                    "flag values", shown, (number,), "flags", optional=optional, row=row, place=place
+                )
 
 
 def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:

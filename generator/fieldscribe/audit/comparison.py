@@ -34,6 +34,8 @@ _BEHIND_THE_FIRST = ("answers", "refusals")
 """Facts of a code that its row prints behind the code itself."""
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
+_TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
+"""Facts of which an erratum may speak that cites another place."""
 _OF_CODES = ("max", "answers", "refusals")
 """Facts that no manual prints with two or three binary digits."""
 _NEARLY_ALL = 0.75
@@ -241,7 +243,7 @@ class Comparison:
         return self._parted[key]
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
-        if self._is_taken(claim):
+        if self._is_taken(claim, extents):
             return
         self.absent.append((claim, extents))
 
@@ -266,17 +268,24 @@ class Comparison:
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
-    def _is_taken(self, claim: Claim) -> bool:
+    def _is_taken(self, claim: Claim, extents: list[Extent]) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
         codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
         printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
+            if claim.fact not in _TAKEN_ANYWHERE and not self._speaks_of(erratum, extents):
+                continue
             if claim.numbers & erratum.taken and (erratum.is_sentence or not printed):
                 return True  # an erratum that gives printed facts tells apart what is printed and what was taken
             if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
+
+    def _speaks_of(self, erratum: PrintedErratum, extents: list[Extent]) -> bool:
+        """Whether an erratum cites lines of a place."""
+        lines = [self.extent(*cited) for cited in erratum.cited]
+        return any(one.first <= extent.last and extent.first <= one.last for one in lines for extent in extents)
 
     def _stands(self, claim: Claim, extent: Extent) -> int:
         """How often a claim stands in one of the places that it cites."""
@@ -313,6 +322,15 @@ class Comparison:
         passage = self._own_passage(claim, extent)
         if claim.in_order:
             return self._stand_in_order(claim, passage)
+        hits = self._hits(claim, passage)
+        self._use(hits)
+        if hits or not claim.between:
+            return len(hits)
+        readings = {reading for token in passage.tokens for reading in token.readings}
+        return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _hits(self, claim: Claim, passage: Passage) -> list[Token]:
+        """The numbers of a passage that state a fact: of those that can mean it, those in its row, cell or name."""
         hits = passage.reading(claim.numbers)
         if claim.fact in _OF_CODES:
             hits = [token for token in hits if token.is_plainly(claim.numbers)]
@@ -328,11 +346,7 @@ class Comparison:
             hits = [token for token in hits if token in passage.in_first_cell]
         if claim.unit:
             hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
-        self._use(hits)
-        if hits or not claim.between:
-            return len(hits)
-        readings = {reading for token in passage.tokens for reading in token.readings}
-        return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+        return hits
 
     def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""

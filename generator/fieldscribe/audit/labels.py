@@ -41,8 +41,8 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     anywhere = _standing(claims, passage)
     columns = {with_words: _column(anywhere, passage, with_words=with_words) for with_words in (False, True)}
     strays = {label.claim for label in anywhere if _strays(label, passage, columns)}
-    together = Counter(map(_entry, strays))
-    strays = {claim for claim in strays if together[_entry(claim)] == 1}  # all labels of an entry may stand elsewhere
+    alone = Counter(_entry(claim) for claim in strays if claim.words)
+    strays = {claim for claim in strays if not claim.words or alone[_entry(claim)] == 1}  # a whole entry may be apart
     if not strays:
         return anywhere
     in_column = [label for label in _standing(claims, passage, columns) if label.claim in strays]
@@ -88,6 +88,7 @@ def _best(
     columns: Mapping[bool, int | None] | None,
 ) -> list[Standing]:
     best: list[Standing] = []
+    orders = (False, True) if any(claim.beside or not claim.words for claim in claims) else (False,)
     for after, otherwise, tight in ways:
         candidates = {claim: list(_candidates(claim, passage, after, otherwise, tight)) for claim in claims}
         if columns is not None:
@@ -95,7 +96,7 @@ def _best(
                 claim: [label for label in labels if not _strays(label, passage, columns)]
                 for claim, labels in candidates.items()
             }
-        for backwards in (False, True):
+        for backwards in orders:  # bits may be listed from the highest; words alone have only their order
             ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
             chain = _weightiest_chain([candidates[claim] for claim in ordered])
             chain += _apart(chain, [candidates[claim] for claim in claims])

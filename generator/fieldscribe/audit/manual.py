@@ -227,8 +227,8 @@ def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
     tokens: list[Token] = []
     for match in _NUMBER.finditer(text):
         if _LIST.fullmatch(match[0]):
-            parts = re.finditer("[0-9]+", match[0])
-            tokens += (token for part in parts for token in tokens_of(part[0], number, column + match.start() + part.start()))
+            for part in re.finditer("[0-9]+", match[0]):
+                tokens += tokens_of(part[0], number, column + match.start() + part.start())
         elif match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start()):
             tokens.append(Token(match[0], number, column + match.start() + 1, frozenset(_readings(match))))
     return tokens

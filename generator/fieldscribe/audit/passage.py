@@ -85,17 +85,24 @@ class Passage:
             start += len(text) + 1
         return None
 
+    @cached_property
+    def _openings(self) -> dict[int, Token | None]:
+        """The number that stands alone in the first cell of each row; None where several do."""
+        if self.in_first_cell is self.tokens:
+            return {}
+        alone: dict[int, Token | None] = {}
+        for token in self.in_first_cell:
+            alone[token.line] = None if token.line in alone else token
+        return alone
+
     def behind(self, opening: frozenset[Fraction]) -> list[Token]:
         """The numbers in the row that such a number alone opens; none if not exactly one row begins so."""
-        opens = [
-            token.line
-            for token in self.in_first_cell
-            if token.is_plainly(opening) and sum(other.line == token.line for other in self.in_first_cell) == 1
-        ]
-        if len(opens) != 1 or self.in_first_cell is self.tokens:
+        opens = [line for line, token in self._openings.items() if token is not None and token.is_plainly(opening)]
+        if len(opens) != 1:
             return []
-        later = [token.line for token in self.in_first_cell if token.line > opens[0]]
-        end = min(later, default=opens[0] + 1)
+        end = opens[0] + 1
+        while self.manual.is_merged(end) or self.manual.line(end).startswith("\t"):
+            end += 1
         first = set(map(id, self.in_first_cell))
         return [token for token in self.tokens if opens[0] <= token.line < end and id(token) not in first]
 
