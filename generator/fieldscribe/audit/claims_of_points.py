@@ -140,10 +140,15 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         words = tuple(wordings.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
-            numbers = (Fraction(place),)
             names = tuple(wordings.code("bits")) if place == point.bits[0] else ()
             yield from citing.numbers(
-                "bits", str(place), numbers, words=words, optional=inner, names=names, place=draft.span("bits")
+                "bits",
+                str(place),
+                (Fraction(place),),
+                words=words,
+                optional=inner,
+                names=names,
+                place=draft.span("bits"),
             )
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
