@@ -310,6 +310,8 @@ errata:
 USS_WORDS = """\
 - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
 - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
+errata:
+- {id: level, point: control_word, line: 5, printed: No level is said., taken: 1 is on., why: Usual., certainty: likely}
 """
 USS_DEVICE = together(
     head(
@@ -338,6 +340,7 @@ USS_DEVICE = together(
         ("", "", []),
         ("9 - 12", "9, 12", ["response 10", "response 11"]),
         ("PZD2", "PZD3", ["setpoint", "setpoint"]),
+        ("PZD1", "PZD7", ["control_word"]),
         ("Bit13", "Bit14", ["control_word"]),
         ("PWE1", "PWE3", ["source", "source"]),
         ("15\tText\t7", "15\tText\t-", []),
@@ -435,11 +438,20 @@ def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pyt
         ("Bits 11", [{Fraction(11), Fraction(0x11), Fraction(0b11)}]),
         ("Bits 102", [{Fraction(102)}]),
         ("von 1 bis 0", [{Fraction(1)}, {Fraction(0)}]),
+        ("0,3,4 oder 127", [{Fraction(0)}, {Fraction(3)}, {Fraction(4)}, {Fraction(127)}]),
+        ("1,200,500", [{Fraction(1), Fraction(200), Fraction(500), Fraction(1200500)}]),
+        (r"00110010\_000009", [{Fraction(110010000009)}]),
         ("1.200,500", [{Fraction(1), Fraction(200), Fraction(500), Fraction(1200500)}]),
     ],
 )
 def test_numbers_of_a_line(text: str, readings: list[set[Fraction]]) -> None:
     assert [set(token.readings) for token in tokens_of(text, 1)] == readings
+
+
+@pytest.mark.parametrize(("text", "number", "plainly"), [("11", 3, False), ("11", 11, True), ("1100", 12, True)])
+def test_two_digits_are_no_binary_number_of_a_code(text: str, number: int, plainly: bool) -> None:
+    [token] = tokens_of(text, 1)
+    assert token.is_plainly(frozenset((Fraction(number),))) is plainly
 
 
 def test_a_chapter_is_what_the_contents_list() -> None:
@@ -505,6 +517,52 @@ def test_what_stands_in_words_and_lists_is_looked_for(
     assert [f"{one['fact']} {one['wanted']}" for one in found["missing"]] == missing
     if not old:
         assert [one["number"] for one in found["unused_numbers"] if int(str(one["line"])) > 25] == []
+
+
+COLUMNS = """
+4.6 State word
+
+ID\t72
+0\t0\tDrive off\tDrive off at standstill
+\t1\tDrive on\t-
+1\t0\tPump off\t-
+\t1\tPump on\t-
+2\t0\tFan off\tNot 0 while hot, nor 3
+\t1\tFan on\t-
+3\t0\tLamp off\tPanel
+\t1\t\t-
+"""
+COLUMNS_POINTS = """\
+- name: state_word
+  at: 72
+  section: "4.6"
+  line: 26
+  flags:
+    0: {name: drive, zero: {en: Drive off}, one: {en: Drive on}}
+    1: {name: pump, zero: {en: Pump off}, one: {en: Pump on}}
+    2: {name: fan, zero: {en: Fan off}, one: {en: Fan on}}
+    3: {name: lamp, zero: {en: Lamp off}, one: lamp_on}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "missing"),
+    [
+        ("", "", []),
+        ("\tDrive off\t", "\tDrive out\t", ["0 = Drive off"]),
+        ("\n3\t0\tLamp", "\n2\t0\tLamp", ["bit 3"]),
+        ("\t1\t\t-", "\t2\t\t-", ["lamp 1"]),
+        ("0\tPump off", "3\tPump off", ["pump 0", "0 = Pump off"]),
+        ("Pump off\t-\n", "Pump off\t-\tmore\n", []),
+    ],
+)
+def test_lists_keep_to_their_columns_and_rows(
+    old: str, new: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = MANUAL + COLUMNS
+    assert old == "" or text.count(old) == 1
+    _, found = audit(tmp_path, capsys, text.replace(old, new) if old else text, DEVICE + COLUMNS_POINTS)
+    assert [one["wanted"] for one in found["missing"]] == missing
 
 
 SPLIT = """

@@ -67,6 +67,8 @@ class Claim:
     """What the number belongs to, such as `Mux`: where the place prints such a name, the number stands behind it."""
     first: bool = False
     """Whether the number names its row: it stands in the first cell."""
+    row: frozenset[Fraction] = frozenset()
+    """The number of the bit: where one row of a table opens with it, the fact stands in that row."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
@@ -111,6 +113,7 @@ class Citing:
         entry: tuple[int, int] | None = None,
         names: tuple[str, ...] = (),
         first: bool = False,
+        row: frozenset[Fraction] = frozenset(),
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -134,6 +137,7 @@ class Citing:
                 times=times,
                 names=names,
                 first=first,
+                row=row,
                 unit=unit,
             )
 

@@ -140,10 +140,15 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         words = tuple(wordings.bits(*point.bits))
         for place in range(point.bits[1], point.bits[0] + 1):
             inner = place not in point.bits
-            numbers = (Fraction(place), Fraction(1 << place))
             names = tuple(wordings.code("bits")) if place == point.bits[0] else ()
             yield from citing.numbers(
-                "bits", str(place), numbers, words=words, optional=inner, names=names, place=draft.span("bits")
+                "bits",
+                str(place),
+                (Fraction(place),),
+                words=words,
+                optional=inner,
+                names=names,
+                place=draft.span("bits"),
             )
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
@@ -253,9 +258,12 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             bits = () if alike else beside
             number = Fraction(entry.raw)
             yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
-            if not words:
-                shown = f"{flag.name} {entry.raw}"
-                yield from citing.numbers("flag values", shown, (Fraction(entry.raw),), "flags", place=place)
+            row = frozenset((Fraction(flag.low + above),)) if flag.width == 1 else frozenset()
+            if row or not words:
+                shown, optional = f"{flag.name} {entry.raw}", bool(words)
+                yield from citing.numbers(
+                    "flag values", shown, (number,), "flags", optional=optional, row=row, place=place
+                )
 
 
 def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:

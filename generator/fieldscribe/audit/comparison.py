@@ -34,6 +34,10 @@ _BEHIND_THE_FIRST = ("answers", "refusals")
 """Facts of a code that its row prints behind the code itself."""
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
+_TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
+"""Facts of which an erratum may speak that cites another place."""
+_OF_CODES = ("max", "answers", "refusals")
+"""Facts that no manual prints with two or three binary digits."""
 _NEARLY_ALL = 0.75
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
@@ -226,11 +230,20 @@ class Comparison:
         extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
-        if not enough and not claim.optional:
+        if not enough and (not claim.optional or (claim.row and any(map(self._rows_print_values, extents)))):
             self._misses(claim, extents)
 
+    def _rows_print_values(self, extent: Extent) -> bool:
+        """Whether the rows of bits print their values as numbers, too: nearly all of them."""
+        key = (extent, "values in rows")
+        if key not in self._parted:
+            claims = [claim for claim in self._claims_in[extent, "flag values"] if claim.row]
+            stand = [bool(self._numbers_stand(claim, extent)) for claim in claims]
+            self._parted[key] = sum(stand) > _NEARLY_ALL * len(stand)
+        return self._parted[key]
+
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
-        if self._is_taken(claim):
+        if self._is_taken(claim, extents):
             return
         self.absent.append((claim, extents))
 
@@ -255,17 +268,24 @@ class Comparison:
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
-    def _is_taken(self, claim: Claim) -> bool:
+    def _is_taken(self, claim: Claim, extents: list[Extent]) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
         codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
         codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
         printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
+            if claim.fact not in _TAKEN_ANYWHERE and not self._speaks_of(erratum, extents):
+                continue
             if claim.numbers & erratum.taken and (erratum.is_sentence or not printed):
                 return True  # an erratum that gives printed facts tells apart what is printed and what was taken
             if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
+
+    def _speaks_of(self, erratum: PrintedErratum, extents: list[Extent]) -> bool:
+        """Whether an erratum cites lines of a place."""
+        lines = [self.extent(*cited) for cited in erratum.cited]
+        return any(one.first <= extent.last and extent.first <= one.last for one in lines for extent in extents)
 
     def _stands(self, claim: Claim, extent: Extent) -> int:
         """How often a claim stands in one of the places that it cites."""
@@ -302,20 +322,31 @@ class Comparison:
         passage = self._own_passage(claim, extent)
         if claim.in_order:
             return self._stand_in_order(claim, passage)
-        hits = passage.reading(claim.numbers)
-        if claim.names and (named := passage.behind_names(claim.names)):
-            hits = [token for token in hits if token in named]
-        if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
-            hits = [token for token in hits if token not in passage.in_first_cell]
-        if claim.first:
-            hits = [token for token in hits if token in passage.in_first_cell]
-        if claim.unit:
-            hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
+        hits = self._hits(claim, passage)
         self._use(hits)
         if hits or not claim.between:
             return len(hits)
         readings = {reading for token in passage.tokens for reading in token.readings}
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _hits(self, claim: Claim, passage: Passage) -> list[Token]:
+        """The numbers of a passage that state a fact: of those that can mean it, those in its row, cell or name."""
+        hits = passage.reading(claim.numbers)
+        if claim.fact in _OF_CODES:
+            hits = [token for token in hits if token.is_plainly(claim.numbers)]
+        if claim.row and (claim.optional or passage.behind(claim.row)):
+            hits = [token for token in hits if token in passage.behind(claim.row)]
+        if claim.names and (named := passage.behind_names(claim.names)):
+            hits = [token for token in hits if token in named]
+        if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
+            hits = [token for token in hits if token not in passage.in_first_cell]
+        if claim.first and claim.optional:  # bytes are counted without zeros in front
+            hits = [token for token in hits if not token.text.startswith("0")]
+        if claim.first:
+            hits = [token for token in hits if token in passage.in_first_cell]
+        if claim.unit:
+            hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
+        return hits
 
     def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""

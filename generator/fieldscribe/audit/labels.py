@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections import Counter
 from itertools import product
 from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Token
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 _NEARLY_ALL = 0.75
 """The share of labels that stand right behind their numbers, from which on all have to."""
+_FEW = 4
+"""So many labels of a list have to stand before they show a column."""
 _LABEL = 1000
 """A label weighs more than all numbers without one."""
 
@@ -34,13 +37,42 @@ class Standing:
 
 
 def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
-    """As many labels as stand beside their numbers, all on the same side of them, in one order.
+    """As many labels as stand beside their numbers, all on the same side of them, in one order and one column."""
+    anywhere = _standing(claims, passage)
+    columns = {with_words: _column(anywhere, passage, with_words=with_words) for with_words in (False, True)}
+    strays = {label.claim for label in anywhere if _strays(label, passage, columns)}
+    alone = Counter(_entry(claim) for claim in strays if claim.words)
+    strays = {claim for claim in strays if not claim.words or alone[_entry(claim)] == 1}  # a whole entry may be apart
+    if not strays:
+        return anywhere
+    in_column = [label for label in _standing(claims, passage, columns) if label.claim in strays]
+    return [*(label for label in anywhere if label.claim not in strays), *in_column]
 
-    A label may also stand apart from the list, before or behind all others.
-    """
+
+def _entry(claim: Claim) -> int | None:
+    return claim.entry[0] if claim.entry else None
+
+
+def _column(labels: Iterable[Standing], passage: Passage, *, with_words: bool) -> int | None:
+    """The column of a table in which nearly all labels (or numbers without one) of a list stand."""
+    alike = [passage.column(label.place) for label in labels if bool(label.claim.words) == with_words]
+    column, times = Counter(alike).most_common(1)[0] if alike else (None, 0)
+    return column if times >= _NEARLY_ALL * len(alike) and len(alike) >= _FEW else None
+
+
+def _strays(label: Standing, passage: Passage, columns: Mapping[bool, int | None]) -> bool:
+    """Whether a label stands outside the column of its list."""
+    column = columns[bool(label.claim.words)]
+    return column is not None and passage.column(label.place) not in (None, column)
+
+
+def _standing(
+    claims: Sequence[Claim], passage: Passage, columns: Mapping[bool, int | None] | None = None
+) -> list[Standing]:
+    """The labels of a list in their order; one may also stand apart, before or behind all others."""
     numberings = (False, True) if any(claim.or_beside for claim in claims) else (False,)
-    tight = _best(claims, passage, product((False, True), numberings, (True,)))
-    loose = _best(claims, passage, product((False, True), numberings, (False,)))
+    tight = _best(claims, passage, product((False, True), numberings, (True,)), columns)
+    loose = _best(claims, passage, product((False, True), numberings, (False,)), columns)
     if not tight or _weight(tight) < _NEARLY_ALL * _weight(loose):
         return loose
     listed = {label.claim for label in tight}
@@ -49,11 +81,22 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     return [*tight, *(label for label in others if not first <= label.place <= last)]
 
 
-def _best(claims: Sequence[Claim], passage: Passage, ways: Iterable[tuple[bool, bool, bool]]) -> list[Standing]:
+def _best(
+    claims: Sequence[Claim],
+    passage: Passage,
+    ways: Iterable[tuple[bool, bool, bool]],
+    columns: Mapping[bool, int | None] | None,
+) -> list[Standing]:
     best: list[Standing] = []
+    orders = (False, True) if any(claim.beside or not claim.words for claim in claims) else (False,)
     for after, otherwise, tight in ways:
         candidates = {claim: list(_candidates(claim, passage, after, otherwise, tight)) for claim in claims}
-        for backwards in (False, True):
+        if columns is not None:
+            candidates = {
+                claim: [label for label in labels if not _strays(label, passage, columns)]
+                for claim, labels in candidates.items()
+            }
+        for backwards in orders:  # bits may be listed from the highest; words alone have only their order
             ordered = sorted(claims, key=lambda claim: _rank(claim, backwards=backwards))
             chain = _weightiest_chain([candidates[claim] for claim in ordered])
             chain += _apart(chain, [candidates[claim] for claim in claims])

@@ -17,7 +17,7 @@ _NUMBER = re.compile(
     r"""(?<![\w,'])(?<![^.]\.)(?:
         0[xX](?P<long>[0-9A-Fa-f]{4})
       | (?:0[xX]|[Hh]'|[Hh]ex[ ])(?P<marked>[0-9A-Fa-f]+)
-      | (?P<parted>[01]+(?:\\?_[01]+)+)(?![A-Za-z0-9]|_[A-Za-z0-9])
+      | (?P<parted>[0-9]+(?:\\?_[0-9]+)+)(?![A-Za-z0-9]|_[A-Za-z0-9])
       | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?!\w)
       | (?P<tailed>[0-9A-Fa-f]+)[hH](?!\w)
       | (?P<bare>[0-9A-F]*[0-9][0-9A-F]*[A-F][0-9A-F]*|[A-F][0-9A-F]*[0-9][0-9A-F]*|[A-F]{2}|[A-F]{4})(?!\w)
@@ -30,6 +30,8 @@ _NUMBERED = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])
 _RULE = re.compile(r"[|\s:-]+")
 _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
 """A number and a title. Many other lines look so: only those are chapters that the table of contents lists."""
+_LIST = re.compile("(?![0-9]{1,3}(?:,[0-9]{3})+$)[0-9]+(?:,[0-9]+){2,}")
+"""Numbers parted by commas without blanks; three digits behind each comma are thousands."""
 _ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
@@ -46,6 +48,12 @@ class Token:
     line: int
     column: int
     readings: frozenset[Fraction]
+
+    def is_plainly(self, numbers: frozenset[Fraction]) -> bool:
+        """Whether it means one of these, but not as two or three binary digits such as `11` for 3."""
+        if len(self.text) > 3 or not set(self.text) <= {"0", "1"}:
+            return not self.readings.isdisjoint(numbers)
+        return not (self.readings - {Fraction(int(self.text, 2))} | {Fraction(int(self.text))}).isdisjoint(numbers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,11 +224,14 @@ class Manual:
 
 def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
     """The numbers in a piece of a line that begins behind a column, without the 1 of a fraction 1/x."""
-    return [
-        Token(match[0], number, column + match.start() + 1, frozenset(_readings(match)))
-        for match in _NUMBER.finditer(text)
-        if match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start())
-    ]
+    tokens: list[Token] = []
+    for match in _NUMBER.finditer(text):
+        if _LIST.fullmatch(match[0]):
+            for part in re.finditer("[0-9]+", match[0]):
+                tokens += tokens_of(part[0], number, column + match.start() + part.start())
+        elif match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start()):
+            tokens.append(Token(match[0], number, column + match.start() + 1, frozenset(_readings(match))))
+    return tokens
 
 
 def _name(name: str) -> str:
@@ -238,7 +249,8 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
     if marked := match["long"] or match["marked"] or match["tailed"]:
         return {Fraction(int(marked, 16))}
     if parted := match["parted"]:
-        return {Fraction(int(parted.replace("_", "").replace("\\", ""), 2))}
+        digits = parted.replace("_", "").replace("\\", "")
+        return {Fraction(int(digits, 2 if set(digits) <= {"0", "1"} else 10))}
     if spaced := match["spaced"]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:

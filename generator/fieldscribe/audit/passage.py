@@ -74,6 +74,38 @@ class Passage:
         char, after = self.text[place], self.text[place + 1 : place + 2]
         return not after.isalnum() or (char.isalpha() and (after.isdigit() or after.isupper()))
 
+    def column(self, place: int) -> int | None:
+        """The column of a table in which a place lies; None outside of tables."""
+        start = 0
+        for line, column, text in self.pieces:
+            if place <= start + len(text):
+                whole = self.manual.line(line)
+                gap = "|" if whole.startswith("|") else "\t"
+                return whole.count(gap, 0, column + place - start) if gap in whole else None
+            start += len(text) + 1
+        return None
+
+    @cached_property
+    def _openings(self) -> dict[int, Token | None]:
+        """The number that stands alone in the first cell of each row; None where several do."""
+        if self.in_first_cell is self.tokens:
+            return {}
+        alone: dict[int, Token | None] = {}
+        for token in self.in_first_cell:
+            alone[token.line] = None if token.line in alone else token
+        return alone
+
+    def behind(self, opening: frozenset[Fraction]) -> list[Token]:
+        """The numbers in the row that such a number alone opens; none if not exactly one row begins so."""
+        opens = [line for line, token in self._openings.items() if token is not None and token.is_plainly(opening)]
+        if len(opens) != 1:
+            return []
+        end = opens[0] + 1
+        while self.manual.is_merged(end) or self.manual.line(end).startswith("\t"):
+            end += 1
+        first = set(map(id, self.in_first_cell))
+        return [token for token in self.tokens if opens[0] <= token.line < end and id(token) not in first]
+
     def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
         """What stands behind each number of one's own, up to the next number of others."""
         cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
