@@ -638,7 +638,7 @@ def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path:
     assert not re.search(r"__aeabi_[df]|__[a-z]*[sd]f[0-9]", symbols)
     text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
     print(f"Cortex-M0, -Os, a dialogue: .text {text} bytes")
-    assert text <= 4112
+    assert text <= 4256  # 140 of them since each point has a struct of arguments of its own
 
 
 # a receiver that knows how long an answer is before it comes, byte by byte as a UART gives them

@@ -151,13 +151,11 @@ def device() -> Device:
 def tries(made: Device) -> Iterator[str]:
     """The last number inside may be written, the next one not; none at all where a divisor is zero."""
     known = {each.name: each for each in made.points}
-    structs: dict[tuple[str, ...], str] = {}
     for name, one in POINTS.items():
         given = known[name].limit_arguments
-        struct = structs.setdefault(given, f"limits_{name}_with")
         for raws, end in one.ends.items():
             values = ", ".join(f"{raw}U" if raw > 0x7FFF else str(raw) for raw in raws)
-            others = values if len(given) == 1 else f"(&(const {struct}){{{values}}})"
+            others = values if len(given) == 1 else f"(&(const limits_{name}_with){{{values}}})"
             if end is None:
                 yield f"HOLDS(limits_{name}_check({max(one.outermost)}, {others}), FIELDSCRIBE_ZERO_FACTOR)"
                 continue
