@@ -38,7 +38,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_descriptions(parser)
     parser.add_argument("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
     parser.add_argument(
-        "--points", metavar="LIST", help="codes, names, groups or patterns with commas between, or @FILE (lines of them)"
+        "--points",
+        metavar="LIST",
+        help="codes, names, groups or patterns, with commas between, or @FILE",
     )
     parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     parser.add_argument("--single-file", action="store_true", help="c: all in one header")
@@ -57,6 +59,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.asked import UnclearError
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError, report_findings, usage_error
+    from fieldscribe.cli.generate import say_waiting
     from fieldscribe.diagnostics import Report
     from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
 
@@ -70,7 +73,7 @@ def run(arguments: Namespace) -> int:
         if arguments.check:
             deliveries = [compare(order) for order in orders]
         else:
-            deliveries = [deliver(order, lambda: _say_waiting(order), force=arguments.force) for order in orders]
+            deliveries = [deliver(order, say_waiting, force=arguments.force) for order in orders]
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except OSError as error:
@@ -98,7 +101,6 @@ def _orders(arguments: Namespace, report: Report) -> list[Order]:
 
 def _orders_of_project(arguments: Namespace, file: Path, report: Report) -> list[Order]:
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.orders import Order
     from fieldscribe.vendoring.project import read_project
 
     orders: list[Order] = []
@@ -159,9 +161,7 @@ def _wish(arguments: Namespace) -> Wish:
     points = _points(arguments.points)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
-    return Wish(
-        language, points, arguments.name, frames=not arguments.no_frames, single_file=arguments.single_file
-    )
+    return Wish(language, points, arguments.name, frames=not arguments.no_frames, single_file=arguments.single_file)
 
 
 def _points(said: str | None) -> tuple[str, ...]:
@@ -179,12 +179,6 @@ def _points(said: str | None) -> tuple[str, ...]:
             raise StopError(f"cannot read {said[1:]}: {why}") from error
         said = ",".join(line.partition("#")[0] for line in text.splitlines())
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
-
-
-def _say_waiting(order: Order) -> None:
-    from fieldscribe.cli.generate import say_waiting
-
-    say_waiting(order.out)
 
 
 def _say(arguments: Namespace, deliveries: list[Delivery]) -> int:

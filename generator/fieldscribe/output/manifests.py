@@ -80,6 +80,10 @@ class Manifests:
         """What was asked for in each target, where a manifest says it."""
         return self._asked.get(device, {})
 
+    def ask(self, device: str, target: str, said: Mapping[str, object]) -> None:
+        """Say what is asked for in a target from now on."""
+        self._asked[device] = dict(sorted({**self.asked(device), target: said}.items()))
+
     def settle(self, device: str, targets: Targets) -> None:
         """Record the device's files as they are from now on."""
         for target, files in self._of.get(device, {}).items():
@@ -154,4 +158,3 @@ def _files(files: Mapping[str, Any], pending: Mapping[str, Any]) -> Iterator[tup
     """Paths with the checksums that are recorded for them."""
     for path, digest in files.items():
         yield path, (str(digest), str(pending[path])) if path in pending else (str(digest),)
-

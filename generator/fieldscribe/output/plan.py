@@ -66,21 +66,14 @@ class Plan:
         return sorted({*self.write, *self.remove, *self.refused})
 
 
-def plan_of(
-    out: Path,
-    manifests: Manifests,
-    device: str,
-    files_of_targets: Made,
-    *,
-    force: bool = False,
-    asked: Mapping[str, object] | None = None,
-) -> Plan:
+def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made, *, force: bool = False) -> Plan:
     """What writing these targets of a device would change; `force` allows to replace foreign files."""
     before = manifests.of(device)
     now: Targets = {
         target: {path: (contents.digest,) for path, contents in files.items()}
         for target, files in files_of_targets.items()
     }
+    asked = manifests.asked(device)
     pending = manifest_text(device, _both(before, now), asked).encode()
     plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending, asked=asked)
     planner = _Planner(out, manifests, plan, force)

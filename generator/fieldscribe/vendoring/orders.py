@@ -87,7 +87,7 @@ def compare(order: Order) -> Delivery:
     return delivery
 
 
-def deliver(order: Order, waiting: Callable[[], None], *, force: bool = False) -> Delivery:
+def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = False) -> Delivery:
     """Write what differs, under the lock of the folder; nothing where a foreign file is in the way.
 
     Raises UnclearError and OSError.
@@ -96,7 +96,7 @@ def deliver(order: Order, waiting: Callable[[], None], *, force: bool = False) -
     from fieldscribe.output.writing import carry_out
 
     made = _made(order)
-    with only_run(order.out, waiting):
+    with only_run(order.out, lambda: waiting(order.out)):
         manifests = Manifests(order.out, VENDORED)
         plan = _plan(order, manifests, made, force=force)
         delivery = Delivery(order, _paths(plan, made), refused=dict(sorted(plan.refused.items())))
@@ -113,8 +113,8 @@ def _made(order: Order) -> Made:
 
 
 def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:
-    asked = {**manifests.asked(order.name), order.wish.language: order.wish.as_data(order.device.id)}
-    return plan_of(order.out, manifests, order.name, made, force=force, asked=dict(sorted(asked.items())))
+    manifests.ask(order.name, order.wish.language, order.wish.as_data(order.device.id))
+    return plan_of(order.out, manifests, order.name, made, force=force)
 
 
 def _paths(plan: Plan, made: Made) -> list[str]:

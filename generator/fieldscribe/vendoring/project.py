@@ -1,18 +1,17 @@
 """`fieldscribe.toml`: what a project takes of which devices, so that nobody types it twice.
 
-    out = "drivers"              # below this file's folder; of each device, if it says no other
-    targets = ["c"]              # c, python, rust; likewise
+out = "drivers"              # below this file's folder; of each device, if it says no other
+targets = ["c"]              # c, python, rust; likewise
 
-    [[devices]]
-    device = "hitachi_l200"      # an id, or the path of a description below this file's folder
-    points = ["A001", "status"]  # codes, names, groups, patterns; without it all
+[[devices]]
+device = "hitachi_l200"      # an id, or the path of a description below this file's folder
+points = ["A001", "status"]  # codes, names, groups, patterns; without it all
 """
 
 from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.asked import did_you_mean, quoted
@@ -22,6 +21,7 @@ from fieldscribe.vendoring.files import LANGUAGES, Wish
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from pathlib import Path
 
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20
@@ -53,7 +53,7 @@ def read_project(file: Path, report: Report) -> list[Wanted]:
         report.error("bad-project", "the file is no UTF-8 text", Span(shown_path(file), 1, 1))
         return []
     except tomllib.TOMLDecodeError as error:
-        report.error("bad-project", f"this is no TOML: {quoted(_said(error))}", _span_of(error, file))
+        report.error("bad-project", f"this is no TOML: {quoted(_said(error))}", _span_of(error, file, text))
         return []
     return list(_Reader(file, text, report).wanted(document))
 
@@ -143,7 +143,7 @@ _EXAMPLES = {
 
 
 def _is_head(line: str) -> bool:
-    return "".join(line.split("#")[0].split()) == "[[devices]]"
+    return "".join(line.split("#", maxsplit=1)[0].split()) == "[[devices]]"
 
 
 def _fits(key: str, value: object) -> bool:
@@ -162,7 +162,9 @@ def _said(error: ValueError) -> str:
     return _WHERE.sub("", str(error)).removesuffix("()").strip().removesuffix("(").strip()
 
 
-def _span_of(error: ValueError, file: Path) -> Span:
-    """Where TOML is broken; Python tells it in words alone before 3.14."""
+def _span_of(error: ValueError, file: Path, text: str) -> Span:
+    """Where TOML is broken; Python tells it in words alone before 3.14, and of the end of the file nothing."""
     match = _WHERE.search(str(error))
-    return Span(shown_path(file), int(match[1]), int(match[2])) if match else Span(shown_path(file), 1, 1)
+    lines = text.rstrip().split("\n")
+    line, column = (int(match[1]), int(match[2])) if match else (len(lines), len(lines[-1]) + 1)
+    return Span(shown_path(file), line, column)
