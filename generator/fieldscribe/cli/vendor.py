@@ -50,7 +50,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
-    parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     add_format(parser)
 
 
