@@ -1,6 +1,6 @@
 """The page on vendoring is walked as it stands there: its files, its commands, and what they print.
 
-After a change of wording, look at what `FIELDSCRIBE_ACCEPT=1 pytest tests/vendoring/test_vendoring_page.py` makes of it.
+After a change of wording say `FIELDSCRIBE_ACCEPT=1 pytest tests/vendoring/test_vendoring_page.py`, and look at it.
 """
 
 from __future__ import annotations
