@@ -12,11 +12,11 @@ from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import words_of
-from fieldscribe.conversation.refusals import amount_with_unit, failure
+from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, number_text, rounded
+from fieldscribe.wording.exact import decimal_places, exact, hex_text, number_text, rounded, shortest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,7 +52,8 @@ class Meanings:
         self._flags = [_Flag(flag) for flag in point.flags]
         self._named_bits = sum(flag.mask << flag.low for flag in self._flags)
         self._needs = point.scale_arguments
-        self._rules: dict[tuple[object, ...], Line | Meaning] = {}
+        self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
+        self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a raw number, where other points hold these settings."""
@@ -98,19 +99,13 @@ class Meanings:
         return line("; ".join(parts))
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
-        point, shape = self._point, self._point.shape
+        shape = self._point.shape
         if shape.info.floating or (shape.most_raw is not None and abs(raw) > shape.most_raw):
             return self._computed(raw, settings)
         rule = self._rule(settings)
-        if isinstance(rule, Meaning):
-            return rule
-        value = Fraction(raw * rule.factor + rule.add, rule.divisor)
-        if shape.display is None:
-            return Meaning(amount_with_unit(point, value), number_text(value))
-        shown_value = rounded(value.numerator, value.denominator, shape.display)
-        return Meaning(wording.with_unit(shown_value, point), number_text(value))
+        return rule if isinstance(rule, Meaning) else rule.meaning(raw)
 
-    def _rule(self, settings: Settings) -> Line | Meaning:
+    def _rule(self, settings: Settings) -> _Scale | Meaning:
         """The scale in force, or why there is none: neither depends on the raw number."""
         # a special code equals the plain number, and is no quantity
         held = [settings.get(name) for name in self._needs]
@@ -122,7 +117,7 @@ class Meanings:
             rule = self._rules[key] = self._found_rule(settings)
         return rule
 
-    def _found_rule(self, settings: Settings) -> Line | Meaning:
+    def _found_rule(self, settings: Settings) -> _Scale | Meaning:
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))
@@ -131,7 +126,7 @@ class Meanings:
         except CodecError as error:
             return self._unknown(error)
         factor, add = offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator
-        return Line.reduced(factor, add, offset.denominator * ratio.numerator)
+        return _Scale(point, Line.reduced(factor, add, offset.denominator * ratio.numerator))
 
     def _computed(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a bit pattern, and of a number that the scale cannot compute with."""
@@ -149,8 +144,31 @@ class Meanings:
         return Meaning(wording.with_unit(said, point), number_text(value))
 
     def _unknown(self, error: CodecError) -> Meaning:
-        message, hint = failure(self._device, self._point, error)
+        why = error.status, error.missing
+        if why not in self._failures:  # as many as there are ways to fail
+            self._failures[why] = failure(self._device, self._point, error)
+        message, hint = self._failures[why]
         return Meaning(f"not known: {message}", None, error.missing, hint)
+
+
+class _Scale:
+    """The values of a point under a rule that is settled, as text; what does not depend on the number is worked out."""
+
+    def __init__(self, point: Point, rule: Line) -> None:
+        self._rule, self._decimals = rule, point.display
+        self._unit = wording.with_unit(" ", point)[1:]
+        self._places = decimal_places(rule.divisor)
+        self._parts = 0 if self._places is None else 10**self._places // rule.divisor
+
+    def meaning(self, raw: int) -> Meaning:
+        """The meaning of a raw number."""
+        factor, add, divisor = self._rule
+        number = raw * factor + add
+        exactly = exact(number, divisor) if self._places is None else shortest(number * self._parts, self._places)
+        if self._decimals is not None:
+            return Meaning(rounded(number, divisor, self._decimals) + self._unit, exactly)
+        said = exactly if is_short(exactly) else amount(Fraction(number, divisor))
+        return Meaning(said + self._unit, exactly)
 
 
 class _Flag:

@@ -11,7 +11,7 @@ from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.conversation.hearing import Hearing
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
@@ -68,20 +68,37 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
     return Item("mask", at, len(words), f"{text}: only these bits of {about} count{said}")
 
 
+class _Part:
+    """A point that has words of a stretch, and what makes its raw number: from the stretch, or from several."""
+
+    def __init__(self, hearing: Hearing, telegram: str, positions: range, point: Point) -> None:
+        self.point, self.name, self.addresses = point, point.item, point.addresses
+        self.base = telegram, min(point.addresses), len(point.addresses)
+        self.voice = hearing.told.voice(point, self.base)
+        self.teaches = hearing.directory.teaches(point)
+        self.start = min(at for at in point.addresses if at in positions)
+        inside = [at - positions.start for at in point.addresses if at in positions]
+        self.whole = len(inside) == len(point.addresses)
+        self._read = raw_reader(point, inside if self.whole else range(len(point.addresses)))
+
+    def raw(self, piece: Piece) -> int | None:
+        """The raw number; None while words that other frames bring are not known."""
+        if self.whole:
+            return self._read(piece.words)
+        status, words = piece.pieces.words(self.addresses)
+        return self._read(words) if status == "ok" else None
+
+
 class Stretch:
-    """Neighbouring words of a telegram: the points that have one of them, and which of these begin at each address."""
+    """Neighbouring words of a telegram: the points that have one of them, in order, and the words that no point has."""
 
     def __init__(self, hearing: Hearing, telegram: str, positions: range) -> None:
-        directory = hearing.directory
-        self.points = tuple({point.item: point for at in positions for point in directory.at(telegram, at)}.values())
-        self.bases = [(telegram, min(point.addresses), len(point.addresses)) for point in self.points]
-        self.voices = [hearing.told.voice(*placed) for placed in zip(self.points, self.bases, strict=True)]
-        self.places = [(point.addresses, raw_reader(point)) for point in self.points]
-        self.teaching = [number for number, point in enumerate(self.points) if directory.teaches(point)]
-        starts = [min(set(point.addresses) & set(positions)) for point in self.points]
-        numbers = [(at, [number for number, start in enumerate(starts) if start == at]) for at in positions]
-        self.begin = [(at, here, bool(directory.at(telegram, at))) for at, here in numbers]
-        """Each address, the numbers of the points that begin there, and whether any point has it."""
+        at = {place: hearing.directory.at(telegram, place) for place in positions}
+        points = {point.item: point for here in at.values() for point in here}.values()
+        parts = [_Part(hearing, telegram, positions, point) for point in points]
+        self.parts = sorted(parts, key=lambda part: part.start)
+        self.teaching = [number for number, part in enumerate(self.parts) if part.teaches]
+        self.alone = [place for place, here in at.items() if not here]
 
 
 def _stretch(hearing: Hearing, piece: Piece) -> Stretch:
@@ -92,32 +109,33 @@ def _stretch(hearing: Hearing, piece: Piece) -> Stretch:
     return known
 
 
-def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
+def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
-    stretch, come = _stretch(hearing, piece), piece.pieces.words
-    raws = [read(words[1]) if (words := come(at))[0] == "ok" else None for at, read in stretch.places]
-    known = ((stretch.points[number], raws[number]) for number in stretch.teaching)
-    hearing.learn((point, raw) for point, raw in known if raw is not None)
-    lacking: dict[str, tuple[Point, int]] = {}
-    for at, here, described in stretch.begin:
-        for number in here:
-            point, raw = stretch.points[number], raws[number]
-            if raw is None:
-                yield named_item(point, stretch.bases[number], _incomplete_text(hearing, piece, point))
-                continue
-            item = stretch.voices[number].item(raw, hearing.settings)
-            if item.missing:
-                lacking[point.item] = point, raw
-                item = _with_multiplexers(hearing, piece, item)
-            yield item
-        if not described:
-            yield Item(
-                piece.telegram.name, at, 1, f"word {at}: no point is described here ({words_text(come((at,))[1])})"
-            )
+    stretch = _stretch(hearing, piece)
+    raws = [part.raw(piece) for part in stretch.parts]
+    if stretch.teaching:
+        known = [(stretch.parts[number].point, raws[number]) for number in stretch.teaching]
+        hearing.learn((point, raw) for point, raw in known if raw is not None)
+    items, lacking = [], {}
+    for part, raw in zip(stretch.parts, raws, strict=True):
+        if raw is None:
+            items.append(named_item(part.point, part.base, _incomplete_text(hearing, piece, part.point)))
+            continue
+        if hearing.waiting:
+            hearing.waiting.pop(part.name, None)
+        item = part.voice.item(raw, hearing.settings)
+        if item.missing:
+            lacking[part.name] = part.point, raw
+            item = _with_multiplexers(hearing, piece, item)
+        items.append(item)
+    for at in stretch.alone:
+        said = words_text((piece.words[at - piece.positions.start],))
+        alone = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({said})")
+        items.insert(sum(part.start < at for part in stretch.parts) + stretch.alone.index(at), alone)
     if hearing.waiting:
-        now = {point.item for point, raw in zip(stretch.points, raws, strict=True) if raw is not None}
-        yield from _completed_points(hearing, piece.telegram.name, now)
+        items += _completed_points(hearing, piece.telegram.name)
     hearing.waiting.update(lacking)
+    return items
 
 
 def _with_multiplexers(hearing: Hearing, piece: Piece, item: Item) -> Item:
@@ -149,14 +167,14 @@ def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) 
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _completed_points(hearing: Hearing, telegram: str, now: set[str]) -> Iterator[Item]:
-    """Points of earlier frames whose missing values came with this frame; this frame itself tells of those `now`."""
-    for name in now & hearing.waiting.keys():
-        del hearing.waiting[name]
+def _completed_points(hearing: Hearing, telegram: str) -> Iterator[Item]:
+    """Points of earlier frames whose missing values came with this frame."""
     for name, (point, raw) in list(hearing.waiting.items()) if hearing.fresh else ():
+        if hearing.fresh.isdisjoint(point.scale_arguments):
+            continue
         voice = hearing.told.voice(point, (telegram, min(point.addresses), len(point.addresses)))
         if not voice.lacks(hearing.settings):
             del hearing.waiting[name]
             item = voice.item(raw, hearing.settings)
             yield replace(item, text=f"from a frame before: {item.text}")
-    hearing.fresh = False
+    hearing.fresh.clear()

@@ -29,7 +29,7 @@ class Voice:
         self._device, self._point, self._base, self._written = device, point, base, written
         self._needs = point.arguments if written else point.scale_arguments
         self._head, self._title = f"{label(point)} = ", title_of(point)
-        self._point_item, self._is_text = point.item, point.text is not None
+        self._name, self._is_text = point.item, point.text is not None
         self._raw_text = raw_form(point)
         self._meanings = Meanings(device, point)
         self._items: dict[Any, Item] = {}
@@ -62,9 +62,7 @@ class Voice:
             text += f"; {remark}" if remark else ""
         text += f"; {meaning.hint}" if meaning.hint else ""
         shown, findings = None if self._is_text else raw, (odd,) if odd else ()
-        return Item(
-            *self._base, line(text), self._point_item, point.code, shown, meaning.value, meaning.missing, findings
-        )
+        return Item(*self._base, line(text), self._name, point.code, shown, meaning.value, meaning.missing, findings)
 
 
 class Told:

@@ -87,10 +87,11 @@ class Pieces(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Some words of a telegram that comes in several frames."""
+    """Some words of a telegram that comes in several frames: their positions, and those received so far."""
 
     telegram: Telegram
     positions: range
+    words: tuple[int, ...]
     pieces: Pieces
 
 
@@ -190,6 +191,21 @@ class Recent(Generic[Key, Kept]):
         self._kept[key] = kept
         if len(self._kept) > _MOST_KEPT:
             del self._kept[next(iter(self._kept))]
+        return kept
+
+
+class Remembered(dict[Key, Kept]):
+    """What was worked out under a key; all of it is forgotten when it becomes too much: a stream may last for days."""
+
+    def __init__(self, most: int, make: Callable[[Key], Kept]) -> None:
+        super().__init__()
+        self._most, self._make = most, make
+
+    def __missing__(self, key: Key) -> Kept:
+        kept = self._make(key)
+        if len(self) >= self._most:
+            self.clear()
+        self[key] = kept
         return kept
 
 
