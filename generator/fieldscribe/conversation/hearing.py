@@ -43,11 +43,9 @@ class Hearing:
                 self.settings[name] = setting
                 self.fresh.add(name)
 
-    def beside(self, raws: Iterable[tuple[Point, int]]) -> Hearing:
-        """The same for one frame whose points are settings for each other, without keeping them."""
-        inside = replace(self, settings=dict(self.settings), fresh=set())
-        inside.learn(raws)
-        return inside
+    def beside(self) -> Hearing:
+        """The same for one frame whose points are settings for each other: what it learns is not kept."""
+        return replace(self, settings=dict(self.settings), fresh=set())
 
     def forget(self, address: int) -> None:
         """Forget the values that the device derives from a parameter, once the parameter was written."""

@@ -54,7 +54,7 @@ class Listener:
         self._speech = speech
         self._directory = Directory(device)
         self._oddities = Oddities(device, self._directory)
-        self._told = Told(device)
+        self._told = Told(device, self._directory)
         self._course = Course()
         self._parties: Recent[int | None, Hearing] = Recent()
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.told import Told
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
     from fieldscribe.model import Point
 
@@ -71,11 +72,11 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
 class _Part:
     """A point that has words of a stretch, and what makes its raw number: from the stretch, or from several."""
 
-    def __init__(self, hearing: Hearing, telegram: str, positions: range, point: Point) -> None:
+    def __init__(self, told: Told, telegram: str, positions: range, point: Point) -> None:
         self.point, self.name, self.addresses = point, point.item, point.addresses
         self.base = telegram, min(point.addresses), len(point.addresses)
-        self.voice = hearing.told.voice(point, self.base)
-        self.teaches = hearing.directory.teaches(point)
+        self.voice = told.voice(point, self.base)
+        self.teaches = told.directory.teaches(point)
         self.start = min(at for at in point.addresses if at in positions)
         inside = [at - positions.start for at in point.addresses if at in positions]
         self.whole = len(inside) == len(point.addresses)
@@ -92,26 +93,19 @@ class _Part:
 class Stretch:
     """Neighbouring words of a telegram: the points that have one of them, in order, and the words that no point has."""
 
-    def __init__(self, hearing: Hearing, telegram: str, positions: range) -> None:
-        at = {place: hearing.directory.at(telegram, place) for place in positions}
+    def __init__(self, told: Told, key: tuple[str, range]) -> None:
+        telegram, positions = key
+        at = {place: told.directory.at(telegram, place) for place in positions}
         points = {point.item: point for here in at.values() for point in here}.values()
-        parts = [_Part(hearing, telegram, positions, point) for point in points]
+        parts = [_Part(told, telegram, positions, point) for point in points]
         self.parts = sorted(parts, key=lambda part: part.start)
         self.teaching = [number for number, part in enumerate(self.parts) if part.teaches]
         self.alone = [place for place, here in at.items() if not here]
 
 
-def _stretch(hearing: Hearing, piece: Piece) -> Stretch:
-    key = piece.telegram.name, piece.positions
-    known = hearing.told.stretches.get(key)
-    if known is None:
-        known = hearing.told.stretches[key] = Stretch(hearing, *key)
-    return known
-
-
 def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
-    stretch = _stretch(hearing, piece)
+    stretch = hearing.told.stretches[piece.telegram.name, piece.positions]
     raws = [part.raw(piece) for part in stretch.parts]
     if stretch.teaching:
         known = [(stretch.parts[number].point, raws[number]) for number in stretch.teaching]

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.conversation.items import title_of
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.selection import absence
+from fieldscribe.conversation.spans import SpanLayout
+from fieldscribe.conversation.telegrams import Stretch
 from fieldscribe.conversation.writing import range_remark, unchecked_remark
 from fieldscribe.families.answers import Item
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.text import line
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.items import Base
-    from fieldscribe.conversation.telegrams import Stretch
+    from fieldscribe.conversation.spans import SpanKey
+    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
 
 MOST = 64
 """How many numbers of one point are remembered: a stream may last for days."""
+_MOST_SPANS = 2048
+"""How many different spans of addresses are remembered."""
 
 
 class Voice:
@@ -68,16 +75,17 @@ class Voice:
 class Told:
     """What the points of a device mean; each meaning is put into words once as long as it is remembered."""
 
-    def __init__(self, device: Device) -> None:
-        self._device = device
+    def __init__(self, device: Device, directory: Directory) -> None:
+        self.device, self.directory = device, directory
         self._voices: dict[tuple[str, Base, bool], Voice] = {}
-        self.stretches: dict[tuple[str, range], Stretch] = {}
-        """Parts of telegrams that have come, worked out once."""
+        self.spans: Remembered[SpanKey, SpanLayout] = Remembered(_MOST_SPANS, partial(SpanLayout, self))
+        self.stretches: Remembered[tuple[str, range], Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
+        """Parts of telegrams that have come."""
 
     def voice(self, point: Point, base: Base, *, written: bool = False) -> Voice:
         """What speaks for a point at this place."""
         key = point.item, base, written
         voice = self._voices.get(key)
         if voice is None:
-            voice = self._voices[key] = Voice(self._device, point, base, written=written)
+            voice = self._voices[key] = Voice(self.device, point, base, written=written)
         return voice
