@@ -11,12 +11,13 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.lines import Line
-from fieldscribe.arithmetic.words import words_of
+from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
-from fieldscribe.wording.exact import decimal_places, exact, hex_text, number_text, rounded, shortest
+from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,8 +50,8 @@ class Meanings:
         self._device = device
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
-        self._flags = [_Flag(flag) for flag in point.flags]
-        self._named_bits = sum(flag.mask << flag.low for flag in self._flags)
+        self._flags = [(flag.low, mask_of(flag.width), _flag_texts(flag)) for flag in point.flags]
+        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
         self._needs = point.scale_arguments
         self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
         self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
@@ -87,8 +88,9 @@ class Meanings:
     def _flags_text(self, raw: int) -> str:
         true: list[str] = []
         false: list[str] = []
-        for flag in self._flags:
-            (false if flag.is_false(raw) else true).append(flag.text(raw))
+        for low, mask, said in self._flags:
+            is_false, text = said[raw >> low & mask]
+            (false if is_false else true).append(text)
         parts = [", ".join(true) if true else "none set"]
         if false:
             parts.append(f"not set: {', '.join(false)}")
@@ -171,27 +173,10 @@ class _Scale:
         return Meaning(said + self._unit, exactly)
 
 
-class _Flag:
-    """A flag, and what each of its numbers is called."""
-
-    def __init__(self, flag: Flag) -> None:
-        self.low, self.mask = flag.low, (1 << flag.width) - 1
-        self._flag = flag
-        self._texts: dict[int, str] = {}
-
-    def is_false(self, raw: int) -> bool:
-        """Whether it is a single bit whose name is not true."""
-        return self.mask == 1 and raw >> self.low & 1 != self._flag.active
-
-    def text(self, raw: int) -> str:
-        """The flag with its number."""
-        number = raw >> self.low & self.mask
-        text = self._texts.get(number)
-        if text is None:
-            text = _flag_text(self._flag, number)
-            if self.mask <= _MOST_RULES:
-                self._texts[number] = text
-        return text
+def _flag_texts(flag: Flag) -> Remembered[int, tuple[bool, str]]:
+    """By the number of a flag: whether it is a single bit whose name is not true, and what it is called."""
+    is_bit = flag.width == 1
+    return Remembered(_MOST_RULES, lambda number: (is_bit and number != flag.active, _flag_text(flag, number)))
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
@@ -211,7 +196,8 @@ def raw_form(point: Point) -> Callable[[int], str]:
     if point.text is not None:
         return lambda raw: f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
     digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
-    return lambda raw: f"raw {raw} = {hex_text(raw & mask, digits)}"
+    form = f"raw {{}} = {{:0{digits}X}}h".format
+    return lambda raw: form(raw, raw & mask)
 
 
 def _shortest(point: Point, raw: int) -> str:

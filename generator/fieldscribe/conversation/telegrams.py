@@ -13,34 +13,58 @@ from fieldscribe.wording.buses import word_text, words_text
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.items import Base, Saying
     from fieldscribe.conversation.told import Told
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
 
 
-def _names(hearing: Hearing, direction: str) -> list[str]:
-    return [telegram.name for telegram in hearing.device.telegrams if telegram.direction == direction]
+def _names(device: Device, direction: str) -> list[str]:
+    return [telegram.name for telegram in device.telegrams if telegram.direction == direction]
 
 
-def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
+def process_items(hearing: Hearing, data: ProcessData) -> list[Item]:
     """The items of process data."""
-    names, words = _names(hearing, data.direction), data.words
-    for place, word in enumerate(words):
-        points = [point for name in names for point in hearing.directory.at(name, place)]
+    sayings = hearing.told.process_data[data.direction, len(data.words)]
+    return [say(data.words, hearing.settings) for say in sayings]
+
+
+def process_sayings(told: Told, key: tuple[str, int]) -> list[Saying]:
+    """What says the items of so many words of process data of a direction."""
+    direction, count = key
+    names = _names(told.device, direction)
+    result = []
+    for place in range(count):
+        points = [point for name in names for point in told.directory.at(name, place)]
         base = (names[0] if names else "telegram", place, 1)
-        for point in points:
-            if point.addresses[0] != place or place + point.words > len(words):
-                continue
-            raw = raw_of(point, words[place : place + point.words])
-            if point.generated or point.scale is not None:
-                item = hearing.value(point, base, raw, written=data.direction == "request")
-                # a master that has nothing to say sends words of zero
-                yield item if raw else replace(item, findings=())
-            else:
-                yield named_item(point, base, f"carries {word:04X}h; {point.reason or 'its meaning is open'}")
-        if not points:
-            yield Item(*base, f"word {place + 1} of process data = {word:04X}h: no point is described here")
+        whole = [point for point in points if point.addresses[0] == place and place + point.words <= count]
+        result += [_process_saying(told, point, base, written=direction == "request") for point in whole]
+        result += [] if points else [_undescribed(base)]
+    return result
+
+
+def _process_saying(told: Told, point: Point, base: Base, *, written: bool) -> Saying:
+    """What says a point of process data."""
+    place = base[1]
+    if not point.generated and point.scale is None:
+        why = point.reason or "its meaning is open"
+        return lambda words, _: named_item(point, base, f"carries {words[place]:04X}h; {why}")
+    read, voice = raw_reader(point, range(place, place + point.words)), told.voice(point, base, written=written)
+
+    def say(words: Sequence[int], settings: Settings) -> Item:
+        raw = read(words)
+        item = voice.item(raw, settings)
+        # a master that has nothing to say sends words of zero
+        return item if raw or not item.findings else replace(item, findings=())
+
+    return say
+
+
+def _undescribed(base: Base) -> Saying:
+    head = f"word {base[1] + 1} of process data"
+    return lambda words, _: Item(*base, f"{head} = {words[base[1]]:04X}h: no point is described here")
 
 
 def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
@@ -55,7 +79,7 @@ def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
 
 def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item:
     """The item of one mask: which bits of a control word are valid."""
-    names = _names(hearing, "request")
+    names = _names(hearing.device, "request")
     point = next((point for name in names for point in hearing.directory.at(name, place)), None)
     about = point.code or point.name if point is not None else f"word {place + 1}"
     text = f"mask {words_text(words)}"
