@@ -47,8 +47,8 @@ class _Text:
         self._between = ""
 
     def frame(self, heard: Heard) -> None:
-        heading = visible(heard.shown) or spaced(heard.data)
-        rows = [(label, text if text.isprintable() else visible(text)) for label, text in _rows(heard)]
+        heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.shown)
+        rows = [(label, visible(text)) for label, text in _rows(heard)]
         if self._coloured:
             sys.stdout.write(self._between)
             print_rows(heading, rows)

@@ -84,7 +84,7 @@ class Listener:
         notes = self._oddities.notes(spoken)
         if isinstance(frame, Cut):
             notes = (*notes, frame.said)
-        return spoken.heard.saying(items, self._oddities.findings(spoken), notes)
+        return spoken.saying(items, self._oddities.findings(spoken), notes)
 
     def expect_reply_to(self, frame: Any) -> Heard:
         """Treat a frame as the request that the following frames answer."""

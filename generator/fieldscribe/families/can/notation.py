@@ -49,8 +49,8 @@ class Pasted:
 
     @property
     def details(self) -> dict[str, object]:
-        """The identifier, and when and where the frame was captured, for JSON."""
-        return {"can_id": self.frame.id, "time": self.stamp.strip("()") or None, "interface": self.bus or None}
+        """When and where the frame was captured, for JSON."""
+        return {"time": self.stamp.strip("()") or None, "interface": self.bus or None}
 
 
 def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
@@ -110,9 +110,10 @@ def _matched(match: re.Match[str]) -> Pasted:
     number = int(digits, 16)
     if number > MOST_IDENTIFIER:
         raise _unclear(f"the identifier {number:X} is longer than 29 bits")
-    remote = _REMOTE.fullmatch(data) is not None
-    frame = CanFrame(number, b"" if remote or not data else _bytes(data.replace(".", " ")))
-    return Pasted(frame, (stamp or "").strip(), bus or "", remote)
+    stamp, bus = (stamp or "").strip(), bus or ""
+    if data[:1] in "rR" and _REMOTE.fullmatch(data):
+        return Pasted(CanFrame(number, b""), stamp, bus, remote=True)
+    return Pasted(CanFrame(number, _bytes(data.replace(".", " ")) if data else b""), stamp, bus)
 
 
 def _bytes(text: str) -> bytes:

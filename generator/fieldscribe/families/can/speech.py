@@ -10,7 +10,7 @@ from fieldscribe.families.can.frames import carried, carries
 from fieldscribe.families.can.notation import read_frames, read_identifier
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Asked, Recogniser, senders
-from fieldscribe.families.spoken import Piece, Recent, Speech, Spoken, Word
+from fieldscribe.families.spoken import Framed, Piece, Recent, Speech, Spoken, Word
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.asked import Options
-    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.can.recognition import Head, Known
     from fieldscribe.families.directory import Directory
@@ -53,10 +52,10 @@ class CanSpeech(Speech):
         known = None if frame.remote else self._recogniser.recognise(frame.frame)
         if known is None:
             return self._unknown(frame)
-        heard, telegram = _captured(known, frame), self._telegrams.get(known.head.message.name)
+        telegram = self._telegrams.get(known.head.message.name)
         if telegram is None:
-            return self._parameter(heard, known.head, frame.frame, course)
-        return self._cyclic(heard, known.head, frame.frame, telegram)
+            return self._parameter(known, frame, course)
+        return self._cyclic(known, frame, telegram)
 
     def _said(self, head: Head, identifier: int) -> Heard:
         """What the head of a frame says, whatever words it carries."""
@@ -65,27 +64,30 @@ class CanSpeech(Speech):
         own = {"parameter": head.address} if telegram is None else {"multiplexer": head.slot}
         kind = "cyclic" if telegram is not None else _KINDS.get(message.direction, "cyclic")
         said, faults = remarks.message_text(head, identifier, telegram), tuple(remarks.faults(head, self._device.bus))
-        details = {"message": message.name, **own}
+        details = {"can_id": identifier, "message": message.name, **own}
         heard = Heard(b"", "can", kind, head.unit, None, said, faults=faults, details=details)
         if telegram is not None and head.slot * message.words >= (telegram.words if message.words else 0):
             return replace(heard, findings=(remarks.multiplexer_finding(message, telegram),))
         damaged = telegram is not None and (head.differences or head.wrong_sum)
         return replace(heard, notes=(remarks.DAMAGED,)) if damaged else heard
 
-    def _cyclic(self, heard: Heard, head: Head, frame: CanFrame, telegram: Telegram) -> Spoken:
-        if heard.findings or heard.notes:
-            return Spoken(heard)
+    def _cyclic(self, known: Known, frame: Pasted, telegram: Telegram) -> Spoken:
+        head, own = known.head, Framed(frame.frame.data, known.checks, frame)
+        if known.heard.findings or known.heard.notes:
+            return Spoken(known.heard, own=own)
         whose = head.unit, telegram.name
         receiver = self._receivers.of(whose, lambda: Receiver(telegram, head.message, head.unit or 0))
-        words = receiver.keep(head.slot, frame)
-        return Spoken(heard, (Piece(telegram, receiver.positions[head.slot], words, receiver),), head.unit)
+        piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, frame.frame), receiver)
+        return Spoken(known.heard, (piece,), head.unit, own=own)
 
-    def _parameter(self, heard: Heard, head: Head, frame: CanFrame, course: Course) -> Spoken:
+    def _parameter(self, known: Known, pasted: Pasted, course: Course) -> Spoken:
+        head, heard, frame = known.head, known.heard, pasted.frame
+        own = Framed(frame.data, known.checks, pasted)
         if head.address is None:
-            return Spoken(heard, party=head.unit)
+            return Spoken(heard, party=head.unit, own=own)
         message, sound = head.message, not head.flaws
         raw = carried(message, frame, "raw") if carries(message, "raw") else None
-        known = Asked(head.address, raw)
+        about = Asked(head.address, raw)
         asks = message.direction == "request"
         writes = message.name in self._writing
         learned = raw is not None and sound and not asks
@@ -94,32 +96,27 @@ class CanSpeech(Speech):
         if asks:
             strange = "" if head.unit is None else strange_unit(self._device.bus, head.unit)
             heard = replace(heard, findings=(strange,) if strange else ())
-            return Spoken(heard, (word,), head.unit, message.name, asks=known)
+            return Spoken(heard, (word,), head.unit, message.name, asks=about, own=own)
         exchange = message.answers or ""
         asked: Asked | None = course.asked(head.unit, exchange)
-        odd = () if asked is None else tuple(remarks.answer_findings(asked, known))
-        answers = asked is not None and asked.address == known.address
-        return Spoken(replace(heard, findings=odd), (word,), head.unit, exchange, answers=answers)
+        odd = () if asked is None else tuple(remarks.answer_findings(asked, about))
+        answers = asked is not None and asked.address == about.address
+        heard = replace(heard, findings=odd) if odd else heard
+        return Spoken(heard, (word,), head.unit, exchange, answers=answers, own=own)
 
     def _unknown(self, pasted: Pasted) -> Spoken:
         """The result for a frame that is no message of the device, or an incomplete one."""
         frame = pasted.frame
-        base = Heard(frame.data, "can", "other", None, None, f"CAN {hex_text(frame.id, 3)}")
-        base = replace(base, shown=pasted.shown, details=pasted.details)
+        said = f"CAN {hex_text(frame.id, 3)}"
+        base = Heard(frame.data, "can", "other", None, None, said, details={"can_id": frame.id})
         here = list(senders(self._device, frame))
         if not here:
             note = remarks.foreign_note(self._device)
-            return Spoken(replace(base, summary=f"{base.summary}: not of this device", notes=(note,)))
+            heard = replace(base, summary=f"{said}: not of this device", notes=(note,))
+            return Spoken(heard, own=Framed(frame.data, captured=pasted))
         fault = remarks.unknown_kind(pasted, [message for message, _ in here])
-        summary = f"{base.summary}: not readable"
-        return Spoken(replace(base, kind="unreadable", unit=here[0][1], summary=summary, faults=(fault,)))
-
-
-def _captured(known: Known, frame: Pasted) -> Heard:
-    """What the head says, with all that is known of this very frame."""
-    heard, captured = known.heard, frame.details
-    details = {"can_id": frame.frame.id, **heard.details, **captured}
-    return replace(heard, data=frame.frame.data, shown=frame.shown, checks=known.checks, details=details)
+        heard = replace(base, kind="unreadable", unit=here[0][1], summary=f"{said}: not readable", faults=(fault,))
+        return Spoken(heard, own=Framed(frame.data, captured=pasted))
 
 
 def speech_of(device: Device, options: Options) -> CanSpeech:

@@ -11,7 +11,7 @@ from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, 
 from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
-from fieldscribe.families.spoken import Remembered, Span, Spoken
+from fieldscribe.families.spoken import Framed, Remembered, Span, Spoken
 from fieldscribe.hexadecimal import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
@@ -55,8 +55,8 @@ class ModbusSpeech:
             heard = replace(heard, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
         checks = remarks.frame_checks(unwrapped)
-        heard = replace(heard, data=unwrapped.data, checks=checks, faults=faults)
-        return replace(spoken, heard=heard, binds=spoken.asks is not None)
+        heard = replace(heard, faults=faults) if faults else heard
+        return replace(spoken, heard=heard, own=Framed(unwrapped.data, checks), binds=spoken.asks is not None)
 
     def _read(self, unwrapped: Unwrapped, asked: Request | None, *, fixed: bool) -> Spoken:
         pdu = unwrapped.pdu
