@@ -109,9 +109,10 @@ class Meanings:
 
     def _rule(self, settings: Settings) -> _Scale | Meaning:
         """The scale in force, or why there is none: neither depends on the raw number."""
-        # a special code equals the plain number, and is no quantity
-        held = [settings.get(name) for name in self._needs]
-        key = (*held, *map(type, held)) if held else ()
+        key: tuple[object, ...] = ()
+        if self._needs:  # a special code equals the plain number, and is no quantity: so the types
+            held = [settings.get(name) for name in self._needs]
+            key = (*held, *map(type, held))
         rule = self._rules.get(key)
         if rule is None:
             if len(self._rules) >= _MOST_RULES:

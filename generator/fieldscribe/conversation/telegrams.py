@@ -124,6 +124,8 @@ class Stretch:
         parts = [_Part(told, telegram, positions, point) for point in points]
         self.parts = sorted(parts, key=lambda part: part.start)
         self.teaching = [number for number, part in enumerate(self.parts) if part.teaches]
+        self.comes: dict[tuple[str, ...], str] = {}
+        """Where points come that others need, by their names."""
         self.alone = [place for place, here in at.items() if not here]
 
 
@@ -144,7 +146,7 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
         item = part.voice.item(raw, hearing.settings)
         if item.missing:
             lacking[part.name] = part.point, raw
-            item = _with_multiplexers(hearing, piece, item)
+            item = _with_multiplexers(hearing, piece, stretch, item)
         items.append(item)
     for at in stretch.alone:
         said = words_text((piece.words[at - piece.positions.start],))
@@ -156,12 +158,15 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     return items
 
 
-def _with_multiplexers(hearing: Hearing, piece: Piece, item: Item) -> Item:
+def _with_multiplexers(hearing: Hearing, piece: Piece, stretch: Stretch, item: Item) -> Item:
     """The item of a point that waits for others, with where they come."""
-    firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
-    slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
-    comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
-    return replace(item, text=item.text + comes)
+    comes = stretch.comes.get(item.missing)
+    if comes is None:  # as many as there are ways to miss something
+        firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
+        slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
+        comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
+        stretch.comes[item.missing] = comes
+    return replace(item, text=item.text + comes) if comes else item
 
 
 def _incomplete_text(hearing: Hearing, piece: Piece, point: Point) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 
-_MOST = 2048
+_MOST = 8192
 """How many heads of requests and replies are remembered."""
 
 
