@@ -18,8 +18,7 @@ import pytest
 from fieldscribe import __version__
 from pymodbus import FramerType
 from pymodbus.client import AsyncModbusTcpClient, ModbusTcpClient
-from pymodbus.server import ModbusTcpServer
-from pymodbus.simulator import DataType, SimData, SimDevice
+from support.modbus_server import server
 from support.places import ROOT
 from support.python_package import error, imported
 
@@ -38,40 +37,6 @@ def l200() -> Iterator[Any]:
 def transport(name: str) -> Any:
     """A module of transports, of the same copy of the runtime as the device."""
     return importlib.import_module(f"fieldscribe_runtime.transports.{name}")
-
-
-@contextmanager
-def server(framer: FramerType = FramerType.SOCKET) -> Iterator[int]:
-    """A server of pymodbus in a thread of its own; its port."""
-    words = [SimData(0, count=0x1400, values=7, datatype=DataType.REGISTERS)]
-    bits = [SimData(0, count=64, values=False, datatype=DataType.BITS)]
-    device = SimDevice(id=1, simdata=(bits, bits, words, words))
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    loop = asyncio.new_event_loop()
-    ready = threading.Event()
-    made: list[ModbusTcpServer] = []
-
-    async def serve() -> None:
-        made.append(ModbusTcpServer(device, framer=framer, address=("127.0.0.1", port)))
-        await made[0].serve_forever(background=True)
-        ready.set()
-
-    async def stop() -> None:
-        await made[0].shutdown()  # type: ignore[no-untyped-call]  # pymodbus says no types here
-
-    thread = threading.Thread(target=loop.run_forever, daemon=True)
-    thread.start()
-    asyncio.run_coroutine_threadsafe(serve(), loop).result(5)
-    assert ready.wait(5)
-    try:
-        yield port
-    finally:
-        asyncio.run_coroutine_threadsafe(stop(), loop).result(5)
-        loop.call_soon_threadsafe(loop.stop)
-        thread.join(5)
-        loop.close()
 
 
 def use(drive: Any) -> None:
@@ -206,7 +171,7 @@ def test_uss_on_a_serial_line() -> None:
             yield whole[:3]
             yield whole[3:]
 
-        with pty_end(reply) as port, serial.UssLine(port, parity="N") as line:
+        with pty_end(reply) as port, serial.UssLine(port, 9600, "8N1") as line:
             drive = package.SiemensMm4(line, 1, uss.Link(4, 2))
             assert line.exchange(b"\x02") == answer + bytes((bcc,))
             assert drive.transport is line
@@ -259,7 +224,9 @@ def test_a_connection_comes_back(l200: Any) -> None:
 def test_a_port_that_is_none(l200: Any) -> None:
     line = transport("serial").SerialLine("/dev/there_is_none")
     assert error(l200.HitachiL200(line, unit=1).base_frequency.read).status == "line"
-    assert error(transport("serial").SerialLine, "x", framing="ascii").status == "bad_framing"
+    for mode in ("8X1", "8n1", "9N1", "8N"):
+        assert error(transport("serial").SerialLine, "x", 9600, mode).status == "bad_mode"
+    assert error(transport("tcp").TcpLine, "127.0.0.1", framing="ascii").status == "bad_framing"
 
 
 @pytest.fixture
@@ -287,7 +254,7 @@ def test_a_can_bus(bus: tuple[can.BusABC, can.BusABC]) -> None:
         line.send(frames.Frame(0x345, bytes(range(8))))
         heard = far.recv(1)
         assert heard is not None
-        assert (heard.arbitration_id, heard.data) == (0x345, bytes(range(8)))
+        assert (heard.arbitration_id, bytes(heard.data)) == (0x345, bytes(range(8)))
         assert line.receive_waiting() is None
         far.send(NOISE)
         far.send(BACK)

@@ -10,9 +10,12 @@ drive = HitachiL200(line, unit=1)
 from __future__ import annotations
 
 import asyncio
+import re
 import time
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import shown
+from ..errors import RequestError
 from ..modbus.frames import RTU
 from .line import USS, Line
 
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
 
 _BITS = 11
 """Of a character with start, parity and stop bit."""
+_MODE = re.compile("[78][NEO][12]")
 _SILENCE = 3.5
 """Characters of silence that part two frames."""
 
@@ -34,24 +38,28 @@ _SILENCE = 3.5
 class SerialLine(Line):
     """A serial line with Modbus RTU: opened when it is used first, and anew after a failure.
 
-    `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. With
-    `echo` what is sent comes back first, as on many RS-485 adapters with two wires.
+    `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
+    is data bits, parity (N, E, O) and stop bits. With `echo` what is sent comes back first, as on many RS-485 adapters
+    with two wires.
     """
 
-    def __init__(  # noqa: PLR0913 - the settings of a line
-        self,
-        port: str,
-        baudrate: int = 9600,
-        *,
-        parity: str = serial.PARITY_NONE,
-        stopbits: float = serial.STOPBITS_ONE,
-        timeout: float = 0.5,
-        echo: bool = False,
-        framing: str = RTU,
+    FRAMING = RTU
+    MODE = "8N1"
+
+    def __init__(
+        self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
     ) -> None:
-        super().__init__(framing)
-        self.port, self.echo = port, echo
-        self._settings = {"baudrate": baudrate, "parity": parity, "stopbits": stopbits, "timeout": timeout}
+        super().__init__(self.FRAMING)
+        self.port, self.echo, mode = port, echo, mode or self.MODE
+        if not _MODE.fullmatch(mode):
+            raise RequestError("bad_mode", f"a mode is data bits, parity and stop bits, as in 8E1, not {shown(mode)}")
+        self._settings: dict[str, Any] = {
+            "baudrate": baudrate,
+            "bytesize": int(mode[0]),
+            "parity": mode[1],
+            "stopbits": int(mode[2]),
+            "timeout": timeout,
+        }
         self._silence = max(_SILENCE * _BITS / baudrate, 0.00175)
         self._serial: Any = None
 
@@ -85,18 +93,10 @@ class SerialLine(Line):
 
 
 class UssLine(SerialLine):
-    """A serial line with USS, which has even parity; where its adapter echoes, set `echo`."""
+    """The same with USS, which has even parity."""
 
-    def __init__(
-        self,
-        port: str,
-        baudrate: int = 9600,
-        *,
-        parity: str = serial.PARITY_EVEN,
-        timeout: float = 0.5,
-        echo: bool = False,
-    ) -> None:
-        super().__init__(port, baudrate, parity=parity, timeout=timeout, echo=echo, framing=USS)
+    FRAMING = USS
+    MODE = "8E1"
 
 
 class AsyncSerialLine:
