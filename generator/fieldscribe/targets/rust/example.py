@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device
+    from fieldscribe.targets.rust.families import OfFamily
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
@@ -38,6 +39,28 @@ def example_of(device: Device, scope: CrateScope) -> Snippet:
         return Snippet()
     first = Snippet((f"let value = client.read::<p::{read.name}>()?;", 'println!("it is {value:?}");'))
     return first + _writes(asked) + _special(asked) + _blocks(device, asked) + _command(device)
+
+
+def first_program(device: str, scope: CrateScope, family: OfFamily, link: str) -> Lines:
+    """A whole program over a transport of the runtime; nothing if there is none, or no point read by itself alone."""
+    asked = [subject for subject in scope.subjects if subject.point.telegram is None]
+    only_read = (subject for subject in _plain(asked) if subject.form == "scaled" and not subject.point.writable)
+    read = _first(only_read) or _first(_plain(asked))
+    if read is None or not family.line:
+        return ()
+    names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names, "PROFILE")
+    written = _first(subject for subject in asked if not subject.arguments and _takes_a_value(subject))
+    return (
+        *filled(f"use {device}::{{", ", ", names, "};"),
+        "",
+        "fn main() -> Result<(), Box<dyn std::error::Error>> {",
+        f"    let line = {family.line};",
+        f"    let mut client = Client::new(line, &PROFILE, {link});",
+        f'    println!("{{:?}}", client.read::<p::{read.name}>()?);',
+        *((f"    client.write::<p::{written.name}>({_inside(written)})?;",) if written else ()),
+        "    Ok(())",
+        "}",
+    )
 
 
 def example_uses(device: str, snippet: Snippet, names: Sequence[str]) -> Lines:
