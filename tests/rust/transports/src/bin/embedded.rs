@@ -1,90 +1,14 @@
 //! Ports of embedded-io and embedded-io-async over a line in memory.
 
-use std::collections::VecDeque;
-use std::future::{poll_fn, Future};
+use std::future::Future;
 use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
+use fieldscribe_runtime::modbus::Request;
 use fieldscribe_runtime::transports::{embedded_io, embedded_io_async, LineError, Protocol};
-use fieldscribe_runtime::modbus::{crc, Request};
 use hitachi_l200::{points as p, Client, ClientError, Framing, LocalClient, PROFILE};
-
-/// A UART on whose line somebody answers each request with the next bytes, if there are any.
-#[derive(Default)]
-struct Uart {
-    came: VecDeque<u8>,
-    sent: Vec<u8>,
-    answers: VecDeque<Vec<u8>>,
-}
-
-impl Uart {
-    fn new(answers: &[&[u8]]) -> Self {
-        Self { answers: answers.iter().map(|answer| answer.to_vec()).collect(), ..Self::default() }
-    }
-
-    fn take(&mut self, bytes: &mut [u8]) -> usize {
-        bytes[0] = self.came.pop_front().unwrap(); // as a UART without a buffer does
-        1
-    }
-
-    fn answer(&mut self) {
-        self.came.extend(self.answers.pop_front().unwrap_or_default());
-    }
-}
-
-impl ::embedded_io::ErrorType for Uart {
-    type Error = ::embedded_io::ErrorKind;
-}
-
-impl ::embedded_io::Read for Uart {
-    fn read(&mut self, bytes: &mut [u8]) -> Result<usize, Self::Error> {
-        Ok(self.take(bytes))
-    }
-}
-
-impl ::embedded_io::ReadReady for Uart {
-    fn read_ready(&mut self) -> Result<bool, Self::Error> {
-        Ok(!self.came.is_empty())
-    }
-}
-
-impl ::embedded_io::Write for Uart {
-    fn write(&mut self, bytes: &[u8]) -> Result<usize, Self::Error> {
-        self.sent.push(bytes[0]);
-        Ok(1)
-    }
-
-    fn flush(&mut self) -> Result<(), Self::Error> {
-        self.answer();
-        Ok(())
-    }
-}
-
-impl ::embedded_io_async::Read for Uart {
-    async fn read(&mut self, bytes: &mut [u8]) -> Result<usize, Self::Error> {
-        poll_fn(|_| if self.came.is_empty() { Poll::Pending } else { Poll::Ready(()) }).await;
-        Ok(self.take(bytes))
-    }
-}
-
-impl ::embedded_io_async::Write for Uart {
-    async fn write(&mut self, bytes: &[u8]) -> Result<usize, Self::Error> {
-        self.sent.push(bytes[0]);
-        Ok(1)
-    }
-
-    async fn flush(&mut self) -> Result<(), Self::Error> {
-        self.answer();
-        Ok(())
-    }
-}
-
-fn word(word: u8) -> Vec<u8> {
-    let mut reply = vec![1, 3, 2, 0, word];
-    reply.extend(crc(&reply).to_le_bytes());
-    reply
-}
+use programs::uart::{word, Uart};
 
 fn blocking() {
     let uart = Uart::new(&[&word(7), b"", &word(8), &[9; 40], &word(9)]);

