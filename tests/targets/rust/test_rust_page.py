@@ -116,11 +116,11 @@ def serial_line(port: int) -> Iterator[str]:
 
         def pump() -> None:
             while not stop.is_set():
-                for ready in select.select([near, connection], [], [], 0.05)[0]:
-                    if ready is connection:
-                        os.write(near, connection.recv(512))
-                    else:
-                        connection.sendall(os.read(near, 512))
+                ready = select.select([near, connection.fileno()], [], [], 0.05)[0]
+                if connection.fileno() in ready:
+                    os.write(near, connection.recv(512))
+                if near in ready:
+                    connection.sendall(os.read(near, 512))
 
         thread = threading.Thread(target=pump, daemon=True)
         thread.start()
@@ -133,17 +133,21 @@ def serial_line(port: int) -> Iterator[str]:
             os.close(far)
 
 
-@pytest.mark.full(seconds=30)
-@pytest.mark.parametrize("name", ["tcp", "stream", "tokio", "embedded", "can"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("tcp", marks=pytest.mark.full(seconds=25)),  # builds them all
+        *(pytest.param(name, marks=pytest.mark.full(seconds=1)) for name in ("stream", "tokio", "embedded", "can")),
+    ],
+)
 def test_transports(project: Path, name: str) -> None:
-    """The first of these builds them all."""
     built = project.parent / "built" / name
     with server(FramerType.RTU) as rtu, server() as tcp, server(FramerType.RTU) as behind, serial_line(behind) as path:
         ports: tuple[str | int, ...] = (path,) if name == "stream" else (rtu, tcp)
         assert succeed([built, *map(str, ports)]) == ""
 
 
-@pytest.mark.full(seconds=4)
+@pytest.mark.full(seconds=1)
 def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     programs = sorted((project.parent / "built").glob("page_??"))
     assert len(programs) == len(BLOCKS["rust"])
@@ -183,7 +187,7 @@ def test_vendored_crates_are_clean_with_all_features(project: Path, monkeypatch:
         cargo([tool("cargo"), "doc", "--offline", "--quiet", "--no-deps", *members, *features])
 
 
-@pytest.mark.full(seconds=20)
+@pytest.mark.full(seconds=11)
 def test_first_pages_run_with_all_features(project: Path) -> None:
     some = [word for name in ("fieldscribe_runtime", "hitachi_l200", "siemens_mm4") for word in ("--package", name)]
     said = succeed([tool("cargo"), "test", "--offline", "--quiet", "--doc", "--all-features", *some], cwd=project)
@@ -191,7 +195,7 @@ def test_first_pages_run_with_all_features(project: Path) -> None:
     assert "```no_run" in (project / "drivers/hitachi_l200/src/lib.rs").read_text("utf-8")
 
 
-@pytest.mark.full(seconds=20)
+@pytest.mark.full(seconds=8)
 def test_cargo_packages_the_crates(project: Path) -> None:
     """Together, since no registry has the runtime; the only thing missing is where the sources are."""
     members = [word for name in ("fieldscribe_runtime", *DEVICES) for word in ("--package", name)]
@@ -203,7 +207,7 @@ def test_cargo_packages_the_crates(project: Path) -> None:
     assert done.stderr.count("Verifying ") == len(DEVICES) + 1
 
 
-@pytest.mark.full(seconds=6)
+@pytest.mark.full(seconds=9)
 def test_firmware_builds(project: Path) -> None:
     target = "thumbv6m-none-eabi"
     libraries = succeed([tool("rustc"), "--print", "target-libdir", "--target", target]).strip()
