@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
+_NUMBERS = re.compile(r"\b0x[0-9A-Fa-f]+\b|\b[0-9][0-9A-Fa-f]*h\b")
 _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 """The keys of `printed` whose place `lines` names by another key."""
 
@@ -106,7 +107,9 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
             for shown, numbers in _runs_of(draft.get(key)):
                 ways = _in_both_units(point, numbers, in_units=key == "range_in_units")
-                yield from citing.in_order("range", shown, ways, place=draft.span(key))
+                yield from citing.in_order(
+                    "range", shown, ways, apart=_is_parted(draft.get(key)), place=draft.span(key)
+                )
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
         characters = point.text.characters
@@ -150,6 +153,10 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
                 names=names,
                 place=draft.span("bits"),
             )
+        if point.bits[0] - point.bits[1] > 1:
+            run = [Fraction(place) for place in range(point.bits[0], point.bits[1] - 1, -1)]
+            shown = f"{point.bits[0]} to {point.bits[1]}"
+            yield from citing.in_order("bits", shown, [run], optional=True, place=draft.span("bits"))
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
         place_of_bits = fixed.key_span(bits)
@@ -163,8 +170,14 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
                 (number,),
                 "bits",
                 words=tuple(wordings.number(number)),
+                behind=tuple(frozenset((bit,)) for bit in numbers_in(bits)),
                 place=place_of_bits,
             )
+
+
+def _is_parted(raw: Any) -> bool:
+    """Whether codes, factors or other intervals stand between the numbers of a range."""
+    return any(char.isalpha() or char in "*|" for char in _NUMBERS.sub("", str(raw)))
 
 
 def _runs_of(raw: Any) -> Iterator[tuple[str, list[Fraction]]]:
@@ -241,7 +254,10 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
             high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
-            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], place=place)
+            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], apart=True, place=place)
+            yield from citing.in_order(
+                "flags", f"bits {high} and {low}", [(high, low)], optional=True, alike="parts", place=place
+            )
         for key in ("mask", "active"):
             for number in numbers_in(printed.get(key)):
                 in_list = (position, 1) if at_bit and key == "mask" else None
@@ -262,7 +278,24 @@ def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> It
             if row or not words:
                 shown, optional = f"{flag.name} {entry.raw}", bool(words)
                 yield from citing.numbers(
-                    "flag values", shown, (number,), "flags", optional=optional, row=row, place=place
+                    "flag values",
+                    shown,
+                    (number,),
+                    "flags",
+                    optional=optional,
+                    row=row,
+                    alike="rows" * bool(row),
+                    place=place,
+                )
+            if flag.width == 1:
+                yield from citing.in_order(
+                    "flag values",
+                    f"bit {flag.low + above} = {entry.raw}",
+                    [(Fraction(flag.low + above), number)],
+                    "flags",
+                    optional=True,
+                    alike=f"bits = {entry.raw}",
+                    place=place,
                 )
 
 
@@ -304,12 +337,13 @@ def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim
         place = printed.span(key)
         if key in ("range", "range_in_units"):
             for shown, numbers in _runs_of(value):
-                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, place=place)
+                apart = _is_parted(value)
+                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, apart=apart, place=place)
             continue
         if key == "pairs":
             for raw, number in value.items():
                 pair = [*numbers_in(raw), *numbers_in(number)]
-                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair], kind, place=place)
+                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair, pair[::-1]], kind, place=place)
             continue
         unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
         numbers = numbers_in(value)

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
+from fieldscribe.audit.columns import Columns
 from fieldscribe.audit.instead import instead, printed_access
 from fieldscribe.audit.labels import Standing, standing
 from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in
@@ -39,6 +40,9 @@ _TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
 _OF_CODES = ("max", "answers", "refusals")
 """Facts that no manual prints with two or three binary digits."""
 _NEARLY_ALL = 0.75
+"""The share of facts from which on all have to stand alike; of some more one may always be another."""
+_LISTED = 4
+"""So many labels are a list: where nearly all of them stand, all have to."""
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 _FAR = 400
@@ -48,6 +52,15 @@ _FAR = 400
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
     return Auditor(subject).audit(device, manual_name, text, same_text=same_text)
+
+
+def _nearly_all(stand: list[bool], but_one_of: int = 4) -> bool:
+    enough = sum(stand) > _NEARLY_ALL * len(stand)
+    return enough or (len(stand) >= but_one_of and sum(stand) == len(stand) - 1)
+
+
+def _are_alike(claim: Claim, other: Claim) -> bool:
+    return (claim.subject, claim.alike) == (other.subject, other.alike)
 
 
 class Asked:
@@ -98,6 +111,7 @@ class Comparison:
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
         self._parted: dict[tuple[Extent, str], bool] = {}
+        self.columns = Columns(manual)
 
     def run(self) -> Audit:
         """All findings."""
@@ -109,6 +123,9 @@ class Comparison:
                 labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
         for together in labels.values():
             self._check_labels(together)
+        for claim, extent in self.columns.strays(lambda extent: len(self.subjects[extent]) > 1):
+            if all(claim is not absent for absent, _ in self.absent):
+                self._misses(claim, [extent])
         for erratum in self.errata:
             self._check_erratum(erratum)
         self._unused()
@@ -160,9 +177,18 @@ class Comparison:
     def _check_labels(self, claims: list[Claim]) -> None:
         """Labels of one list are looked for together: beside their numbers, in their order."""
         extents = self._cited_by(claims[0])
-        labels = [label for extent in extents for label in self._standing(claims, extent)]
+        places = [(extent, self._standing(claims, extent)) for extent in extents]
+        for extent, here in places:
+            for label in here:
+                column = self._own_passage(label.claim, extent).column(label.place)
+                self.columns.note_columns(label.claim, extent, {column})
+        labels = [label for _, here in places for label in here]
         self._use(token for label in labels for token in label.tokens)
         stands = {label.claim for label in labels}
+        for extent, here in places:
+            listed = {label.claim for label in here}
+            if len(claims) >= _LISTED and _nearly_all([claim in listed for claim in claims]):
+                stands -= {claim for claim in stands - listed if not self._is_added(claim, extent)}
         masks = [claim for claim in stands if claim.fact == "flags" and not claim.words]
         for passage in (self._own_passage(claims[0], extent) for extent in extents):  # 0x0001 may be any 1 of the list
             self._use(token for mask in masks for token in passage.reading(mask.numbers))
@@ -214,7 +240,7 @@ class Comparison:
         if key not in self._parted:
             parts = [(claim, self._part(claim.subject, extent)) for claim in self._claims_in[key] if not claim.optional]
             stand = [part is not None and bool(standing([claim], part)) for claim, part in parts]
-            self._parted[key] = sum(stand) > _NEARLY_ALL * len(stand)
+            self._parted[key] = _nearly_all(stand, but_one_of=3)
         return self._parted[key]
 
     def _use(self, tokens: Iterable[Token]) -> None:
@@ -230,17 +256,24 @@ class Comparison:
         extents = self._cited_by(claim)
         stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
         enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
-        if not enough and (not claim.optional or (claim.row and any(map(self._rows_print_values, extents)))):
+        expected = not claim.optional or any(self._prints_alike(claim, extent) for extent in extents)
+        if (not enough and expected) or any(self._lists_another(claim, extent) for extent in extents):
             self._misses(claim, extents)
 
-    def _rows_print_values(self, extent: Extent) -> bool:
-        """Whether the rows of bits print their values as numbers, too: nearly all of them."""
-        key = (extent, "values in rows")
-        if key not in self._parted:
-            claims = [claim for claim in self._claims_in[extent, "flag values"] if claim.row]
-            stand = [bool(self._numbers_stand(claim, extent)) for claim in claims]
-            self._parted[key] = sum(stand) > _NEARLY_ALL * len(stand)
-        return self._parted[key]
+    def _prints_alike(self, claim: Claim, extent: Extent) -> bool:
+        """Whether a place prints nearly all facts that are alike, such as the values of bits beside each bit."""
+        key = (extent, f"{claim.subject} {claim.alike}")
+        if claim.alike and key not in self._parted:
+            claims = [other for other in self._claims_in[extent, claim.fact] if _are_alike(claim, other)]
+            self._parted[key] = _nearly_all([bool(self._numbers_stand(other, extent)) for other in claims])
+        return self._parted.get(key, False)
+
+    def _lists_another(self, claim: Claim, extent: Extent) -> bool:
+        """Whether a place prints the list of a fact with another number in it."""
+        if claim.apart or any(self._speaks_of(erratum, [extent]) for erratum in self.taken.get(claim.about, ())):
+            return False
+        passage = self._own_passage(claim, extent)
+        return any(True for way in claim.ways for _ in passage.nearly_in_order(way))
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
         if self._is_taken(claim, extents):
@@ -282,6 +315,11 @@ class Comparison:
                 return True
         return False
 
+    def _is_added(self, claim: Claim, extent: Extent) -> bool:
+        """Whether an erratum says of a list that it lacks a number, which stands elsewhere."""
+        errata = (erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent]))
+        return any(claim.beside & erratum.taken for erratum in errata)
+
     def _speaks_of(self, erratum: PrintedErratum, extents: list[Extent]) -> bool:
         """Whether an erratum cites lines of a place."""
         lines = [self.extent(*cited) for cited in erratum.cited]
@@ -317,17 +355,30 @@ class Comparison:
         return any(stands) and (not named or claim.words[0] in named)
 
     def _numbers_stand(self, claim: Claim, extent: Extent) -> int:
-        if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
+        cited = extent
+        if claim.is_address and extent.kind == "row" and self._names_its_row(claim, extent.first):
             extent = Extent(extent.first, extent.first, "row")  # the rows below belong to the point's other words
         passage = self._own_passage(claim, extent)
         if claim.in_order:
-            return self._stand_in_order(claim, passage)
+            return self._stand_in_order(claim, passage, cited)
+        if claim.behind and (runs := list(passage.in_order(claim.behind))):
+            return any(self._stands_behind(claim, run[-1], passage) for run in runs)
         hits = self._hits(claim, passage)
+        if claim.optional:
+            hits = [token for token in hits if token.line >= extent.first]  # merged cells say more of the row above
         self._use(hits)
+        if hits:
+            self.columns.note(claim, cited, hits)
         if hits or not claim.between:
             return len(hits)
         readings = {reading for token in passage.tokens for reading in token.readings}
         return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _names_its_row(self, claim: Claim, line: int) -> bool:
+        """Whether addresses stand in the first line of a row: in cells, or behind their names."""
+        if self.manual.line(line).startswith("|"):
+            return True
+        return bool(claim.names) and bool(self.passage(Extent(line, line, "row")).behind_names(claim.names))
 
     def _hits(self, claim: Claim, passage: Passage) -> list[Token]:
         """The numbers of a passage that state a fact: of those that can mean it, those in its row, cell or name."""
@@ -348,16 +399,28 @@ class Comparison:
             hits = [token for token in hits if passage.is_followed_by(token, claim.unit)] or hits
         return hits
 
-    def _stand_in_order(self, claim: Claim, passage: Passage) -> bool:
-        """Whether the numbers stand one after the other, or each somewhere where nothing has them together."""
-        ways = [claim.in_order, claim.or_in_order] if claim.or_in_order else [claim.in_order]
-        runs = [run for way in ways for run in passage.in_order(way)]
+    def _stand_in_order(self, claim: Claim, passage: Passage, extent: Extent) -> bool:
+        """Whether the numbers stand one after the other, or each somewhere where they may."""
+        runs = [run for way in claim.ways for run in passage.in_order(way)]
         self._use(token for run in runs for token in run)
-        if runs:
-            return True
-        apart = [[passage.reading(numbers) for numbers in way] for way in ways]
+        self.columns.note(claim, extent, (run[0] for run in runs))
+        if runs or not claim.apart:
+            return bool(runs)
+        apart = [[passage.reading(numbers) for numbers in way] for way in claim.ways]
         self._use(token for hits in apart for tokens in hits for token in tokens)
         return any(all(hits) for hits in apart)
+
+    def _stands_behind(self, claim: Claim, token: Token, passage: Passage) -> bool:
+        """Whether the next number behind another one is that of a claim, or its word stands between."""
+        end = passage.end_of(token)
+        following = passage.after(end)
+        between = passage.text[end : passage.start_of(following) if following else None]
+        if any(has_word(between, word) for word in claim.words):
+            return True
+        if following is None or not following.readings & claim.numbers:
+            return False
+        self._use([following])
+        return True
 
     def _access_agrees(self, claim: Claim, extent: Extent) -> bool:
         """Whether the row prints this access, or none at all."""

@@ -174,6 +174,12 @@ class Manual:
         )
         return min(following, default=len(self.lines) + 1) - 1
 
+    def column(self, number: int, place: int) -> int | None:
+        """The column of a table in which a place of a line lies (from 0); None outside of tables."""
+        text = self.line(number)
+        gap = "|" if text.startswith("|") else "\t"
+        return text.count(gap, 0, place) if gap in text else None
+
     def is_merged(self, number: int) -> bool:
         """Whether the first cell of a table's row is empty: merged with the one above it."""
         return self.line(number).startswith("|") and not self.line(number).split("|")[1].strip()

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 
+_LISTED = 4
+"""So many numbers make a list that is known though another one stands in place of one of them."""
+
 
 def letters_of(text: str) -> str:
     """Letters and digits alone, in small letters: blanks, hyphens and line breaks are layout."""
@@ -79,9 +82,7 @@ class Passage:
         start = 0
         for line, column, text in self.pieces:
             if place <= start + len(text):
-                whole = self.manual.line(line)
-                gap = "|" if whole.startswith("|") else "\t"
-                return whole.count(gap, 0, column + place - start) if gap in whole else None
+                return self.manual.column(line, column + place - start)
             start += len(text) + 1
         return None
 
@@ -139,6 +140,14 @@ class Passage:
         """The numbers that stand in a part of the text."""
         return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
 
+    def start_of(self, token: Token) -> int:
+        """Where a number begins in the text."""
+        return self.starts[self.tokens.index(token)]
+
+    def end_of(self, token: Token) -> int:
+        """The place behind a number in the text."""
+        return self.ends[self.tokens.index(token)]
+
     def before(self, place: int) -> Token | None:
         """The last number that ends before a place."""
         at = bisect_right(self.ends, place)
@@ -178,8 +187,16 @@ class Passage:
 
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""
-        at = next(end for other, end in zip(self.tokens, self.ends, strict=True) if other is token)
+        at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
+
+    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
+        """Each run in which another number stands in place of one of these, if they are enough to be known so."""
+        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
+            run = self.tokens[at : at + len(numbers)]
+            same = [bool(token.readings & wanted) for token, wanted in zip(run, numbers, strict=True)]
+            if sum(same) == len(same) - 1:
+                yield run
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
         """Each run of numbers that follow each other as these do, with no other number between them."""
