@@ -51,6 +51,8 @@ class Claim:
     """Whether the manual may lack it; where it is printed, its numbers count as used."""
     in_order: tuple[frozenset[Fraction], ...] = ()
     """Numbers that are printed one after the other, such as both ends of a range."""
+    tight: bool = False
+    """Whether nothing but signs may stand between them."""
     or_in_order: tuple[frozenset[Fraction], ...] = ()
     """The same numbers in the unit or the other way round, if they may be printed so."""
     apart: bool = False
@@ -72,7 +74,9 @@ class Claim:
     row: frozenset[Fraction] = frozenset()
     """The number of the bit: where one row of a table opens with it, the fact stands in that row."""
     alike: str = ""
-    """What facts of the subject a place prints all alike, if it prints one of them: an optional one is expected there."""
+    """What a place prints alike for all facts of the subject, or for none: an optional fact is expected there."""
+    opens: bool = False
+    """Whether the number stands alone in the first cell of its row."""
     behind: tuple[frozenset[Fraction], ...] = ()
     """Numbers that are printed right before it, in their order, if they are printed so at all."""
     rivals: tuple[str, ...] = ()
@@ -126,6 +130,7 @@ class Citing:
         first: bool = False,
         row: frozenset[Fraction] = frozenset(),
         alike: str = "",
+        opens: bool = False,
         behind: tuple[frozenset[Fraction], ...] = (),
         place: Span | None = None,
     ) -> Iterator[Claim]:
@@ -153,10 +158,11 @@ class Citing:
                 row=row,
                 unit=unit,
                 alike=alike,
+                opens=opens,
                 behind=behind,
             )
 
-    def in_order(
+    def in_order(  # noqa: PLR0913 - one line of a table of facts
         self,
         fact: str,
         shown: str,
@@ -164,6 +170,7 @@ class Citing:
         kind: str = "",
         *,
         apart: bool = False,
+        tight: bool = False,
         optional: bool = False,
         alike: str = "",
         place: Span,
@@ -186,6 +193,7 @@ class Citing:
                 in_order=in_order,
                 or_in_order=others[0] if others else (),
                 apart=apart,
+                tight=tight,
                 optional=optional,
                 alike=alike,
             )

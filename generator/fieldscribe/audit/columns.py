@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 _ROWS = 8
 """So many rows have to print a fact before they show its column."""
 _STRAYS = 0.02
-"""At most so large a share of the rows, or one row, prints it elsewhere: it was changed there, or an erratum says so."""
+"""At most so large a share of the rows, or one row, prints it elsewhere: it was changed, or an erratum says so."""
 _Kind: TypeAlias = "tuple[str, int, str, bool]"
 
 
@@ -41,12 +41,12 @@ class Columns:
         for extent, claims in self._claims.items():
             line = self.manual.line(extent.first)
             gap = "|" if line.startswith("|") else "\t"
-            for claim, columns in claims:
+            for claim, own in claims:
+                columns = own
                 if claim.is_address:  # a number that is misprinted in one notation stands right in the other
                     columns = set().union(*(others for other, others in claims if _are_alike(claim, other)))
-                rows.setdefault((gap, line.count(gap), claim.fact, is_shared(extent)), []).append(
-                    (claim, extent, columns)
-                )
+                kind = (gap, line.count(gap), claim.fact, is_shared(extent))
+                rows.setdefault(kind, []).append((claim, extent, columns))
         for alike in rows.values():
             needed = _columns_of([columns for _, _, columns in alike])
             yield from ((claim, extent) for claim, extent, columns in alike if not needed <= columns)

@@ -387,6 +387,8 @@ class Comparison:
             hits = [token for token in hits if token.is_plainly(claim.numbers)]
         if claim.row and (claim.optional or passage.behind(claim.row)):
             hits = [token for token in hits if token in passage.behind(claim.row)]
+        if claim.opens:
+            hits = [token for token in hits if token in passage.opening_rows]
         if claim.names and (named := passage.behind_names(claim.names)):
             hits = [token for token in hits if token in named]
         if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
@@ -402,6 +404,8 @@ class Comparison:
     def _stand_in_order(self, claim: Claim, passage: Passage, extent: Extent) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where they may."""
         runs = [run for way in claim.ways for run in passage.in_order(way)]
+        if claim.tight:
+            runs = [run for run in runs if passage.has_signs_alone(run[0], run[-1])]
         self._use(token for run in runs for token in run)
         self.columns.note(claim, extent, (run[0] for run in runs))
         if runs or not claim.apart:

@@ -96,6 +96,11 @@ class Passage:
             alone[token.line] = None if token.line in alone else token
         return alone
 
+    @property
+    def opening_rows(self) -> list[Token]:
+        """The numbers that stand alone in the first cell of a row."""
+        return [token for token in self._openings.values() if token is not None]
+
     def behind(self, opening: frozenset[Fraction]) -> list[Token]:
         """The numbers in the row that such a number alone opens; none if not exactly one row begins so."""
         opens = [line for line, token in self._openings.items() if token is not None and token.is_plainly(opening)]
@@ -147,6 +152,10 @@ class Passage:
     def end_of(self, token: Token) -> int:
         """The place behind a number in the text."""
         return self.ends[self.tokens.index(token)]
+
+    def has_signs_alone(self, first: Token, last: Token) -> bool:
+        """Whether no letters stand between two numbers."""
+        return not any(map(str.isalpha, self.text[self.end_of(first) : self.start_of(last)]))
 
     def before(self, place: int) -> Token | None:
         """The last number that ends before a place."""
