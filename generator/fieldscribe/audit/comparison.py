@@ -286,7 +286,7 @@ class Comparison:
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
         nearby: dict[tuple[str, str, str | None], Missing] = {}
-        for claim, extents in self.absent:
+        for claim, extents in self._without_repetition():
             there = [number for extent in extents for number in unused[extent]]
             printed = instead(claim, [self.passage(extent) for extent in extents], there)
             told.update(number for number in there if number.number == printed)
@@ -300,6 +300,14 @@ class Comparison:
                 nearby[same] = missing
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
+
+    def _without_repetition(self) -> Iterator[tuple[Claim, list[Extent]]]:
+        """What is absent, without what only tells the same of a thing in another way."""
+        told = {(claim.subject, claim.where) for claim, _ in self.absent if not claim.optional}
+        for claim, extents in self.absent:
+            if not claim.optional or (claim.subject, claim.where) not in told:
+                told.add((claim.subject, claim.where))
+                yield claim, extents
 
     def _is_taken(self, claim: Claim, extents: list[Extent]) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""

@@ -116,7 +116,7 @@ class Manual:
 
     def tokens_in(self, text: str, number: int, column: int = 0) -> list[Token]:
         """The numbers in a piece of a line that begins behind a column, but for those in names."""
-        if column == 0 and text == self.line(number):
+        if column == 0 and 1 <= number <= len(self.lines) and text == self.lines[number - 1]:
             return self.tokens[number - 1]
         return self._tokens_in(text, number, column)
 
