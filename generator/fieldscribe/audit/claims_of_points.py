@@ -158,8 +158,9 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
         place_of_bits = fixed.key_span(bits)
-        for bit in numbers_in(bits):
-            numbers = (bit, Fraction(1 << int(bit)))
+        ends = numbers_in(bits)
+        for bit in ends:
+            numbers = (bit, Fraction(1 << int(bit))) if len(ends) == 1 else (bit,)
             yield from citing.numbers("fixed bits", str(bit), numbers, "bits", place=place_of_bits)
         for number in numbers_in(constant):
             yield from citing.numbers(

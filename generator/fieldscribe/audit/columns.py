@@ -14,7 +14,7 @@ _ROWS = 8
 """So many rows have to print a fact before they show its column."""
 _STRAYS = 0.02
 """At most so large a share of the rows, or one row, prints it elsewhere: it was changed, or an erratum says so."""
-_Kind: TypeAlias = "tuple[str, int, str, bool]"
+_Kind: TypeAlias = "tuple[str, int, str, bool, str]"
 
 
 class Columns:
@@ -46,7 +46,8 @@ class Columns:
                 if claim.is_address:  # a number that is misprinted in one notation stands right in the other
                     columns = set().union(*(others for other, others in claims if _are_alike(claim, other)))
                 kind = (gap, line.count(gap), claim.fact, is_shared(extent))
-                rows.setdefault(kind, []).append((claim, extent, columns))
+                rows.setdefault((*kind, ""), []).append((claim, extent, columns))
+                rows.setdefault((*kind, self.manual.head(extent.first)), []).append((claim, extent, columns))
         for alike in rows.values():
             needed = _columns_of([columns for _, _, columns in alike])
             yield from ((claim, extent) for claim, extent, columns in alike if not needed <= columns)

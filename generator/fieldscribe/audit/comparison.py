@@ -18,6 +18,7 @@ from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted,
 from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.placement import placement
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
+from fieldscribe.audit.siblings import Siblings
 from fieldscribe.audit.wordings import Wordings
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ class Comparison:
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
         self._parted: dict[tuple[Extent, str], bool] = {}
-        self.columns = Columns(manual)
+        self.columns, self.siblings = Columns(manual), Siblings()
 
     def run(self) -> Audit:
         """All findings."""
@@ -123,7 +124,8 @@ class Comparison:
                 labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
         for together in labels.values():
             self._check_labels(together)
-        for claim, extent in self.columns.strays(lambda extent: len(self.subjects[extent]) > 1):
+        strays = self.columns.strays(lambda extent: len(self.subjects[extent]) > 1)
+        for claim, extent in (*strays, *self.siblings.lacking()):
             if all(claim is not absent for absent, _ in self.absent):
                 self._misses(claim, [extent])
         for erratum in self.errata:
@@ -177,11 +179,12 @@ class Comparison:
     def _check_labels(self, claims: list[Claim]) -> None:
         """Labels of one list are looked for together: beside their numbers, in their order."""
         extents = self._cited_by(claims[0])
+        for claim in claims[1:]:
+            self._cited_by(claim)
         places = [(extent, self._standing(claims, extent)) for extent in extents]
         for extent, here in places:
             for label in here:
-                column = self._own_passage(label.claim, extent).column(label.place)
-                self.columns.note_columns(label.claim, extent, {column})
+                self.columns.note_columns(label.claim, extent, self._columns_of(label, extent))
         labels = [label for _, here in places for label in here]
         self._use(token for label in labels for token in label.tokens)
         stands = {label.claim for label in labels}
@@ -195,6 +198,12 @@ class Comparison:
         for claim in claims:
             if claim not in stands:
                 self._misses(claim, extents)
+
+    def _columns_of(self, label: Standing, extent: Extent) -> set[int | None]:
+        """The column of a label, or all in which a title stands."""
+        passage = self._own_passage(label.claim, extent)
+        titles = [first for word in label.claim.words for first, _ in passage.places(word)]
+        return {passage.column(place) for place in ([label.place] if label.claim.beside else titles or [label.place])}
 
     def _standing(self, claims: list[Claim], extent: Extent) -> list[Standing]:
         """The labels that stand in a place, or in the claims' own part of it."""
@@ -250,6 +259,7 @@ class Comparison:
         extents = [self.extent(*cited) for cited in claim.cited]
         for extent in extents:
             self.subjects.setdefault(extent, {}).setdefault(claim.subject, claim.where)
+            self.siblings.note(claim, extent, self.passage(extent).folded)
         return extents
 
     def _check(self, claim: Claim) -> None:
@@ -357,6 +367,9 @@ class Comparison:
     def _code_stands(self, claim: Claim, extent: Extent) -> int:
         """Whether a code stands in the place, and no other one names the row in its first cell."""
         stands = [self._has(word, extent) for word in claim.words]
+        for word in claim.words:
+            columns = {self.manual.column(extent.first, at) for at in places_in(self.manual.line(extent.first), word)}
+            self.columns.note_columns(claim, extent, columns)
         first_cell = self.manual.line(extent.first).split("|")[1:2]
         form = re.sub(r"[0-9]", "[0-9]", re.escape(claim.words[0]))
         named = re.findall(rf"(?<!\w){form}(?!\w)", first_cell[0]) if first_cell else []

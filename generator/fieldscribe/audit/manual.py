@@ -73,6 +73,7 @@ class Manual:
 
     def __init__(self, text: str, names: Sequence[str] = ()) -> None:
         self.lines = text.splitlines()
+        self._heads: dict[int, str] = {}
         self._names = re.compile("|".join(map(_name, names))) if names else None
 
     def __len__(self) -> int:
@@ -179,6 +180,17 @@ class Manual:
         text = self.line(number)
         gap = "|" if text.startswith("|") else "\t"
         return text.count(gap, 0, place) if gap in text else None
+
+    def head(self, number: int) -> str:
+        """The letters of a table's first row, for any of its rows."""
+        if number not in self._heads:
+            gap = "|" if self.line(number).startswith("|") else "\t"
+            first = number
+            while gap in self.line(first - 1) and first - 1 not in self._heads:
+                first -= 1
+            head = self._heads.get(first - 1) if gap in self.line(first - 1) else self.line(first)
+            self._heads |= dict.fromkeys(range(first, number + 1), "".join(filter(str.isalnum, head or "")))
+        return self._heads[number]
 
     def is_merged(self, number: int) -> bool:
         """Whether the first cell of a table's row is empty: merged with the one above it."""

@@ -45,6 +45,11 @@ class Passage:
         self.text = "\n".join(texts)
 
     @cached_property
+    def folded(self) -> str:
+        """The text in small letters."""
+        return self.text.casefold()
+
+    @cached_property
     def _letters(self) -> tuple[str, list[int]]:
         """The letters, and where each stands in the text."""
         shown = _TAG.sub(lambda tag: " " * len(tag[0]), self.text)
