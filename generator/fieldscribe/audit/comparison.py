@@ -124,7 +124,9 @@ class Comparison:
                 labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
         for together in labels.values():
             self._check_labels(together)
-        strays = self.columns.strays(lambda extent: len(self.subjects[extent]) > 1)
+        strays = self.columns.strays(
+            lambda extent: len(self.subjects[extent]) > 1, lambda claim, extent: self._is_taken(claim, [extent])
+        )
         for claim, extent in (*strays, *self.siblings.lacking()):
             if all(claim is not absent for absent, _ in self.absent):
                 self._misses(claim, [extent])
@@ -280,10 +282,13 @@ class Comparison:
 
     def _lists_another(self, claim: Claim, extent: Extent) -> bool:
         """Whether a place prints the list of a fact with another number in it."""
-        if claim.apart or any(self._speaks_of(erratum, [extent]) for erratum in self.taken.get(claim.about, ())):
+        if claim.apart:
             return False
+        errata = (erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent]))
+        known = frozenset().union(*(erratum.taken.union(erratum.numbers) for erratum in errata))
         passage = self._own_passage(claim, extent)
-        return any(True for way in claim.ways for _ in passage.nearly_in_order(way))
+        others = (other for way in claim.ways for other in passage.nearly_in_order(way))
+        return any(not other.readings & known for other in others)
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
         if self._is_taken(claim, extents):
@@ -321,17 +326,42 @@ class Comparison:
 
     def _is_taken(self, claim: Claim, extents: list[Extent]) -> bool:
         """Whether the description took this fact against the manual, as an erratum says."""
-        codes = claim.words if claim.fact == "code" or claim.entry is not None else ()
-        codes = tuple(code for code in codes if claim.entry is not None or not self.manual.lines_with(code))
+        codes = claim.words if claim.entry is not None or self._lacks_a_letter(claim, extents) else ()
         printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
             if claim.fact not in _TAKEN_ANYWHERE and not self._speaks_of(erratum, extents):
                 continue
-            if claim.numbers & erratum.taken and (erratum.is_sentence or not printed):
+            if self._is_of(erratum, claim) and (erratum.is_sentence or not printed):
                 return True  # an erratum that gives printed facts tells apart what is printed and what was taken
             if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
+
+    def _is_of(self, erratum: PrintedErratum, claim: Claim) -> bool:
+        """Whether an erratum took a number for such a fact: addresses for an address, what is not printed for a scale."""
+        if claim.optional or claim.row:
+            return False
+        if claim.is_address:
+            return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)
+        taken = erratum.taken.difference(erratum.numbers) if claim.fact == "scale" else erratum.taken
+        return bool(claim.numbers & taken)
+
+    @cached_property
+    def _numbers_of_addresses(self) -> dict[str, frozenset[Fraction]]:
+        """All numbers of the addresses of each subject."""
+        numbers: dict[str, frozenset[Fraction]] = {}
+        for claim in self.claims:
+            if claim.is_address:
+                numbers[claim.subject] = numbers.get(claim.subject, frozenset()) | claim.numbers
+        return numbers
+
+    def _lacks_a_letter(self, claim: Claim, extents: list[Extent]) -> bool:
+        """Whether the manual nowhere prints a code, but its number in these places."""
+        digits = "".join(filter(str.isdigit, claim.words[0])) if claim.fact == "code" else ""
+        if not digits or any(map(self.manual.lines_with, claim.words)):
+            return False
+        alone = re.compile(rf"(?<![0-9])0*{int(digits)}(?![0-9])")
+        return any(alone.search(self._text(extent)) for extent in extents)
 
     def _is_added(self, claim: Claim, extent: Extent) -> bool:
         """Whether an erratum says of a list that it lacks a number, which stands elsewhere."""

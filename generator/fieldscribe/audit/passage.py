@@ -204,13 +204,13 @@ class Passage:
         at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
-    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
-        """Each run in which another number stands in place of one of these, if they are enough to be known so."""
+    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[Token]:
+        """Each number that stands in place of one of a list, which are enough to be known without it."""
         for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
             run = self.tokens[at : at + len(numbers)]
-            same = [bool(token.readings & wanted) for token, wanted in zip(run, numbers, strict=True)]
-            if sum(same) == len(same) - 1:
-                yield run
+            others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]
+            if len(others) == 1:
+                yield others[0]
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
         """Each run of numbers that follow each other as these do, with no other number between them."""
