@@ -44,6 +44,8 @@ _NEARLY_ALL = 0.75
 """The share of facts from which on all have to stand alike; of some more one may always be another."""
 _LISTED = 4
 """So many labels are a list: where nearly all of them stand, all have to."""
+_TOLD = 2
+"""A number of so many digits is known as that of a code without its letter."""
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 _FAR = 400
@@ -358,7 +360,7 @@ class Comparison:
     def _lacks_a_letter(self, claim: Claim, extents: list[Extent]) -> bool:
         """Whether the manual nowhere prints a code, but its number in these places."""
         digits = "".join(filter(str.isdigit, claim.words[0])) if claim.fact == "code" else ""
-        if not digits or any(map(self.manual.lines_with, claim.words)):
+        if len(digits.lstrip("0")) < _TOLD or any(map(self.manual.lines_with, claim.words)):
             return False
         alone = re.compile(rf"(?<![0-9])0*{int(digits)}(?![0-9])")
         return any(alone.search(self._text(extent)) for extent in extents)
@@ -453,7 +455,7 @@ class Comparison:
         return hits
 
     def _stand_in_order(self, claim: Claim, passage: Passage, extent: Extent) -> bool:
-        """Whether the numbers stand one after the other, or each somewhere where they may."""
+        """Whether the numbers stand one after the other, or each somewhere where they may: a range in one line."""
         runs = [run for way in claim.ways for run in passage.in_order(way)]
         if claim.tight:
             runs = [run for run in runs if passage.has_signs_alone(run[0], run[-1])]
@@ -463,7 +465,10 @@ class Comparison:
             return bool(runs)
         apart = [[passage.reading(numbers) for numbers in way] for way in claim.ways]
         self._use(token for hits in apart for tokens in hits for token in tokens)
-        return any(all(hits) for hits in apart)
+        if "range" not in claim.fact:
+            return any(all(hits) for hits in apart)
+        lines = [[{token.line for token in tokens} for tokens in hits] for hits in apart]
+        return any(set.intersection(*hits) for hits in lines)
 
     def _stands_behind(self, claim: Claim, token: Token, passage: Passage) -> bool:
         """Whether the next number behind another one is that of a claim, or its word stands between."""
