@@ -114,6 +114,7 @@ class Comparison:
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
         self._parted: dict[tuple[Extent, str], bool] = {}
+        self.added: list[Token] = []
         self.columns, self.siblings = Columns(manual), Siblings()
 
     def run(self) -> Audit:
@@ -191,6 +192,7 @@ class Comparison:
                 self.columns.note_columns(label.claim, extent, self._columns_of(label, extent))
         labels = [label for _, here in places for label in here]
         self._use(token for label in labels for token in label.tokens)
+        self.added += (token for extent, here in places for token in self._added_to(here, extent))
         stands = {label.claim for label in labels}
         for extent, here in places:
             listed = {label.claim for label in here}
@@ -202,6 +204,17 @@ class Comparison:
         for claim in claims:
             if claim not in stands:
                 self._misses(claim, extents)
+
+    def _added_to(self, labels: list[Standing], extent: Extent) -> Iterator[Token]:
+        """The number right behind the last label of an enum, if it is the next one and has a label, too."""
+        listed = [label for label in labels if label.claim.fact == "enum" and label.claim.beside]
+        if len(listed) < 2:
+            return
+        passage, end = self._own_passage(listed[0].claim, extent), max(label.end for label in listed)
+        token = passage.after(end)
+        highest = max(number for label in listed for number in label.claim.beside)
+        if token is not None and highest + 1 in token.readings and passage.follows_as_entry(token, end):
+            yield token
 
     def _columns_of(self, label: Standing, extent: Extent) -> set[int | None]:
         """The column of a label, or all in which a title stands."""
@@ -340,7 +353,7 @@ class Comparison:
         return False
 
     def _is_of(self, erratum: PrintedErratum, claim: Claim) -> bool:
-        """Whether an erratum took a number for such a fact: addresses for an address, what is not printed for a scale."""
+        """Whether an erratum took a number for such a fact: addresses for addresses, what is not printed for a scale."""
         if claim.optional or claim.row:
             return False
         if claim.is_address:
@@ -575,6 +588,7 @@ class Comparison:
         return start <= line <= self.manual.end_of_section(section)
 
     def _unused(self) -> None:
+        self.used -= {(token.line, token.column) for token in self.added}
         for extent, subjects in self.subjects.items():
             place = next(iter(subjects.values()))
             for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):

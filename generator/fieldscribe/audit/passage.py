@@ -162,6 +162,12 @@ class Passage:
         """Whether no letters stand between two numbers."""
         return not any(map(str.isalpha, self.text[self.end_of(first) : self.start_of(last)]))
 
+    def follows_as_entry(self, token: Token, end: int) -> bool:
+        """Whether a number follows in the same cell as a place, with signs and a word behind it."""
+        between = self.text[end : self.start_of(token)]
+        in_cell = not any(char.isalpha() or char in "|\t\n" for char in between)
+        return in_cell and re.match(r"[\s.=:-]*[^\W\d]", self.text[self.end_of(token) :]) is not None
+
     def before(self, place: int) -> Token | None:
         """The last number that ends before a place."""
         at = bisect_right(self.ends, place)
