@@ -60,11 +60,7 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
         if not any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values):
             yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
-            high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
-            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], apart=True, place=place)
-            yield from citing.in_order(
-                "flags", f"bits {high} and {low}", [(high, low)], optional=True, alike="parts", place=place
-            )
+            yield from _ends_of(citing, flag, above, place)
         for key in ("mask", "active"):
             for number in numbers_in(printed.get(key)):
                 in_list = (position, 1) if at_bit and key == "mask" else None
@@ -83,13 +79,22 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
             yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
             if not words and flag.width > 1:
                 yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (number,), "flags", place=place)
-        if flag.width == 1 and flag.values:
-            bare = {entry.raw for entry, words in zip(flag.values, values, strict=True) if not words}
-            yield from _rows_of(citing, flag, flag.low + above, bare, place)
+        bare = {entry.raw for entry, words in zip(flag.values, values, strict=True) if not words}
+        yield from _rows_of(citing, flag, flag.low + above, bare, place)
+
+
+def _ends_of(citing: Citing, flag: Flag, above: int, place: Span) -> Iterator[Claim]:
+    """The bits at both ends of a flag, beside each other where the manual prints nearly all flags so."""
+    high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
+    shown, run = f"bits {high} and {low}", [(high, low)]
+    yield from citing.in_order("flags", shown, run, apart=True, place=place)
+    yield from citing.in_order("flags", shown, run, optional=True, alike="parts", place=place)
 
 
 def _rows_of(citing: Citing, flag: Flag, bit: int, bare: set[int], place: Span) -> Iterator[Claim]:
-    """How a table may print a bit: in the first cell of its row, with both values in it, or as `Bit 8 = 0`."""
+    """How a table may print a single bit: in the first cell of its row, with both values in it, or as `Bit 8 = 0`."""
+    if flag.width > 1 or not flag.values:
+        return
     number = Fraction(bit)
     row = frozenset((number,))
     shown = f"row of bit {bit}"

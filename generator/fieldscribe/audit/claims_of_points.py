@@ -105,6 +105,8 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
             for shown, numbers in _runs_of(draft.get(key)):
                 ways = _in_both_units(point, numbers, in_units=key == "range_in_units")
+                if _prints_units(draft):  # which is another claim
+                    del ways[1:]
                 yield from citing.in_order(
                     "range", shown, ways, apart=_is_parted(draft.get(key)), place=draft.span(key)
                 )
@@ -117,6 +119,12 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
     if _says_itself(draft, "scale"):
         for number in _scale_numbers(draft.get("scale")):
             yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
+
+
+def _prints_units(draft: Draft) -> bool:
+    """Whether the description says that the limits are printed in the unit, too."""
+    printed = draft.get("printed")
+    return isinstance(printed, Map) and "range_in_units" in printed and draft.layer("range") is not None
 
 
 def _in_both_units(point: Point, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
