@@ -63,10 +63,12 @@ POINTS = "".join(
             f" line: {line_of(f'4.{level}')}}}\n"
             for level in range(11, 21)
         ),
-        f'- {{name: word, at: 77, fixed: {{15..12: 0}}, flags: {{{FLAGS}}}, section: "4.30",'
-        f" line: {line_of('4.30')}}}\n"
-        f"- {{name: delay, at: 78, unit: s, default: 30, special: {{0: {{name: never, writable: yes, en: never}}}},"
-        f" line: {line_of('Delay')}, lines: {{default: {line_of('Delay')}}}}}\n",
+        (
+            f'- {{name: word, at: 77, fixed: {{15..12: 0}}, flags: {{{FLAGS}}}, section: "4.30",'
+            f" line: {line_of('4.30')}}}\n"
+            f"- {{name: delay, at: 78, unit: s, default: 30, special: {{0: {{name: never, writable: yes, en: never}}}},"
+            f" line: {line_of('Delay')}, lines: {{default: {line_of('Delay')}}}}}\n"
+        ),
     )
 )
 DEVICE = together(
