@@ -41,13 +41,15 @@ class Errata(Places):
         return False
 
     def _is_of(self, erratum: PrintedErratum, claim: Claim) -> bool:
-        """Whether an erratum took a number for such a fact: addresses for addresses, no printed one for a scale."""
+        """Whether an erratum took a number for such a fact: addresses for addresses, limits that are not printed."""
         if claim.optional or claim.row:
             return False
         if claim.is_address:
             return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)
-        taken = erratum.taken.difference(erratum.numbers) if claim.fact == "scale" else erratum.taken
-        return bool(claim.numbers & taken)
+        alone = erratum.taken.difference(erratum.numbers)
+        if claim.fact == "scale" or (claim.fact == "range" and alone):
+            return bool(claim.numbers & alone)
+        return bool(claim.numbers & erratum.taken)
 
     @cached_property
     def _numbers_of_addresses(self) -> dict[str, frozenset[Fraction]]:
