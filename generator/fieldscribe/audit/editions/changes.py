@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
+from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.words import Words, pressed
 from fieldscribe.records import dataclass
 
@@ -49,6 +50,7 @@ class Editions:
         self.old, self.new = Words(old), Words(new)
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
+        self._part_unlike_rows()
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
         self._now: dict[int, Lines | None] = {}
@@ -94,8 +96,24 @@ class Editions:
             self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
         return True
 
+    def _part_unlike_rows(self) -> None:
+        """A row that shares hardly a word with the one in its place is another row."""
+        for group in _grouped([self._with_lines(gap) for gap in self._matching.gaps()]):
+            olds, news = {line for _, old, _ in group for line in old}, {line for _, _, new in group for line in new}
+            if len(olds) == len(news) == 1 and self._are_unlike(old := olds.pop(), new := news.pop()):
+                self._matching.forget(self.old.of_line(old))
+                self._matching.forget_new(self.new.of_line(new))
+
+    def _are_unlike(self, old: int, new: int) -> bool:
+        here = [word for word in self.old.of_line(old) if self.old.texts[word].isalnum()]
+        there = [word for word in self.new.of_line(new) if self.new.texts[word].isalnum()]
+        shared = sum(self._there[word] in there for word in here)
+        texts = [self.old.texts[word] for word in here], [self.new.texts[word] for word in there]
+        return are_unlike(self.old.line(old), self.new.line(new), texts, shared)
+
     def _changes(self, gaps: Iterable[Gap]) -> Iterator[Change]:
-        for group in _grouped([self._with_lines(gap) for gap in gaps]):
+        pieces = [piece for gap in gaps for piece in parted(self.old, self.new, gap)]
+        for group in _grouped([self._with_lines(piece) for piece in pieces]):
             olds = tuple(sorted({line for _, old, _ in group for line in old}))
             news = tuple(sorted({line for _, _, new in group for line in new}))
             words = tuple((range(*gap[:2]), range(*gap[2:])) for gap, _, _ in group)

@@ -45,6 +45,10 @@ class Words:
     def __len__(self) -> int:
         return len(self.texts)
 
+    def line(self, number: int) -> str:
+        """A line counted from 1; empty outside the text."""
+        return self.lines[number - 1] if 1 <= number <= len(self.lines) else ""
+
     def of_line(self, line: int) -> range:
         """The words of a line counted from 1; none outside the text."""
         if not 1 <= line <= len(self.lines):
@@ -54,6 +58,10 @@ class Words:
     def opens_line(self, word: int) -> bool:
         """Whether a word is the first of its line; what stands behind the last word is."""
         return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
+
+    def is_in_one_line(self, start: int, end: int) -> bool:
+        """Whether the words from..to stand in one line."""
+        return self.line_of[start] == self.line_of[end - 1]
 
     def at(self, line: int, column: int) -> int:
         """The word at a place, or the first one behind it."""
