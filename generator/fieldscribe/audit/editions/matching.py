@@ -217,7 +217,7 @@ class Matching:
         high = end
         while high < len(here) and here[high] >= 0 and words[high] == words[start + high - end]:
             high += 1
-        for by in sorted(range(-steps, high - end + 1), key=abs):
+        for by in sorted(range(-steps, high - end + 1), key=lambda by: (start + by > 0, abs(by))):
             if text.opens_line(start + by):
                 _shift(here, other, start, end, by)
                 return

@@ -58,7 +58,7 @@ def _apart(text: Words, side: _Side, other: _Side) -> list[tuple[int, int]]:
 
 
 def _around(beside: tuple[int, int], side: _Side, rows: list[tuple[int, int]]) -> Iterator[Gap]:
-    """Whole lines as gaps of their own; the words `beside` them stand in place of what ends the line above, or below."""
+    """Whole lines as gaps of their own; the words `beside` them belong to what ends the line above, or begins one."""
     first, last = beside
     at = last if side.first < side.head or side.tail == side.last else first
     gaps = [(first, at, side.first, side.head), *((at, at, *row) for row in rows), (at, last, side.tail, side.last)]
