@@ -144,7 +144,7 @@ class _Comparing:
         if finding.new is not None:
             return finding.new
         assert finding.old is not None
-        return self._order_of_old(finding.old[0]), 0
+        return self._order_of_old(finding.old[0]), len(self.editions.new.lines) + 1
 
     def _order_of_old(self, line: int) -> int:
         return next((place[1] for above in range(line - 1, 0, -1) if (place := self.editions.now(above))), 0)
