@@ -38,7 +38,7 @@ _KEYS = {
     "meaning": ("says", "with"),
     "reason": ("why",),
     "points": ("point", "points"),
-    "most": ("functions",),
+    "max": ("functions",),
     "entry": ("enum",),
     "flag": ("flags",),
     "code": ("special", "code"),
