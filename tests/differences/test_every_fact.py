@@ -42,6 +42,7 @@ SAYS_NOTHING = {
     "Device.enums": "are those of the points",
     "Block": "follows from points, limits and gaps",
     "Enum.title": "is its name in words",
+    "Enum.was": "follows from the old names of its point",
     "Erratum.facts": "are `printed` as structure",
     "Factor.exponents": "follow from the range of the point",
     "Named": "is `where`, which is told as text",

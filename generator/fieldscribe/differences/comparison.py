@@ -137,8 +137,10 @@ class _Comparison:
 
 
 def _following(old: Exported, new: Exported) -> Exported:
-    """What only follows from another name: the old name as an alias, and a title that is the name in words."""
+    """What only follows from another name: its old names, that of its enum, and a title that is the name in words."""
     following: dict[str, Any] = {}
+    if old.get("enum_name") in new.get("enum_was", ()):
+        following["enum_name"] = old["enum_name"]
     if old["name"] in new.get("was", ()):
         following["was"] = [other for other in new["was"] if other != old["name"]]
     before, after = (part.get("title", {}).get("en", "") for part in (old, new))

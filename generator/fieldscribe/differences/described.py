@@ -45,8 +45,8 @@ _KEYS = {
 }
 """The keys of a description that say a fact, where they are called otherwise than the fact."""
 
-_OF_ENUM = ("enum", "open", "name of the enum")
-"""The facts of a point that are those of its enum."""
+_OF_ENUM = ("", "enum", "open", "name of the enum")
+"""The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "responses"}
@@ -91,7 +91,10 @@ class Described:
         owner = self.owner(names)
         if owner is None:
             return
-        if fact in _OF_ENUM and owner.kind == "point" and (enum := self._enum_of(owner.name)):
+        if fact == "old names":
+            yield from (Owner("old name", old, owner) for old in self.points[owner.name].was)
+        enum = self._enum_of(owner.name) if fact in _OF_ENUM and owner.kind == "point" else ""
+        if enum and (fact or enum == owner.name):
             yield Owner("enum", enum)
         yield owner
 

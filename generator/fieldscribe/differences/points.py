@@ -196,6 +196,7 @@ POINT: Table = {
 }
 
 POINT_FOLLOWS = {
+    "enum_was": "follows from the old names",
     "name": "tells the point",
     "direction": "is a fact of the telegram",
     "places": "repeats the address; the functions follow from type and access",

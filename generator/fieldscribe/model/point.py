@@ -236,6 +236,11 @@ class Point:
         return item_of(self.name, self.variant)
 
     @property
+    def old_items(self) -> tuple[str, ...]:
+        """The old names in generated code."""
+        return tuple([item_of(old, self.variant) for old in self.was])
+
+    @property
     def arguments(self) -> tuple[str, ...]:
         """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))

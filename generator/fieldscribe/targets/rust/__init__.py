@@ -29,7 +29,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.rust.device import device_context, texts_of
 
     scope = scope_of(device)
-    context = device_context(device, scope)
+    context = device_context(device, scope, render)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
     yield f"{folder}/src/lib.rs", render(f"rust/{device.family}.rs.j2", context)

@@ -68,7 +68,7 @@ from .modbus import (
     Profile,
     Transport,
 )
-from .named import NamedNumber
+from .named import NamedNumber, renamed_classes
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -163,5 +163,6 @@ __all__ = [
     "input_register",
     "parameter",
     "renamed",
+    "renamed_classes",
     "telegram",
 ]
