@@ -36,6 +36,7 @@ SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export
 
 SAYS_NOTHING = {
     "Device.id": "tells the device",
+    "Device.asked": "is no fact",
     "Device.version": "is what differences ask to change",
     "Device.digest": "follows from all facts",
     "Device.blocks": "follow from points, limits and gaps",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.targets import TARGETS, target
+from fieldscribe.targets import c, python, rust
 from support.described import described, loaded, write
 from support.files import generate
 from support.python_package import typed_findings
@@ -91,7 +91,7 @@ def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
         new = write(out / "new", described(spelt(POINTS, NEW), **said))
         assert main(["diff", str(file), str(new), "--keep-names", "--fail-on", "breaking"]) == 0
         file = new
-    return generate(loaded(file), out / "made", *[target(name) for name in TARGETS])
+    return generate(loaded(file), out / "made", c, python, rust)
 
 
 def ran(*command: str, cwd: Path, **environment: str) -> str:
