@@ -139,7 +139,8 @@ class _Comparison:
 def _following(old: Exported, new: Exported) -> Exported:
     """What only follows from another name: its old names, that of its enum, and a title that is the name in words."""
     following: dict[str, Any] = {}
-    if old.get("enum_name") in new.get("enum_was", ()):
+    enums = old.get("enum_name"), new.get("enum_name")
+    if enums[0] in new.get("enum_was", ()) or enums == (old["name"], new["name"]):
         following["enum_name"] = old["enum_name"]
     if old["name"] in new.get("was", ()):
         following["was"] = [other for other in new["was"] if other != old["name"]]
