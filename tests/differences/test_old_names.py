@@ -115,6 +115,7 @@ def test_in_python(folder: Path, tmp_path: Path) -> None:
     said = ran(sys.executable, "-W", "always", "-c", PYTHON, cwd=tmp_path, PYTHONPATH=str(folder / "python"))
     is_after = (folder.parent / "new").exists()
     assert ("DeprecationWarning: Mode is now called Way" in said) == is_after, said
+    ran(sys.executable, "-m", "ruff", "check", "--isolated", "--no-cache", str(folder / "python/made_up"), cwd=tmp_path)
     assert "program.py" not in typed_findings(PYTHON, folder / "python", "made_up", tmp_path)
 
 

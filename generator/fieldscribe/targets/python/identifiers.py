@@ -132,10 +132,11 @@ class Identifiers:
         for point in device.points:
             if point.shape.flags and point.form == "flags" and point.generated:
                 self._name_flags(point)
-        self.old_classes = {
+        old_classes = {
             self._class(old, kind): new for new, kind, old_names in self._renamed(device) for old in old_names
         }
-        """The classes by their old names."""
+        self.old_classes = {old: old_classes[old] for old in sorted_imports(old_classes)}
+        """The classes by their old names, sorted for an import."""
 
     def enum_class(self, enum: str) -> str:
         """The class of an enum."""
