@@ -94,9 +94,8 @@ class Described:
         if fact == "old names":
             yield from (Owner("old name", old, owner) for old in self.points[owner.name].was)
         enum = self._enum_of(owner.name) if fact in _OF_ENUM and owner.kind == "point" else ""
-        if enum and (fact or enum == owner.name):
-            yield Owner("enum", enum)
-        yield owner
+        owners = [Owner("enum", enum), owner] if enum and (fact or enum == owner.name) else [owner]
+        yield from owners if fact else reversed(owners)
 
     def owner(self, names: tuple[tuple[str, str], ...]) -> Owner | None:
         """A thing as targets know it that give it names; None for the device as a whole."""
