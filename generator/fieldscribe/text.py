@@ -101,6 +101,12 @@ def rust_string(text: str) -> str:
     return f'"{cleaned}"'
 
 
+def toml_string(text: str) -> str:
+    """A TOML string with its quotes."""
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join([char if char.isprintable() else f"\\U{ord(char):08X}" for char in cleaned]) + '"'
+
+
 @lru_cache(maxsize=4096)
 def dbc_string(text: str) -> str:
     """A string of a CAN database with its quotes: Latin-1, without what would end it or be read as an escape."""
