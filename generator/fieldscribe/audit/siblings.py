@@ -23,17 +23,24 @@ class Siblings:
     """How often each place prints the words of the facts that cite it."""
 
     def __init__(self) -> None:
-        self._times: dict[tuple[str, tuple[str, ...]], dict[Extent, tuple[Claim, int]]] = {}
+        self._places: dict[tuple[str, tuple[str, ...]], dict[Extent, list[tuple[Claim, int]]]] = {}
 
     def note(self, claim: Claim, extent: Extent, folded: str) -> None:
         """A place of a fact with its text in small letters."""
         if claim.words and claim.fact not in _OF_ITS_OWN:
             times = sum(folded.count(word.casefold()) for word in claim.words)
-            self._times.setdefault((claim.fact, claim.words), {}).setdefault(extent, (claim, times))
+            places = self._places.setdefault((claim.fact, claim.words), {})
+            places.setdefault(extent, []).append((claim, times))
 
     def lacking(self) -> Iterator[tuple[Claim, Extent]]:
         """The facts whose words stand less often in their place than in nearly all others like it."""
-        for places in self._times.values():
-            usual, count = Counter(times for _, times in places.values()).most_common(1)[0]
-            if len(places) >= _PLACES and _ALIKE * len(places) <= count < len(places):
-                yield from ((claim, extent) for extent, (claim, times) in places.items() if 0 < times < usual)
+        for places in self._places.values():
+            for facts in {len(noted) for noted in places.values()}:
+                yield from _lacking([(extent, *noted[0]) for extent, noted in places.items() if len(noted) == facts])
+
+
+def _lacking(places: list[tuple[Extent, Claim, int]]) -> Iterator[tuple[Claim, Extent]]:
+    """The few of places with equally many facts that print their words less often than the others."""
+    usual, count = Counter(times for _, _, times in places).most_common(1)[0]
+    if len(places) >= _PLACES and _ALIKE * len(places) <= count < len(places):
+        yield from ((claim, extent) for extent, claim, times in places if 0 < times < usual)
