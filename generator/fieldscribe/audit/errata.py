@@ -32,22 +32,23 @@ class Errata(Places):
         codes = claim.words if claim.entry is not None or self._lacks_a_letter(claim, extents) else ()
         printed = claim.fact.startswith("printed ")
         for erratum in self.taken.get(claim.about, ()):
-            if claim.fact not in _TAKEN_ANYWHERE and not self._speaks_of(erratum, extents):
+            here = self._speaks_of(erratum, extents)
+            if claim.fact not in _TAKEN_ANYWHERE and not here:
                 continue
-            if self._is_of(erratum, claim) and (erratum.is_sentence or not printed):
+            if self._is_of(erratum, claim, here=here) and (erratum.is_sentence or not printed):
                 return True  # an erratum that gives printed facts tells apart what is printed and what was taken
             if any(has_word(erratum.taken_text, code) for code in codes):
                 return True
         return False
 
-    def _is_of(self, erratum: PrintedErratum, claim: Claim) -> bool:
+    def _is_of(self, erratum: PrintedErratum, claim: Claim, *, here: bool) -> bool:
         """Whether an erratum took a number for such a fact: addresses for addresses, limits that are not printed."""
         if claim.optional or claim.row:
             return False
         if claim.is_address:
             return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)
         alone = erratum.taken.difference(erratum.numbers)
-        if claim.fact == "scale" or (claim.fact == "range" and alone):
+        if claim.fact == "scale" or (claim.fact == "range" and (alone or not (here or claim.apart))):
             return bool(claim.numbers & alone)
         return bool(claim.numbers & erratum.taken)
 
