@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.printed_errata import PrintedErratum
 
+_NEVER_PRINTED = ("scale", "default")
+"""Facts that an erratum took of which it does not say that the manual prints them."""
 _TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
 """Facts of which an erratum may speak that cites another place."""
 _TOLD = 2
@@ -48,7 +50,7 @@ class Errata(Places):
         if claim.is_address:
             return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)
         alone = erratum.taken.difference(erratum.numbers)
-        if claim.fact == "scale" or (claim.fact == "range" and (alone or not (here or claim.apart))):
+        if claim.fact in _NEVER_PRINTED or (claim.fact == "range" and (alone or not (here or claim.apart))):
             return bool(claim.numbers & alone)
         return bool(claim.numbers & erratum.taken)
 
