@@ -6,9 +6,10 @@ changes.py      lines that were changed, added, removed, moved
 citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact
 explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words)
+notes.py        which sentences of the description say what changed
 drafts.py       what a new row seems to be, with its YAML
 comparing.py    all of it together; findings.py: as plain data; report.py: as lines
-places.py       where the files cite lines; renumbering.py: writing them anew
+places.py       where the files cite lines; renumbering.py: writing them anew; accepting.py: recording the new edition
 """
 
 from fieldscribe.audit.editions.citations import Citations

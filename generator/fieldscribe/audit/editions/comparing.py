@@ -10,6 +10,7 @@ from fieldscribe.audit.editions.citations import Citations
 from fieldscribe.audit.editions.drafts import Drafts
 from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
 from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Reason, Void
+from fieldscribe.audit.editions.notes import Notes
 from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK
 from fieldscribe.audit.manual import Manual
@@ -60,6 +61,7 @@ class _Comparing:
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
         self.drafts = Drafts(subject, self.new, pairs)
+        self.notes = Notes(subject, self.old, self.editions)
         self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
 
     def run(self) -> None:
@@ -71,6 +73,7 @@ class _Comparing:
         for number, change in enumerate(editions.changes):
             all_reasons = (*reasons.get(number, ()), *self.explaining.reasons(number, change))
             outcome.findings.append(self._finding(number, change, tuple(dict.fromkeys(all_reasons))))
+        outcome.notes = self.notes.stale(zip(editions.changes, outcome.findings, strict=True))
         moves = [self._of_move(move) for move in editions.moves]
         outcome.findings = sorted((*outcome.findings, *moves), key=lambda finding: finding.new or (0, 0))
         outcome.elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]

@@ -77,6 +77,16 @@ class Void:
     line: int
 
 
+@dataclass(frozen=True, slots=True)
+class StaleNote:
+    """A sentence of the description that says what a changed line said: whose it is, where, and what of which line."""
+
+    owner: str
+    key: str
+    place: str
+    said: tuple[tuple[str, str], ...]
+
+
 @dataclass(slots=True)
 class Comparison:
     """Everything that a new edition means for a description.
@@ -94,6 +104,7 @@ class Comparison:
     findings: list[Finding] = field(default_factory=list)
     elsewhere: list[Reason] = field(default_factory=list)
     void: list[Void] = field(default_factory=list)
+    notes: list[StaleNote] = field(default_factory=list)
     shifted: int = 0
     renumbered: bool = False
 
@@ -117,4 +128,5 @@ class Comparison:
             "findings": [finding.as_data() for finding in self.findings],
             "elsewhere": [values_of(reason) for reason in self.elsewhere],
             "void_errata": [values_of(void) for void in self.void],
+            "notes": [{**values_of(note), "said": dict(note.said)} for note in self.notes],
         }

@@ -25,7 +25,16 @@ def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
     for void in outcome.void:
         said = "the manual now prints what was taken: it can go" if void.is_corrected else "it is no longer printed so"
         yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: line {void.line}: {said}"))]
+    yield from stale_notes(outcome)
     yield from figures(outcome)
+
+
+def stale_notes(outcome: Comparison) -> Iterator[Line]:
+    """Sentences that say what a changed line does not say any more: whether they still hold is for a reader."""
+    for note in outcome.notes:
+        said = ", ".join(f"`{text}` ({where})" for text, where in note.said)
+        told = f": {note.key} of {note.owner} says {said}: does it still hold?"
+        yield [*_placed(note.place), ("hint", "note"), ("", visible(told))]
 
 
 def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
@@ -110,6 +119,8 @@ def figures(outcome: Comparison) -> Iterator[Line]:
     yield [("", f"  lines     {kinds}")]
     left = "all explained" if outcome.explained else f"{unexplained} not explained"
     yield [("", f"  findings  {len(outcome.findings)}, {left}")]
+    if outcome.notes:
+        yield [("", f"  notes     {len(outcome.notes)} to read again: they say what changed")]
     if outcome.renumbered:
         yield [("", "  numbers   the description counts the lines of the new edition")]
     elif outcome.shifted:
