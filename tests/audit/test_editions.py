@@ -232,7 +232,7 @@ def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
         "  access: r",
         "  range: 0..100",
         "  scale: value = raw * 0.5",
-        '  unit: "°C"',
+        "  unit: °C",
         "  line: 13",
     ]
     text = described.text

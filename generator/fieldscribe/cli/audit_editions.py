@@ -41,7 +41,24 @@ def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Doc
     path, document = manual_of(subject, arguments.manual)
     old_path, _ = manual_of(subject, arguments.old)
     old, new = (_edition(*text_of(place), document) for place in (old_path, path))
-    return *compare(subject, old, new), subject, document
+    return *compare(subject, old, new, _glossary(subject)), subject, document
+
+
+def _glossary(subject: Subject) -> dict[str, str]:
+    """English by the manual's words: the glossary beside the description's folder, or else the shipped one."""
+    from pathlib import Path
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.language.load import load
+    from fieldscribe.language.source import read_source
+    from fieldscribe.resources import descriptions_dir
+
+    own = Path(subject.scope.header.file.name).resolve().parent.parent / "glossary.yaml"
+    source = read_source(own if own.is_file() else descriptions_dir() / "glossary.yaml", Report())
+    file = next(iter(load(source, Report())), None) if source is not None else None
+    terms = file.get("terms") if file is not None else None
+    said = {word: [texts] if isinstance(texts, str) else texts for word, texts in (terms or {}).items()}
+    return {word.casefold(): str(texts[0])[:1].upper() + str(texts[0])[1:] for word, texts in said.items() if texts}
 
 
 def _edition(name: str, text: str, digest: str, document: Document) -> Edition:

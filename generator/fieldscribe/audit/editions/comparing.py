@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.citing import Claim
@@ -18,13 +19,14 @@ from fieldscribe.audit.wordings import Wordings
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.audit.editions.changes import Change, Move
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.subject import Subject
 
+_NO_WORDS: Mapping[str, str] = MappingProxyType({})
 _LONGEST = 160
 """Findings show at most so many characters of a line."""
 
@@ -38,8 +40,10 @@ class Edition:
     is_recorded: bool | None
 
 
-def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, Citations]:
-    """What the new edition means for the description, and what that cites."""
+def compare(
+    subject: Subject, old: Edition, new: Edition, glossary: Mapping[str, str] = _NO_WORDS
+) -> tuple[Comparison, Citations]:
+    """What the new edition means for the description, and what that cites; the glossary gives drafts English titles."""
     editions = Editions(old.text, new.text)
     citations = Citations(subject, editions)
     names = Wordings(subject.scope.header["documents"]).names
@@ -47,12 +51,20 @@ def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, C
     citations.settle(*manuals, accepted=bool(new.is_recorded))
     device = str(subject.scope.header["device"])
     outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
-    _Comparing(subject, citations, *manuals, outcome).run()
+    _Comparing(subject, citations, manuals, outcome, glossary).run()
     return outcome, citations
 
 
 class _Comparing:
-    def __init__(self, subject: Subject, citations: Citations, old: Manual, new: Manual, outcome: Comparison) -> None:
+    def __init__(
+        self,
+        subject: Subject,
+        citations: Citations,
+        manuals: tuple[Manual, Manual],
+        outcome: Comparison,
+        glossary: Mapping[str, str],
+    ) -> None:
+        old, new = manuals
         self.citations, self.editions, self.outcome = citations, citations.editions, outcome
         in_old, in_new = citations.in_old(), citations.in_new()
         self.old = in_old.trace(old, self.editions.old)
@@ -60,7 +72,7 @@ class _Comparing:
         pairs = list(map(Pair, citations.claims, in_old.claims, in_new.claims))
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
-        self.drafts = Drafts(subject, self.new, pairs)
+        self.drafts = Drafts(subject, self.editions, pairs, glossary)
         self.notes = Notes(subject, self.old, self.editions)
         self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
 
@@ -109,12 +121,8 @@ class _Comparing:
             words,
             tuple(dict.fromkeys(cites)),
             reasons,
-            tuple(self.drafts.of(line for line in change.new if self._is_new(line))) if reasons else (),
+            tuple(self.drafts.of(change.new)) if reasons else (),
         )
-
-    def _is_new(self, line: int) -> bool:
-        words = self.editions.new.of_line(line)
-        return bool(words) and all(map(self.editions.is_new, words))
 
     def _errata_at(self, change: Change) -> Iterator[Cite]:
         for erratum, in_old, in_new in self.errata:

@@ -30,11 +30,11 @@ class Reason:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """What a new row seems to be, its place in the description's YAML if it were pasted, and that YAML."""
+    """What new rows seem to be, where in the description's YAML they are to be pasted, and that YAML."""
 
     line: int
     kind: str
-    below: str
+    place: str
     yaml: str
 
 

@@ -99,8 +99,7 @@ def _shown(sign: str, lines: Iterable[str]) -> Iterator[Line]:
 
 
 def _of_draft(draft: Draft) -> Iterator[Line]:
-    below = f", to stand below {draft.below}" if draft.below else ""
-    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}{below}:"))]
+    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}, to stand {draft.place}:"))]
     for line in draft.yaml.splitlines():
         yield [("", visible(f"    {line}"))]
 
