@@ -7,7 +7,7 @@ citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact
 explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words)
 notes.py        which sentences of the description say what changed
-drafts.py       what new rows seem to be, with their YAML: likeness.py (as the rows beside them are written), new_groups.py
+drafts.py       what new rows seem to be: likeness.py (as the rows beside them are written), new_groups.py
                 (the group of a new table), titles.py (English where it is known)
 comparing.py    all of it together; findings.py: as plain data; report.py: as lines
 places.py       where the files cite lines; renumbering.py: writing them anew; accepting.py: recording the new edition

@@ -69,12 +69,18 @@ def _printed(point: DraftPoint, rows: list[Described]) -> dict[str, list[str]]:
     keys: dict[str, str] = {}
     for row in rows:
         for key, texts in row.printed.items():
-            same = (other for other, read in row.read.printed.items() if _numbers(read) == _numbers(texts))
-            keys.setdefault(key, key if key in OWN_PRINTED else next(same, key))
+            keys.setdefault(key, _read_as(key, texts, row.read))
     fullest = max((row.printed for row in rows), key=len, default={})
     read = {**point.printed, "range": [point.range] if point.range and _NUMBERS.fullmatch(point.range) else []}
     ordered = sorted(keys, key=lambda key: list(fullest).index(key) if key in fullest else len(fullest))
     return {key: read[keys[key]] for key in ordered if read.get(keys[key])}
+
+
+def _read_as(key: str, texts: list[str], read: DraftPoint) -> str:
+    """What a key of a described row is called where the row is read; the halves of a long value have one name."""
+    if key in OWN_PRINTED or key in read.printed or key.startswith(("low_", "high_")):
+        return key
+    return next((other for other, numbers in read.printed.items() if _numbers(numbers) == _numbers(texts)), key)
 
 
 def _numbers(texts: Iterable[str]) -> list[str]:
