@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     from fieldscribe.importing.drafts import DraftPoint
     from fieldscribe.resolve.points import Resolved
     from fieldscribe.resolve.subject import Subject
+
+_COLUMNS = re.compile(r"(?<=[^\s|]) {3,}(?=[^\s|])")
+"""What parts the columns of a table that is set with blanks alone."""
 
 
 class _Table(NamedTuple):
@@ -72,14 +76,16 @@ class Drafts:
             yield from self._of_table(table, list(here))
 
     def _is_new(self, line: int) -> bool:
+        """Whether the row opens with something new: its code or address."""
         words = self.editions.new.of_line(line)
-        return bool(words) and all(map(self.editions.is_new, words))
+        return bool(words) and self.editions.is_new(words[0])
 
     @cached_property
     def _rows(self) -> dict[int, _Row]:
         """All rows of the new edition that can be read as points, by line."""
         try:
-            drafted = draft(read_text("\n".join(self.editions.new.lines)), Wishes(ranges=self._ranges()))
+            text = "\n".join(_COLUMNS.sub("\t", line) for line in self.editions.new.lines)
+            drafted = draft(read_text(text), Wishes(ranges=self._ranges()))
         except UnreadableError:
             return {}
         points = {point.line: point for group in drafted.groups for point in group.points}
