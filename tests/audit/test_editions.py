@@ -395,6 +395,13 @@ def test_the_printed_edition_is_asked_for_and_recorded(described: Described) -> 
     assert described.audit("\n" + OLD, "--accept")[0] == 0  # what is recorded is not asked for again
 
 
+def test_what_the_accepted_text_alone_has_open_is_said(described: Described) -> None:
+    described.edit("numbers: [4711, 40.5]", "numbers: [4711]")
+    _, report = described.audit("\n" + OLD, "--renumber", "--accept", "--file", "old.txt")
+    assert report["refused"] is None
+    assert "the audit without --old has findings: fieldscribe audit" in report["written"][-1]
+
+
 @pytest.mark.parametrize("given", [("--file", "a/b.txt"), ("--edition", " "), ("--edition", "2" * 81)])
 def test_what_cannot_be_recorded_is_refused(given: tuple[str, str], described: Described) -> None:
     before = described.text

@@ -28,7 +28,7 @@ def run(arguments: Namespace) -> int:
     if arguments.accept and refused is None:
         refused = _left(citations, subject, document)
     if arguments.accept and refused is None:
-        written.append(_accept(arguments, subject, document))
+        written += [_accept(arguments, subject, document), *_not_clean(arguments, subject)]
     _report(arguments, outcome, written, refused)
     return FINE if outcome.explained and refused is None else FINDINGS
 
@@ -140,6 +140,17 @@ def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
         raise StopError(f"not accepted: documents.{document.id} has an alias: write it out", code=FINDINGS)
     rewrite({said.file.name: (said.file.text, text)})
     return f"accepted: {said.file.name}:{said.span('sha256').line} records the new edition"
+
+
+def _not_clean(arguments: Namespace, subject: Subject) -> list[str]:
+    """Whether the new text alone has more to look at: what a removed erratum said, say, though its line is the same."""
+    from fieldscribe.audit import audit
+    from fieldscribe.cli.audit import manual_of, text_of
+
+    name, text, _ = text_of(manual_of(subject, arguments.manual)[0])
+    if audit(subject, str(subject.scope.header["device"]), name, text, same_text=True).clean:
+        return []
+    return [f"the audit without --old has findings: fieldscribe audit {arguments.device} --manual {arguments.manual}"]
 
 
 def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
