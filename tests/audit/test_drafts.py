@@ -209,3 +209,33 @@ def test_a_pasted_group_compiles_but_for_what_is_asked(pump: Pump) -> None:
     assert pump.findings() == []
     reasons = [reason["text"] for finding in pump.audit(new)["findings"] for reason in finding["reasons"]]
     assert reasons == [], reasons
+
+
+RULED = """group: ruled
+title: {en: Setpoints, de: Sollwerte}
+space: holding
+access: rw
+addressing: number * 64 + index - 1
+source: {document: manual, section: Sollwerte}
+points:
+- {code: "P5[2]", name: first, title: {en: First, de: Sollwert 1}, at: 5, index: 2, line: 4, printed: {wire: 321}}
+- {code: "P5[3]", name: second, title: {en: Second, de: Sollwert 2}, at: 5, index: 3, line: 5, printed: {wire: 322}}
+"""
+ROWS = "# Sollwerte\n\nAdresse     Bezeichnung\n321         Sollwert 1\n322         Sollwert 2\n"
+
+
+def test_an_address_by_rule_has_the_number_and_index_of_its_run(pump: Pump) -> None:
+    """Also where blanks alone part the columns."""
+    (pump.folder / "old.txt").write_text(ROWS, "utf-8")
+    pump.write(DEVICE, RULED)
+    [draft] = pump.drafts(ROWS + "325         Zusatzwert\n")
+    assert draft["yaml"].splitlines() == [
+        "- name: zusatzwert  # ? in English",
+        "  title: {de: Zusatzwert}  # ? en",
+        "  at: 5",
+        "  index: 6",
+        "  line: 6",
+        "  printed: {wire: 325}",
+    ]
+    pump.write(DEVICE, RULED + draft["yaml"].replace("{de:", "{en: Extra, de:") + "\n")
+    assert pump.findings() == []

@@ -133,6 +133,8 @@ def _facts(point: DraftPoint, access: str | None, section: str, titled: Titled) 
     yield f"name: {point.name}"
     yield f"title: {titled(point.title or point.name)}"
     yield f"at: {point.shown}"
+    if point.index is not None:
+        yield f"index: {point.index}"
     if point.bits:
         yield f"bits: {point.bits}"
     if point.access and point.access != access:

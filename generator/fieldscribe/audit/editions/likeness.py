@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.citing import OWN_PRINTED
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map as Node
     from fieldscribe.resolve.points import Resolved
 
+_AT = "at"
+"""The number that a row was read to have as its address, where it prints no other."""
 _NUMBERS = re.compile(r"[-0-9., ]+")
 
 
@@ -48,14 +51,39 @@ class Described(NamedTuple):
 def like(point: DraftPoint, rows: Iterable[Described]) -> DraftPoint:
     """The point with its address and its printed numbers as the described rows have theirs."""
     rows = list(rows)
+    by_rule = any("addressing" in row.group for row in rows)
+    if by_rule:  # rows that name several parameters print the address of one of them
+        rows = [row for row in rows if row.printed] or rows
     numbers = [text for key, texts in point.printed.items() if key not in OWN_PRINTED for text in texts[:1]]
     point = replace(point, printed=_printed(point, rows), questions=list(point.questions))
     apart = Counter(apart for row in rows if (apart := _apart(row)) is not None).most_common(1)
-    by_rule = any("addressing" in row.group for row in rows)
-    if point.at is None or by_rule or not apart or apart[0][1] * 2 <= len(rows):
-        return replace(point, at=None, shown=f"~  # ? the row prints {', '.join(numbers) or point.shown}")
+    if point.at is None or not apart or apart[0][1] * 2 <= len(rows):
+        return _asking(point, numbers)
     at = point.at + apart[0][0]
+    if by_rule:
+        ruled = _by_rule(at, rows)
+        return replace(point, shown=str(ruled[0]), index=ruled[1]) if ruled else _asking(point, numbers)
     return replace(point, at=at, shown=f"{at:04X}h" if point.shown.endswith("h") else str(at))
+
+
+def _asking(point: DraftPoint, numbers: list[str]) -> DraftPoint:
+    return replace(point, at=None, shown=f"~  # ? the row prints {', '.join(numbers) or point.shown}")
+
+
+def _by_rule(address: int, rows: list[Described]) -> tuple[int, int] | None:
+    """Number and index of an address in a run of indices of one number, by those of the nearest rows of that run."""
+    runs: dict[int, dict[int, int]] = {}
+    for row in rows:
+        number, index, there = row.resolved.draft.get("at"), row.resolved.draft.get("index"), row.resolved.point.address
+        if isinstance(number, int) and isinstance(index, int) and there is not None:
+            runs.setdefault(number, {})[index] = there
+    below = [(max(run.values()), number) for number, run in runs.items() if min(run.values()) < address]
+    for _, number in sorted(below, reverse=True)[:1]:
+        (first, start), *others = sorted(runs[number].items())
+        steps = {Fraction(there - start, index - first) for index, there in others}
+        if len(steps) == 1 and (index := first + (address - start) / steps.pop()).denominator == 1:
+            return number, int(index)
+    return None
 
 
 def _apart(row: Described) -> int | None:
@@ -69,18 +97,26 @@ def _printed(point: DraftPoint, rows: list[Described]) -> dict[str, list[str]]:
     keys: dict[str, str] = {}
     for row in rows:
         for key, texts in row.printed.items():
-            keys.setdefault(key, _read_as(key, texts, row.read))
+            read_as = _read_as(key, texts, row.read)
+            if read_as != key or key not in keys:
+                keys[key] = read_as
     fullest = max((row.printed for row in rows), key=len, default={})
-    read = {**point.printed, "range": [point.range] if point.range and _NUMBERS.fullmatch(point.range) else []}
+    read = {
+        **point.printed,
+        _AT: [point.shown],
+        "range": [point.range] if point.range and _NUMBERS.fullmatch(point.range) else [],
+    }
     ordered = sorted(keys, key=lambda key: list(fullest).index(key) if key in fullest else len(fullest))
-    return {key: read[keys[key]] for key in ordered if read.get(keys[key])}
+    usual = [key for key in ordered if keys[key] != _AT or sum(key in row.printed for row in rows) * 2 > len(rows)]
+    return {key: read[keys[key]] for key in usual if read.get(keys[key])}
 
 
 def _read_as(key: str, texts: list[str], read: DraftPoint) -> str:
     """What a key of a described row is called where the row is read; the halves of a long value have one name."""
     if key in OWN_PRINTED or key in read.printed or key.startswith(("low_", "high_")):
         return key
-    return next((other for other, numbers in read.printed.items() if _numbers(numbers) == _numbers(texts)), key)
+    known = {**read.printed, _AT: [read.shown]}
+    return next((other for other, numbers in known.items() if _numbers(numbers) == _numbers(texts)), key)
 
 
 def _numbers(texts: Iterable[str]) -> list[str]:
