@@ -137,9 +137,11 @@ def test_a_row_is_drafted_as_its_neighbours_are_written(pump: Pump) -> None:
     ]
 
 
-def test_rows_side_by_side_are_one_draft_above_the_first_point(pump: Pump) -> None:
-    [draft] = pump.drafts(OLD.replace("| H01", DELAY + PUMP + "| H01"))
-    assert (draft["place"], draft["kind"]) == (f"above {pump.parts}/heating.yaml:8:11", "2 points")
+def test_rows_side_by_side_stand_one_below_the_other(pump: Pump) -> None:
+    rows = DELAY + PUMP + DELAY.replace("H09", "H11").replace("0019h/<br>0018h", "001Bh/<br>001Ah")
+    first, second, third = pump.drafts(OLD.replace("| H01", rows + "| H01"))
+    assert (first["place"], first["kind"]) == (f"above {pump.parts}/heating.yaml:8:11", "a point")
+    assert [second["place"], third["place"]] == ["below the point of line 6", "below the point of line 7"]
 
 
 def test_what_is_known_in_english_is_not_asked_for(pump: Pump) -> None:
@@ -189,11 +191,11 @@ def test_what_the_description_cannot_tell_is_asked_for(pump: Pump) -> None:
 @pytest.mark.parametrize("rows", [DELAY, PUMP, DELAY + PUMP])
 def test_a_pasted_row_compiles_but_for_what_is_asked(rows: str, pump: Pump) -> None:
     new = OLD.replace("\nEnde", rows + "\nEnde")
-    [draft] = pump.drafts(new)
-    pump.write(DEVICE, HEATING + draft["yaml"] + "\n")
-    asked = [number for number, line in enumerate((HEATING + draft["yaml"]).splitlines(), 1) if "# ?" in line]
+    drafted = "\n".join(draft["yaml"] for draft in pump.drafts(new))
+    pump.write(DEVICE, HEATING + drafted + "\n")
+    asked = [number for number, line in enumerate((HEATING + drafted).splitlines(), 1) if "# ?" in line]
     assert {finding["line"] for finding in pump.findings()} <= set(asked)
-    answered = draft["yaml"].replace("{de: Verzögerung}", "{en: Delay, de: Verzögerung}").replace("  # ? en", "")
+    answered = drafted.replace("{de: Verzögerung}", "{en: Delay, de: Verzögerung}").replace("  # ? en", "")
     pump.write(DEVICE, HEATING + answered + "\n")
     assert pump.findings() == []
     report = pump.audit(new)

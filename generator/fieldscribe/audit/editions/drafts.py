@@ -57,6 +57,7 @@ class Drafts:
         language = next((document.language for document in subject.scope.documents.values()), "en")
         self.titles = Titles(subject, language, glossary)
         points = {resolved.point.item: resolved for resolved in subject.resolved}
+        self._drafted_at: dict[str, int] = {}
         self._heads: dict[_Table, int] = {}
         self.points_at: dict[int, dict[str, tuple[Resolved, str]]] = {}
         for pair in pairs:
@@ -135,6 +136,9 @@ class Drafts:
         below = described.line < points[0].line
         indent = _indent(described)
         place = f"{'below' if below else 'above'} {described.place}"
+        last = self._drafted_at.get(place)
+        self._drafted_at[place] = points[-1].line
+        place = place if last is None else f"below the point of line {last}"
         return Draft(points[0].line, _counted(points), place, "\n".join(indent + line for line in lines))
 
     def _lines(self, point: DraftPoint, beside: list[Described], access: str | None, section: str) -> list[str]:
