@@ -13,6 +13,8 @@ from support.places import ROOT
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.full(seconds=4)
+
 ALWAYS_THERE = ("gcc", "g++", "arm-none-eabi-gcc", "cargo", "rustfmt", "cargo-clippy", "zsh", "fish")
 
 

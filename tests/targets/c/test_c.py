@@ -77,12 +77,11 @@ def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[Paramet
 
 
 AS_C = ("gcc", "c99", "float")
-AS_CPP = ("clang", "c++17", "no_float")
 QUICKEST = ("clang", "c99", "float")
 
 
 def quick_first(of_all: list[Build], *quick: tuple[str, str, str]) -> list[Build | ParameterSet]:
-    """The core suite takes one build of C with floating point; of made devices also one of C++ without, by clang."""
+    """The core suite takes one build of C with floating point."""
     return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all]
 
 
@@ -118,7 +117,7 @@ def passed(output: str) -> dict[str, int]:
     return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(STANDARDS, STANDARDS), AS_C, AS_CPP), ids=named)
+@pytest.mark.parametrize("build", quick_first(builds(STANDARDS, STANDARDS), AS_C), ids=named)
 @pytest.mark.parametrize("device", MADE)
 def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     """The sanitizers see most where nothing is optimized away."""

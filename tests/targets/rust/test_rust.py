@@ -416,6 +416,7 @@ def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: py
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("name", FAILS)
 def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> None:
     source = PROGRAMS / "fails" / f"{name}.rs"
@@ -428,6 +429,7 @@ def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> 
     assert all(said in done.stderr for said in re.findall("^// says: (.*)$", text, re.MULTILINE)), done.stderr
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize(
     ("source", "device"),
     [
@@ -458,11 +460,8 @@ def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path)
     assert not succeed([program])
 
 
-WIDEST = ("kitchen_sink", "rare")
-"""Made devices that take longest to compile."""
-
-
-@pytest.mark.parametrize("device", [pytest.param(name, marks=LONG if name in WIDEST else ()) for name in MODELS])
+@LONG
+@pytest.mark.parametrize("device", MODELS)
 def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None:
     """With checked arithmetic the compiler proves every sum: no object calls what panics."""
     out = shutil.copytree(libraries, tmp_path / "out")
