@@ -158,7 +158,7 @@ def _function_tails(view: PointView) -> list[str]:
 def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """The old names of everything that a renamed point has in the header."""
     words = view.words._replace(item=old.old_item, macro=upper(old.old_item))
-    function, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
+    function = f"{scope.prefix}_{words.item}"
     for (name, _), (new, _) in zip(defines(point, words, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
     for tail in _function_tails(view):
@@ -166,10 +166,11 @@ def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) 
         sort = "OBJECT" if tail == "_addresses" else "FLOATING_FUNCTION" if floats else "FUNCTION"
         yield replace(old, old=function + tail, new=view.function + tail, sort=sort)
     enum = named_numbers(point)
-    if view.enum is not None and enum is not None and enum.name == point.item:
-        yield replace(old, old=f"{function}_name", new=view.enum.function, sort="FUNCTION")
+    if view.enum is not None and enum is not None and enum.was:
+        before = enum.was[point.was.index(old.was)]
+        yield replace(old, old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
         for entry, (new, _, _) in zip(enum.entries, view.enum.entries, strict=True):
-            yield replace(old, old=f"{macro}_{upper(entry.name)}", new=new, sort="NUMBER")
+            yield replace(old, old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
 def _aliases_of_structs(placed: Iterable[Placed], scope: HeaderScope) -> Iterator[AliasView]:
