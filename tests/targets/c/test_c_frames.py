@@ -13,11 +13,14 @@ from fieldscribe.targets import c
 from support import wrong_bytes
 from support.c_device import SANITIZERS, STANDARDS, WARNINGS, driver, write_headers
 from support.described import made, shipped
+from support.models import changed
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from fieldscribe.model import Point
 
 FAMILIES = ("can", "uss")
 KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss")
@@ -983,12 +986,20 @@ int main(void)
 """
 
 
+def renamed(point: Point) -> Point:
+    """The point with an old name, which its enum had too if it is called after the point."""
+    enum, was = point.enum, (f"old_{point.name}",)
+    if enum is None or enum.name != point.item:
+        return replace(point, was=was)
+    return changed(point, was=was, enum=replace(enum, was=was))
+
+
 def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
     """Frames, structs and enums of its own like constants and functions."""
     for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss"):
         kitchen = made(name)
         plain = replace(kitchen, points=tuple(replace(one, was=()) for one in kitchen.points))
-        points = tuple(replace(one, was=(f"old_{one.name}",)) if one.generated else one for one in plain.points)
+        points = tuple(renamed(one) if one.generated else one for one in plain.points)
         device = replace(plain, points=points)
         names = {name for one in c.identifiers(device) for name in one.names}
         assert {name for one in c.identifiers(plain) for name in one.names} < names
