@@ -69,7 +69,7 @@ from .modbus import (
     Profile,
     Transport,
 )
-from .named import NamedNumber
+from .named import NamedNumber, renamed_classes
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -165,5 +165,6 @@ __all__ = [
     "input_register",
     "parameter",
     "renamed",
+    "renamed_classes",
     "telegram",
 ]

@@ -7,11 +7,11 @@
 
     with SerialLine('/dev/ttyUSB0', 9600) as line:
         drive = JumoController(line, 1)
-        print(drive.setpoint_1.read())
-        drive.setpoint_1.write(value)
+        print(drive.proportional_band_1_set_2.read())
+        drive.proportional_band_1_set_2.write(value)
         drive.read_many('examples')
-    JumoController.setpoint_1.decode(raw)
-    help(JumoController.setpoint_1)
+    JumoController.proportional_band_1_set_2.decode(raw)
+    help(JumoController.proportional_band_1_set_2)
 
 A transport carries bytes or frames to the bus and back: see the help of the class. Without
 one the points of the class convert between values and raw numbers.

@@ -15,11 +15,11 @@ class JumoController(Points, Device):
 
         with SerialLine('/dev/ttyUSB0', 9600) as line:
             drive = JumoController(line, 1)
-            print(drive.setpoint_1.read())
-            drive.setpoint_1.write(value)
+            print(drive.proportional_band_1_set_2.read())
+            drive.proportional_band_1_set_2.write(value)
             drive.read_many('examples')
-        JumoController.setpoint_1.decode(raw)
-        help(JumoController.setpoint_1)
+        JumoController.proportional_band_1_set_2.decode(raw)
+        help(JumoController.proportional_band_1_set_2)
 
     The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
     `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
@@ -35,11 +35,11 @@ class JumoControllerAsync(Points, AsyncDevice):
 
         async with AsyncSerialLine(SerialLine('/dev/ttyUSB0', 9600)) as line:
             drive = JumoControllerAsync(line, 1)
-            print(await drive.setpoint_1.read())
-            await drive.setpoint_1.write(value)
+            print(await drive.proportional_band_1_set_2.read())
+            await drive.proportional_band_1_set_2.write(value)
             await drive.read_many('examples')
-        JumoControllerAsync.setpoint_1.decode(raw)
-        help(JumoControllerAsync.setpoint_1)
+        JumoControllerAsync.proportional_band_1_set_2.decode(raw)
+        help(JumoControllerAsync.proportional_band_1_set_2)
 
     The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
     `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found

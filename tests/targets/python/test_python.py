@@ -671,13 +671,13 @@ def test_help_shows_how_a_device_is_used(folder: Path) -> None:
                 "",
                 "with SerialLine('/dev/ttyUSB0', 9600) as line:",
                 "drive = SampleDrive(line, 1, voltage_class='200V')",
-                "print(drive.base_frequency.read())",
-                "drive.base_frequency.write(value)",
+                "print(drive.acceleration_time.read())",
+                "drive.acceleration_time.write(value)",
                 "drive.read_many('main')",
-                "SampleDrive.base_frequency.decode(raw)",
-                "help(SampleDrive.base_frequency)",
+                "SampleDrive.acceleration_time.decode(raw)",
+                "help(SampleDrive.acceleration_time)",
             ]
-        assert "await drive.base_frequency.read()" in awaited.__doc__
+        assert "await drive.acceleration_time.read()" in awaited.__doc__
         assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
         told = pydoc.plain(pydoc.render_doc(drive))
         assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())

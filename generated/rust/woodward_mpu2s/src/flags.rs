@@ -7,7 +7,7 @@
 //! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
 //! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
 //!
-//! [`ALL_FALSE`]: PresentFaultClasses::ALL_FALSE
+//! [`ALL_FALSE`]: DigitalInputs1To4Logic::ALL_FALSE
 
 use core::fmt;
 

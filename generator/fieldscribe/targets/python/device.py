@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
@@ -74,13 +75,15 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
 
 
 def _example(device: Device) -> Point | None:
-    """The point for the example: one to read and write, else one to read; of these the first that is a quantity."""
+    """The point for the example: one to read and write, else one to read; of these one that is a quantity."""
     for is_fit in (_is_settable, _is_usual):
-        quantities = filter(_is_quantity, filter(is_fit, device.points))
-        point = next(quantities, None) or next(filter(is_fit, device.points), None)
-        if point is not None:
-            return point
+        fitting = list(filter(is_fit, device.points))
+        if fitting:
+            return min(filter(_is_quantity, fitting), key=_RANK, default=None) or min(fitting, key=_RANK)
     return None
+
+
+_RANK = attrgetter("rank")
 
 
 def _is_usual(point: Point) -> bool:
