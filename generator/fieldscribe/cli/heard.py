@@ -17,7 +17,7 @@ from fieldscribe.wording.buses import spaced
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.answers import Bits, Heard
     from fieldscribe.model import Device
 
 _STEP = 2
@@ -66,13 +66,24 @@ class _Text:
 def _rows(heard: Heard) -> Iterator[tuple[str, str]]:
     yield "Frame", heard.summary
     for item in heard.items:
-        yield "Says", item.text
+        yield "Says", item.head or item.text
+        yield from map(_flag, item.flags)
     if heard.checks:
         yield "Header" if heard.framing == "tcp" else "Checksum", heard.checks
     for fault in (*heard.faults, *heard.findings):
         yield "Wrong", fault
     for note in heard.notes:
         yield "Note", note
+
+
+def _flag(bits: Bits) -> tuple[str, str]:
+    """One line: the bits, their number, their name and what the number means."""
+    label = f"Bit {bits.low}" if bits.high == bits.low else f"Bits {bits.high}..{bits.low}"
+    if bits.name is None:
+        return label, f"{bits.raw}  not named by the manual"
+    inverted = " (true when 0)" if bits.true is not None and bits.true != bool(bits.raw) else ""
+    says_more = bits.text.casefold().replace(" ", "_") not in ("", bits.name)
+    return label, f"{bits.raw}  {bits.name}{inverted}" + (f": {bits.text}" if says_more else "")
 
 
 class _JsonLines:

@@ -14,14 +14,15 @@ from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import words_of
 from fieldscribe.conversation.refusals import amount_with_unit, failure
 from fieldscribe.conversation.texts import shown, text_of
+from fieldscribe.families.answers import Bits
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text, rounded
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
-    from fieldscribe.model import Device, Flag, Point
+    from fieldscribe.model import Device, Entry, Flag, Point
 
 
 _NAMELESS = "{}, a number without a name in the manual"
@@ -37,6 +38,7 @@ class Meaning:
     value: str | None = None
     missing: tuple[str, ...] = ()
     hint: str = ""
+    flags: tuple[Bits, ...] = ()
 
 
 class Meanings:
@@ -60,7 +62,10 @@ class Meanings:
         if point.text is not None:
             return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
         named = self._named(raw)
-        return self._quantity(raw, settings) if named is None else Meaning(named)
+        if named is None:
+            return self._quantity(raw, settings)
+        is_special = bool(point.shape.specials) and point.special(raw) is not None
+        return Meaning(named, flags=() if is_special else tuple(self._bits(raw)))
 
     def lacks(self, settings: Settings) -> bool:
         """Whether the scale needs other points than those with these settings."""
@@ -96,6 +101,16 @@ class Meanings:
             bits = [str(bit) for bit in range(self._point.width) if rest >> bit & 1]
             parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
         return line("; ".join(parts))
+
+    def _bits(self, raw: int) -> Iterator[Bits]:
+        """What each flag says, and each set bit that the manual does not name; nothing for other points."""
+        lowest = self._point.bits[1] if self._point.bits else 0
+        for flag in self._flags:
+            yield flag.bits(raw, lowest)
+        rest = raw & ~self._named_bits if self._flags else 0
+        for bit in range(self._point.width):
+            if rest >> bit & 1:
+                yield Bits(lowest + bit, lowest + bit, None, 1, None, "")
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
         point, shape = self._point, self._point.shape
@@ -165,6 +180,16 @@ class _Flag:
         """Whether it is a single bit whose name is not true."""
         return self.mask == 1 and raw >> self.low & 1 != self._flag.active
 
+    def bits(self, raw: int, lowest: int) -> Bits:
+        """The flag as a fact; `lowest` is the bit of the word where the point begins."""
+        flag, low = self._flag, lowest + self.low
+        number = raw >> self.low & self.mask
+        entry = next((entry for entry in flag.values if entry.raw == number), None)
+        told = "" if entry is None else line(_told(entry))
+        return Bits(
+            low + flag.width - 1, low, flag.name, number, None if flag.width > 1 else number == flag.active, told
+        )
+
     def text(self, raw: int) -> str:
         """The flag with its number."""
         number = raw >> self.low & self.mask
@@ -223,6 +248,11 @@ def _digits_text(point: Point, raw: int) -> str:
         quantity = f" ({entry.quantity})" if entry is not None and entry.quantity else ""
         parts.append(f"{digit} {named}{quantity}")
     return line("digits " + ", ".join(parts))
+
+
+def _told(entry: Entry) -> str:
+    """What a number of a flag means: its English title, behind its name where it has one of its own."""
+    return entry.title["en"] if entry.name in ("zero", "one") else f"{entry.name} ({entry.title['en']})"
 
 
 def _flag_text(flag: Flag, number: int) -> str:

@@ -54,16 +54,24 @@ class Voice:
     def _said(self, raw: int, settings: Settings) -> Item:
         point = self._point
         meaning = self._meanings.of(raw, settings)
-        text = f"{self._head}{meaning.text} ({self._raw_text(raw)}): {self._title}"
-        odd = ""
+        odd = remark = ""
         if self._written:
             odd = absence(self._device, point) or range_remark(self._device, point, raw, settings)
             remark = odd or unchecked_remark(self._device, point, raw, settings)
-            text += f"; {remark}" if remark else ""
-        text += f"; {meaning.hint}" if meaning.hint else ""
-        shown, findings = None if self._is_text else raw, (odd,) if odd else ()
+        number = self._raw_text(raw)
+        remarks = "".join(f"; {text}" for text in (remark, meaning.hint) if text)
+        rest = f": {self._title}{remarks}"
         return Item(
-            *self._base, line(text), self._point_item, point.code, shown, meaning.value, meaning.missing, findings
+            *self._base,
+            line(f"{self._head}{meaning.text} ({number}){rest}"),
+            self._point_item,
+            point.code,
+            None if self._is_text else raw,
+            meaning.value,
+            meaning.missing,
+            (odd,) if odd else (),
+            line(f"{self._head}{number}{rest}") if meaning.flags else "",
+            meaning.flags,
         )
 
 

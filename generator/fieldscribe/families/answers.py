@@ -16,10 +16,31 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
+class Bits:
+    """What some bits of a word say: `raw` is their number, `true` whether the name of a single bit holds.
+
+    Set bits that the manual does not name have no name. `text` is what the number means, where the manual says it.
+    """
+
+    high: int
+    low: int
+    name: str | None
+    raw: int
+    true: bool | None
+    text: str
+
+    def as_data(self) -> dict[str, object]:
+        """The same for JSON."""
+        own = {"name": self.name, "raw": self.raw, "true": self.true, "text": self.text}
+        return {"bits": [self.high, self.low], **own}
+
+
+@dataclass(frozen=True, slots=True)
 class Item:
     """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `text` alone tells a person everything. `missing` names the points whose raw numbers are needed to work out the
+    `text` alone tells a person everything; `head` is the same without the flags, where `flags` are told one by one.
+    `missing` names the points whose raw numbers are needed to work out the
     value. `findings` say what the device refuses or which address the manual closes; `text` repeats them.
     """
 
@@ -33,6 +54,8 @@ class Item:
     value: str | None = None
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
+    head: str = ""
+    flags: tuple[Bits, ...] = ()
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -44,6 +67,7 @@ class Item:
             "code": self.code,
             "raw": self.raw,
             "value": self.value,
+            "flags": [bits.as_data() for bits in self.flags],
             "missing": list(self.missing),
             "findings": list(self.findings),
             "text": self.text,
