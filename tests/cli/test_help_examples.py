@@ -9,7 +9,7 @@ import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import COMMANDS, command_of
 from support.described import shipped
-from support.help_examples import audited, drafted, examples_of, ran, stops_at_once, workplace
+from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -162,6 +162,20 @@ CLAIMS = {
         "heat_pump --out bindings": Claim(0, r"^\d\d:\d\d:\d\d heat_pump: \d+ written", made="bindings/c/heat_pump.h"),
         "--target c,docs": Claim(0, r"^\d\d:\d\d:\d\d 5 devices: \d+ written", made="generated/docs/hitachi_l200.md"),
     },
+    "vendor": {
+        "c hitachi_l200 --out firmware/drivers": Claim(0, "", made="firmware/drivers/hitachi_l200.h"),
+        "c hitachi_l200 --out firmware/drivers --points A001,D001,run_command": Claim(
+            0, "", made="firmware/drivers/hitachi_l200.h"
+        ),
+        "c hitachi_l200 --out firmware/drivers --points @points.txt --single-file": Claim(
+            0, "", made="firmware/drivers/hitachi_l200.h"
+        ),
+        "python woodward_mpu2s --out tools": Claim(0, "", made="tools/woodward_mpu2s/__init__.py"),
+        'rust siemens_mm4 --out crates --points "P10*,status_word"': Claim(
+            0, "", made="crates/siemens_mm4/Cargo.toml"
+        ),
+        "--check": Claim(1, r"missing: vendored/hitachi_l200\.h"),
+    },
     "units": {
         "": Claim(0, r"^Hz +hertz \(frequency\)"),
         "kVAh mW": Claim(0, r"kVAh +kilovolt-ampere-hour .*= 1000 VAh\nmW +milliwatt "),
@@ -199,6 +213,8 @@ def test_examples_do_what_they_show(
         audited(folder)
     if command in ("diff", "fmt", "watch"):
         drafted(folder, capsys)
+    if command == "vendor":
+        asked_for(folder)
     if command == "watch":
         stops_at_once(monkeypatch)
     if command in ("decode", "encode", "explain"):

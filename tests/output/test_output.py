@@ -8,7 +8,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.output.manifests import Manifests, read_manifest
+from fieldscribe.output.manifests import Manifests
 from fieldscribe.output.plan import Plan, changed_since, plan_of
 from fieldscribe.output.spool import Spool, kept
 from fieldscribe.output.writing import carry_out
@@ -93,7 +93,7 @@ def test_removes_only_what_the_manifest_says_of_that_device_and_target(tmp_path:
     generate(tmp_path, "drive", smaller)
     assert {"c/mine.h", "c/drive2.h", "docs/drive.csv"} <= written(tmp_path).keys()
     assert "c/drive.h" not in written(tmp_path)
-    assert list(read_manifest(tmp_path / "manifest/drive.json")["docs"]) == ["docs/drive.csv"]
+    assert list(Manifests(tmp_path).of("drive")["docs"]) == ["docs/drive.csv"]
 
 
 def test_keeps_what_another_device_shares(tmp_path: Path) -> None:
@@ -273,8 +273,8 @@ def test_the_manifest_of_another_device_is_none_of_ours(tmp_path: Path) -> None:
     """Copied beside its own, it would have the outputs of that device removed."""
     generate(tmp_path, "drive", FILES)
     (tmp_path / "manifest/copy.json").write_bytes((tmp_path / "manifest/drive.json").read_bytes())
-    assert read_manifest(tmp_path / "manifest/copy.json") == {}
-    assert sorted(read_manifest(tmp_path / "manifest/drive.json")) == ["c", "docs"]
+    assert Manifests(tmp_path).of("copy") == {}
+    assert sorted(Manifests(tmp_path).of("drive")) == ["c", "docs"]
 
 
 def test_a_manifest_with_a_conflict_of_git_is_still_ours(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ ROOMS = (
     ("nodes to the model", "resolve"),
     ("what a family reads of its own keys", "families.*.reading families.*.messages"),
     ("what compiled languages need alike", "lowered"),
-    ("the registry of targets", "targets targets.identifiers"),
+    ("the registry of targets", "targets targets.identifiers targets.heads"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),
     ("checks", "checks"),
@@ -46,6 +46,7 @@ ROOMS = (
     ("what talks to people", "conversation audit export differences importing finding"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
+    ("what a project takes", "vendoring"),
     ("a person at work on a description", "working"),
     ("the command line", "cli __main__"),
 )

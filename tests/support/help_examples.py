@@ -85,6 +85,7 @@ def workplace(folder: Path) -> Path:
         "list.csv": "1;x;Speed;y;z;0..400\nA001;x;1;y;z;0..400\n",
         "manual.txt": "\n" * 700 + _TEXT,
         "status.yaml": _STATUS,
+        "points.txt": "A020\nd001\n",
     }.items():
         (folder / name).write_text(text, "utf-8")
     return folder
@@ -122,6 +123,12 @@ def drafted(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         capsys.readouterr()
         assert main(["export", "json", "hitachi_l200"]) == 0
     (folder / "released.json").write_text(capsys.readouterr().out, "utf-8")
+
+
+def asked_for(folder: Path) -> None:
+    """A project that asks for a device which is not there yet."""
+    asked = 'out = "vendored"\ntargets = ["c"]\n\n[[devices]]\ndevice = "hitachi_l200"\n'
+    (folder / "fieldscribe.toml").write_text(asked, "utf-8")
 
 
 def stops_at_once(patch: pytest.MonkeyPatch) -> None:

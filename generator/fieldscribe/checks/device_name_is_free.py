@@ -16,13 +16,14 @@ def check(subject: Subject) -> None:
     """The first reason why the name is taken, if there is one."""
     header = subject.scope.header
     name = str(header["device"])
-    for taken in _reasons(name):
+    for taken in reasons(name):
         hint = "name it after vendor and model, such as `hitachi_l200`"
         subject.report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)
         return
 
 
-def _reasons(name: str) -> Iterator[str]:
+def reasons(name: str) -> Iterator[str]:
+    """Why a device may not have that name, as a sentence goes on behind it."""
     from fieldscribe.targets import TARGETS, target
 
     if name in _UNSAFE:

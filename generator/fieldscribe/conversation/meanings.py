@@ -11,13 +11,14 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.lines import Line
-from fieldscribe.arithmetic.words import words_of
-from fieldscribe.conversation.refusals import amount_with_unit, failure
+from fieldscribe.arithmetic.words import mask_of, words_of
+from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.families.answers import Bits
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, number_text, rounded
+from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -51,10 +52,12 @@ class Meanings:
         self._device = device
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
-        self._flags = [_Flag(flag) for flag in point.flags]
-        self._named_bits = sum(flag.mask << flag.low for flag in self._flags)
+        lowest = point.bits[1] if point.bits else 0
+        self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, lowest)) for flag in point.flags]
+        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
         self._needs = point.scale_arguments
-        self._rules: dict[tuple[object, ...], Line | Meaning] = {}
+        self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
+        self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a raw number, where other points hold these settings."""
@@ -64,8 +67,9 @@ class Meanings:
         named = self._named(raw)
         if named is None:
             return self._quantity(raw, settings)
-        is_special = bool(point.shape.specials) and point.special(raw) is not None
-        return Meaning(named, flags=() if is_special else tuple(self._bits(raw)))
+        if not self._flags or (point.shape.specials and point.special(raw) is not None):
+            return Meaning(named)
+        return Meaning(named, flags=tuple(self._bits(raw)))
 
     def lacks(self, settings: Settings) -> bool:
         """Whether the scale needs other points than those with these settings."""
@@ -91,8 +95,9 @@ class Meanings:
     def _flags_text(self, raw: int) -> str:
         true: list[str] = []
         false: list[str] = []
-        for flag in self._flags:
-            (false if flag.is_false(raw) else true).append(flag.text(raw))
+        for low, mask, said in self._flags:
+            is_false, text, _ = said[raw >> low & mask]
+            (false if is_false else true).append(text)
         parts = [", ".join(true) if true else "none set"]
         if false:
             parts.append(f"not set: {', '.join(false)}")
@@ -103,33 +108,28 @@ class Meanings:
         return line("; ".join(parts))
 
     def _bits(self, raw: int) -> Iterator[Bits]:
-        """What each flag says, and each set bit that the manual does not name; nothing for other points."""
-        lowest = self._point.bits[1] if self._point.bits else 0
-        for flag in self._flags:
-            yield flag.bits(raw, lowest)
-        rest = raw & ~self._named_bits if self._flags else 0
-        for bit in range(self._point.width):
+        """What each flag says, and each set bit that the manual does not name."""
+        for low, mask, said in self._flags:
+            yield said[raw >> low & mask][2]
+        rest = raw & ~self._named_bits
+        lowest = self._point.bits[1] if rest and self._point.bits else 0
+        for bit in range(rest.bit_length()):
             if rest >> bit & 1:
                 yield Bits(lowest + bit, lowest + bit, None, 1, None, "")
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
-        point, shape = self._point, self._point.shape
+        shape = self._point.shape
         if shape.info.floating or (shape.most_raw is not None and abs(raw) > shape.most_raw):
             return self._computed(raw, settings)
         rule = self._rule(settings)
-        if isinstance(rule, Meaning):
-            return rule
-        value = Fraction(raw * rule.factor + rule.add, rule.divisor)
-        if shape.display is None:
-            return Meaning(amount_with_unit(point, value), number_text(value))
-        shown_value = rounded(value.numerator, value.denominator, shape.display)
-        return Meaning(wording.with_unit(shown_value, point), number_text(value))
+        return rule if isinstance(rule, Meaning) else rule.meaning(raw)
 
-    def _rule(self, settings: Settings) -> Line | Meaning:
+    def _rule(self, settings: Settings) -> _Scale | Meaning:
         """The scale in force, or why there is none: neither depends on the raw number."""
-        # a special code equals the plain number, and is no quantity
-        held = [settings.get(name) for name in self._needs]
-        key = (*held, *map(type, held)) if held else ()
+        key: tuple[object, ...] = ()
+        if self._needs:  # a special code equals the plain number, and is no quantity: so the types
+            held = [settings.get(name) for name in self._needs]
+            key = (*held, *map(type, held))
         rule = self._rules.get(key)
         if rule is None:
             if len(self._rules) >= _MOST_RULES:
@@ -137,7 +137,7 @@ class Meanings:
             rule = self._rules[key] = self._found_rule(settings)
         return rule
 
-    def _found_rule(self, settings: Settings) -> Line | Meaning:
+    def _found_rule(self, settings: Settings) -> _Scale | Meaning:
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))
@@ -146,7 +146,7 @@ class Meanings:
         except CodecError as error:
             return self._unknown(error)
         factor, add = offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator
-        return Line.reduced(factor, add, offset.denominator * ratio.numerator)
+        return _Scale(point, Line.reduced(factor, add, offset.denominator * ratio.numerator))
 
     def _computed(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a bit pattern, and of a number that the scale cannot compute with."""
@@ -164,41 +164,44 @@ class Meanings:
         return Meaning(wording.with_unit(said, point), number_text(value))
 
     def _unknown(self, error: CodecError) -> Meaning:
-        message, hint = failure(self._device, self._point, error)
+        why = error.status, error.missing
+        if why not in self._failures:  # as many as there are ways to fail
+            self._failures[why] = failure(self._device, self._point, error)
+        message, hint = self._failures[why]
         return Meaning(f"not known: {message}", None, error.missing, hint)
 
 
-class _Flag:
-    """A flag, and what each of its numbers is called."""
+class _Scale:
+    """The values of a point under a rule that is settled, as text; what does not depend on the number is worked out."""
 
-    def __init__(self, flag: Flag) -> None:
-        self.low, self.mask = flag.low, (1 << flag.width) - 1
-        self._flag = flag
-        self._texts: dict[int, str] = {}
+    def __init__(self, point: Point, rule: Line) -> None:
+        self._rule, self._decimals = rule, point.display
+        self._unit = wording.with_unit(" ", point)[1:]
+        self._places = decimal_places(rule.divisor)
+        self._parts = 0 if self._places is None else 10**self._places // rule.divisor
 
-    def is_false(self, raw: int) -> bool:
-        """Whether it is a single bit whose name is not true."""
-        return self.mask == 1 and raw >> self.low & 1 != self._flag.active
+    def meaning(self, raw: int) -> Meaning:
+        """The meaning of a raw number."""
+        factor, add, divisor = self._rule
+        number = raw * factor + add
+        exactly = exact(number, divisor) if self._places is None else shortest(number * self._parts, self._places)
+        if self._decimals is not None:
+            return Meaning(rounded(number, divisor, self._decimals) + self._unit, exactly)
+        said = exactly if is_short(exactly) else amount(Fraction(number, divisor))
+        return Meaning(said + self._unit, exactly)
 
-    def bits(self, raw: int, lowest: int) -> Bits:
-        """The flag as a fact; `lowest` is the bit of the word where the point begins."""
-        flag, low = self._flag, lowest + self.low
-        number = raw >> self.low & self.mask
+
+def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits]]:
+    """By the number of a flag: whether it is a bit whose name is not true, what it is called, and both as a fact."""
+    is_bit, low = flag.width == 1, lowest + flag.low
+
+    def said(number: int) -> tuple[bool, str, Bits]:
         entry = next((entry for entry in flag.values if entry.raw == number), None)
         told = "" if entry is None else line(_told(entry))
-        return Bits(
-            low + flag.width - 1, low, flag.name, number, None if flag.width > 1 else number == flag.active, told
-        )
+        true = number == flag.active if is_bit else None
+        return true is False, _flag_text(flag, number), Bits(low + flag.width - 1, low, flag.name, number, true, told)
 
-    def text(self, raw: int) -> str:
-        """The flag with its number."""
-        number = raw >> self.low & self.mask
-        text = self._texts.get(number)
-        if text is None:
-            text = _flag_text(self._flag, number)
-            if self.mask <= _MOST_RULES:
-                self._texts[number] = text
-        return text
+    return Remembered(_MOST_RULES, said)
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
@@ -218,7 +221,8 @@ def raw_form(point: Point) -> Callable[[int], str]:
     if point.text is not None:
         return lambda raw: f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
     digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
-    return lambda raw: f"raw {raw} = {hex_text(raw & mask, digits)}"
+    form = f"raw {{}} = {{:0{digits}X}}h".format
+    return lambda raw: form(raw, raw & mask)
 
 
 def _shortest(point: Point, raw: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -213,7 +213,10 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Device:
-    """One product with one register map. `digest` covers the facts that generated code depends on, and no others."""
+    """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
+
+    `asked` is the command that makes its output, where that is not `fieldscribe generate`; it is no fact.
+    """
 
     id: str
     version: str
@@ -235,3 +238,4 @@ class Device:
     digest: str
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
+    asked: str = field(default="", repr=False)

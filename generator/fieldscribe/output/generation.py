@@ -185,8 +185,8 @@ class Generation:
 
 
 def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:
-    from fieldscribe.output.manifests import manifest_path
+    from fieldscribe.output.manifests import GENERATED
 
-    yield manifest_path(device.id)
+    yield GENERATED.manifest(device.id)
     for files in files_of_targets.values():
         yield from files

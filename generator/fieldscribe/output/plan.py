@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.manifests import made_of, manifest_path, manifest_text
+from fieldscribe.output.manifests import made_of, manifest_text
 from fieldscribe.output.spool import Kept, kept
 from fieldscribe.reading import kind_of, read_regular, state_of
 from fieldscribe.records import dataclass, field
@@ -33,6 +33,8 @@ class Plan:
     """What differs between what should be in the output folder and what is there; paths relative to it."""
 
     device: str
+    record: str
+    """The path of the manifest."""
     targets: Targets
     """The device's files as the manifest will record them."""
     pending: bytes
@@ -44,17 +46,19 @@ class Plan:
     """Foreign files in the way, with the reason why they may not be replaced."""
     kept: list[str] = field(default_factory=list)
     """Files of ours that are no longer generated, but stay because somebody edited them."""
+    asked: Mapping[str, object] | None = None
+    """What the manifest also says: how the files were asked for."""
 
     @property
     def digests(self) -> dict[str, str]:
         """The checksums of all files, with the manifest's, by path."""
         digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
-        return {**digest_of_path, manifest_path(self.device): kept(self.manifest).digest}
+        return {**digest_of_path, self.record: kept(self.manifest).digest}
 
     @property
     def manifest(self) -> bytes:
         """The manifest as it will stand."""
-        return manifest_text(self.device, self.targets).encode()
+        return manifest_text(self.device, self.targets, self.asked).encode()
 
     @property
     def stale(self) -> list[str]:
@@ -69,13 +73,15 @@ def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made
         target: {path: (contents.digest,) for path, contents in files.items()}
         for target, files in files_of_targets.items()
     }
-    plan = Plan(device, {**before, **now}, manifest_text(device, _both(before, now)).encode())
+    asked = manifests.asked(device)
+    pending = manifest_text(device, _both(before, now), asked).encode()
+    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending, asked=asked)
     planner = _Planner(out, manifests, plan, force)
     for files in files_of_targets.values():
         for path, contents in files.items():
             planner.add(path, contents)
     planner.add_left_over(files_of_targets)
-    planner.add(manifest_path(device), kept(plan.manifest))
+    planner.add(plan.record, kept(plan.manifest))
     return plan
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.manifests import manifest_path
 from fieldscribe.output.plan import inside
 from fieldscribe.reading import state_of
 
@@ -28,9 +27,8 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
     for folder in {(out / path).parent for path in (*plan.unchanged, *plan.write)}:
         (folder / _NEW).unlink(missing_ok=True)  # left by a killed run
     states = dict(plan.unchanged)
-    record = manifest_path(plan.device)
-    if record in plan.write:
-        replace(inside(out, record), (plan.pending,))
+    if plan.record in plan.write:
+        replace(inside(out, plan.record), (plan.pending,))
     for path, contents in plan.write.items():  # the manifest comes last
         states[path] = replace(inside(out, path), contents.pieces())
     for path in plan.remove:

@@ -33,6 +33,12 @@ if TYPE_CHECKING:
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
             """Real source that goes beside them: path below the output folder, and path below the templates folder."""
 
+        def vendored(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
+            """What a project needs to use the device, without tests: path below the project's folder, and text."""
+
+        def vendored_runtime(self, device: Device) -> Iterable[tuple[str, str]]:
+            """Real source that goes beside it: path below the project's folder, and path below the templates."""
+
         def identifiers(self, device: Device) -> Iterable[Names]:
             """Every name that the device gets in generated code; none where names cannot meet."""
 

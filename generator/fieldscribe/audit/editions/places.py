@@ -11,6 +11,7 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys.shapes import LINES_OF
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.value_checks import compiled_pattern
+from fieldscribe.wording.lines import LINES_NAMED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P<last>[0-9]+))?)""")
 _SENTENCES = ("note", "printed", "taken", "where", "why")
 """The keys whose texts may name lines."""
-_LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
 _COMMENT = re.compile(r"(?:^|\s)#")
 _NUMBER = re.compile(r"(?P<run>to\s+|\.\.\s*)?(?P<line>[0-9]+)")
 
@@ -120,13 +120,13 @@ class _Walk:
 
     def _sentence(self, holder: Map, key: str) -> None:
         source, span = holder.file, holder.span(key)
-        if not _LINES_NAMED.search(source.text):
+        if not LINES_NAMED.search(source.text):
             return
         if source.name not in self._texts:
             self._texts[source.name] = list(_scalars(source.text))
         offset = source.offset(span.at)
         start, end = next((ends for ends in self._texts[source.name] if ends[0] <= offset < ends[1]), (0, 0))
-        for named in _LINES_NAMED.finditer(source.text, start, end):
+        for named in LINES_NAMED.finditer(source.text, start, end):
             for number in _NUMBER.finditer(source.text, named.start(), named.end()):
                 line = int(number["line"])
                 first, last = (0, line) if number["run"] else (line, 0)
@@ -136,7 +136,7 @@ class _Walk:
 
 def lines_in_comments(source: SourceFile) -> Iterator[tuple[int, int]]:
     """The numbers of lines that comments name: the line of the file, and the number."""
-    for named in _LINES_NAMED.finditer(source.text):
+    for named in LINES_NAMED.finditer(source.text):
         before = source.text[source.text.rfind("\n", 0, named.start()) + 1 : named.start()]
         if _COMMENT.search(before) and not any(first <= named.start() < end for first, end in _scalars(source.text)):
             for number in _NUMBER.finditer(source.text, named.start(), named.end()):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.targets.c.device import device_view, header
 from fieldscribe.targets.c.families import frames_of
@@ -12,10 +12,13 @@ from fieldscribe.targets.c.kinds import placed_points
 from fieldscribe.targets.c.scope import scope_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+    from fieldscribe.targets.c.frames import Frames
+    from fieldscribe.targets.c.kinds import Placed
+    from fieldscribe.targets.c.scope import HeaderScope
 
 FOR_PEOPLE = False
 NEEDS_FAMILY = True
@@ -26,26 +29,61 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     from fieldscribe.targets.c.conformance import adapters_text, conformance_view
 
-    scope = scope_of(device)
-    placed = placed_points(device, scope)
-    view = device_view(device, placed, scope)
-    yield f"c/{device.id}.h", header(device, view, placed, scope, render)
-    frames = frames_of(device)
-    bus = frames.bus_view(device, placed, scope)
-    sections = frames.sections(bus)
-    context = {"device": view, "bus": bus}
-    texts = {name: section.text(render) for name, section in sections.items()}
-    yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
-    suite = conformance_view(device, placed, scope)
-    adapters = {"adapters": adapters_text(placed, scope, sections.values(), render)}
-    program = framed(render, f"c/{device.family}_conformance.c.j2", {**context, "suite": suite}, adapters)
+    made = _made(device)
+    for name, text in _headers(made, render):
+        yield f"c/{name}", text
+    suite = conformance_view(device, made.placed, made.scope)
+    adapters = {"adapters": adapters_text(made.placed, made.scope, made.sections.values(), render)}
+    context = {**made.context, "suite": suite}
+    program = framed(render, f"c/{device.family}_conformance.c.j2", context, adapters)
     yield f"c/conformance/{device.id}_conformance.c", program
 
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    for name in ("", f"_{device.family}", "_conformance", f"_conformance_{device.family}"):
-        yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
+    for name in (*_runtime(device), "fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"):
+        yield f"c/{name}", f"c/runtime/{name}"
 
 
-__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime"]
+def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """The headers of the points and of the frames, as they lie in a project: name and text."""
+    return _headers(_made(device), render)
+
+
+def vendored_runtime(device: Device) -> Iterator[tuple[str, str]]:
+    """What these headers include: name, and path under the templates."""
+    for name in _runtime(device):
+        yield name, f"c/runtime/{name}"
+
+
+class _Made(NamedTuple):
+    """A device as the headers show it."""
+
+    device: Device
+    scope: HeaderScope
+    placed: Sequence[Placed]
+    context: Mapping[str, Any]
+    sections: Mapping[str, Frames]
+
+
+def _made(device: Device) -> _Made:
+    scope = scope_of(device)
+    placed = placed_points(device, scope)
+    view = device_view(device, placed, scope)
+    frames = frames_of(device)
+    bus = frames.bus_view(device, placed, scope)
+    return _Made(device, scope, placed, {"device": view, "bus": bus}, frames.sections(bus))
+
+
+def _headers(made: _Made, render: Render) -> Iterator[tuple[str, str]]:
+    device, view = made.device, made.context["device"]
+    yield f"{device.id}.h", header(device, view, made.placed, made.scope, render)
+    texts = {name: section.text(render) for name, section in made.sections.items()}
+    yield f"{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", made.context, texts)
+
+
+def _runtime(device: Device) -> tuple[str, str]:
+    return "fieldscribe.h", f"fieldscribe_{device.family}.h"
+
+
+__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]

@@ -25,6 +25,7 @@ from fieldscribe.targets.docs.cells import (
 from fieldscribe.targets.docs.points import GroupView, group_views
 from fieldscribe.targets.docs.special_codes import codes_table
 from fieldscribe.targets.docs.subjects import reference_heads
+from fieldscribe.targets.heads import command
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def page_of(scope: Scope) -> PageView:
     numberings = reference_heads(device.points)
     return PageView(
         generated=cell(generated),
-        regenerate=code(f"fieldscribe generate {device.id} --target docs"),
+        regenerate=code(command(device, "docs")),
         heading=cell(f"{device.vendor} {device.model}: {wording.title_text(device.title)}"),
         note=paragraph(wording.title_text(device.note)) if device.note else "",
         facts=by_rows(("Fact", "Value"), _facts(device)),

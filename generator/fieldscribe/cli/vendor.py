@@ -1,0 +1,220 @@
+"""`fieldscribe vendor`: leave exactly the files that a project needs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.vendoring.files import Wish
+    from fieldscribe.vendoring.orders import Delivery, Order
+
+HELP = "leave exactly the files that a project needs of a device: all of it, or some points"
+EXAMPLE = """examples:
+  fieldscribe vendor c hitachi_l200 --out firmware/drivers
+  fieldscribe vendor c hitachi_l200 --out firmware/drivers --points A001,D001,run_command
+  fieldscribe vendor c hitachi_l200 --out firmware/drivers --points @points.txt --single-file
+  fieldscribe vendor python woodward_mpu2s --out tools
+  fieldscribe vendor rust siemens_mm4 --out crates --points "P10*,status_word"
+  fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
+
+a point is named by its code or its name, several by their group or by a pattern; what they need comes with them
+--check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
+ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_descriptions, add_format, some_path
+    from fieldscribe.vendoring.files import LANGUAGES
+
+    parser.add_argument("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
+    parser.add_argument(
+        "device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml"
+    )
+    add_descriptions(parser)
+    parser.add_argument("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
+    parser.add_argument(
+        "--points",
+        metavar="LIST",
+        help="codes, names, groups or patterns, with commas between, or @FILE",
+    )
+    parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
+    parser.add_argument("--single-file", action="store_true", help="c: all in one header")
+    parser.add_argument("--wheel", action="store_true", help="python: one wheel with the device and the runtime")
+    parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
+    parser.add_argument(
+        "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
+    )
+    parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
+    parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
+    add_format(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Leave them, or compare; the exit code."""
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError, report_findings, usage_error
+    from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
+
+    report = Report()
+    orders = _orders(arguments, report)
+    if report.has_errors:
+        report_findings(report, arguments.format)
+        return FINDINGS
+    try:
+        refuse_doubles(orders)
+        if arguments.check:
+            deliveries = [compare(order) for order in orders]
+        else:
+            deliveries = [deliver(order, say_waiting, force=arguments.force) for order in orders]
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
+    except ModuleNotFoundError as error:
+        raise StopError("--wheel needs hatchling", 'pip install "fieldscribe[wheel]"') from error
+    except OSError as error:
+        return usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
+    return _say(arguments, deliveries)
+
+
+def _orders(arguments: Namespace, report: Report) -> list[Order]:
+    """What the command line, or the project file, asks for. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.vendoring.project import NAME
+
+    if arguments.language is not None:
+        if arguments.project is not None:
+            raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
+        return [_order(arguments, _wish(arguments), arguments.device, arguments.out, report)]
+    if arguments.points or arguments.name or arguments.single_file or arguments.no_frames or arguments.out:
+        raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
+    file = arguments.project or Path(NAME)
+    if not file.is_file():
+        hint = "write one, or say `fieldscribe vendor LANGUAGE DEVICE --out DIR`"
+        raise StopError(f"there is no project file {file}", hint)
+    return _orders_of_project(arguments, file, report)
+
+
+def _orders_of_project(arguments: Namespace, file: Path, report: Report) -> list[Order]:
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.vendoring.project import read_project
+
+    orders: list[Order] = []
+    for wanted in read_project(file, report):
+        path = file.parent / wanted.device
+        asked = str(path) if path.exists() and not arguments.descriptions else wanted.device
+        try:
+            orders.append(_order(arguments, wanted.wish, asked, wanted.out, report))
+        except StopError as error:
+            if error.message:
+                report.error("bad-project", error.message, wanted.place, error.hint or None)
+    return orders
+
+
+def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, report: Report) -> Order:
+    """One order, its device loaded and its points known to be there. Raises StopError."""
+    import re
+    from argparse import Namespace as Asked
+
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.checks.device_name_is_free import reasons
+    from fieldscribe.cli.common import StopError, open_device
+    from fieldscribe.language.keys.forms import ID
+    from fieldscribe.vendoring.choosing import chosen
+    from fieldscribe.vendoring.orders import Order
+
+    if device is None or out is None:
+        raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
+    if wish.name is not None:
+        bad = None if re.fullmatch(ID.pattern, wish.name) else "is no name: small letters, digits and _ make one"
+        taken = bad or next(reasons(wish.name), None)
+        if taken:
+            raise StopError(f"`{wish.name}` {taken}")
+    opened = open_device(Asked(device=device, descriptions=arguments.descriptions, format=arguments.format))
+    try:
+        chosen(opened, wish.points)
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
+    del report
+    return Order(opened, wish, out)
+
+
+_USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
+
+
+def _wish(arguments: Namespace) -> Wish:
+    """What the options ask for. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.vendoring.files import LANGUAGES, Wish
+
+    language = arguments.language
+    if language not in LANGUAGES:
+        hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
+        raise StopError(f"`{language}` is no language to take a device in", hint)
+    for option, of_language in (("single_file", "c"), ("no_frames", "c"), ("wheel", "python")):
+        if getattr(arguments, option) and language != of_language:
+            raise StopError(f"--{option.replace('_', '-')} is for {of_language}")
+    points = _points(arguments.points)
+    if arguments.points is not None and not points:
+        raise StopError("--points names no point", "leave it out for all of them")
+    frames, single = not arguments.no_frames, arguments.single_file
+    return Wish(language, points, arguments.name, frames=frames, single_file=single, wheel=arguments.wheel)
+
+
+def _points(said: str | None) -> tuple[str, ...]:
+    """The words of `--points`, or of the file that it names. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.reading import read_regular
+
+    if said is None:
+        return ()
+    if said.startswith("@"):
+        try:
+            text = read_regular(said[1:], 1 << 20).data.decode("utf-8-sig")
+        except (OSError, ValueError) as error:
+            why = getattr(error, "strerror", None) or "it is no UTF-8 text"
+            raise StopError(f"cannot read {said[1:]}: {why}") from error
+        said = ",".join(line.partition("#")[0] for line in text.splitlines())
+    return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
+
+
+def _say(arguments: Namespace, deliveries: list[Delivery]) -> int:
+    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli.common import print_json, usage_error
+
+    if arguments.format == "json":
+        print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
+    for delivery in deliveries:
+        if arguments.format == "text":
+            _print(delivery, check=arguments.check)
+        for path, reason in delivery.refused.items():
+            hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
+            usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
+    return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
+
+
+def _print(delivery: Delivery, *, check: bool) -> None:
+    from fieldscribe.report import visible
+
+    out = delivery.order.out
+    for what, paths in (
+        ("missing", delivery.missing),
+        ("edited by hand", delivery.edited),
+        ("stale", delivery.stale),
+        ("left in place, as it was edited by hand", delivery.kept),
+    ):
+        for path in paths:
+            print(f"{what}: {visible(str(out / path))}")
+    wrong = len(delivery.missing) + len(delivery.edited) + len(delivery.stale) + len(delivery.refused)
+    if check:
+        print(f"{wrong} of {len(delivery.files)} files of {delivery.order.name} in {visible(str(out))} are not current")
+    elif not delivery.refused:
+        done = f"{len(delivery.written)} written, {len(delivery.removed)} removed"
+        left = len(delivery.files) - len(delivery.written)
+        print(f"{done}, {left} unchanged of {delivery.order.name} in {visible(str(out))}")

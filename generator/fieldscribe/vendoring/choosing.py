@@ -1,0 +1,164 @@
+"""A device with some of its points: those that a person names, and those that they cannot do without."""
+
+from __future__ import annotations
+
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
+
+from fieldscribe.asked import UnclearError, did_you_mean, quoted
+from fieldscribe.conversation.lookup import find, near
+from fieldscribe.families import family
+from fieldscribe.model import Interval
+from fieldscribe.plain import for_code, with_digest
+from fieldscribe.records import replace
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from fieldscribe.model import Block, Command, Device, Enum, Point
+
+_GLOB = frozenset("*?[")
+
+
+def chosen(device: Device, words: Sequence[str]) -> Device:
+    """The device with these points and commands, what they need, and a digest of just that.
+
+    A word is a code, a name, `group:NAME` or the name of a group, or a pattern such as `d0*`. Raises UnclearError.
+    """
+    items: set[str] = set()
+    commands: set[str] = set()
+    for word in words:
+        points, commands_of_word = _meant(device, word)
+        items.update(point.item for point in points)
+        commands.update(command.name for command in commands_of_word)
+    kept_commands = tuple(command for command in device.commands if command.name in commands)
+    needed = _with_needed(device, items, (command.busy for command in kept_commands if command.busy is not None))
+    return _reduced(device, tuple(needed), kept_commands)
+
+
+def _meant(device: Device, word: str) -> tuple[list[Point], list[Command]]:
+    """The points and commands that a word means. Raises UnclearError."""
+    groups = {group.name for group in device.groups}
+    if word.startswith("group:") and word.removeprefix("group:") in groups:
+        return _of_group(device, word.removeprefix("group:")), []
+    if _GLOB.intersection(word) and not _named(device, word):
+        points = [point for point in device.points if _is_like(point, word.lower()) and _is_made(point)]
+        commands = [command for command in device.commands if fnmatchcase(command.name, word.lower())]
+    else:
+        points = _named(device, word)
+        commands = [command for command in device.commands if command.name == word]
+        if points and word in groups:
+            raise UnclearError(
+                f"`{quoted(word)}` is a point of {device.id} and a group", f"write `name:{word}` or `group:{word}`"
+            )
+        points = points or _of_group(device, word)
+    if not points and not commands:
+        raise UnclearError(f"{device.id} has no point, group or command `{quoted(word)}`", _hint(device, word))
+    missing = [point for point in points if not _is_made(point)]
+    if missing:
+        reason = missing[0].reason or "it is documented only"
+        raise UnclearError(f"`{quoted(word)}` cannot be used in code: {reason}", "leave it out")
+    return points, commands
+
+
+def _named(device: Device, word: str) -> list[Point]:
+    """The points with this code or name, or this element of an array; a number is no name."""
+    points = [point for point in device.points if point.code is not None and point.code.lower() == word.lower()]
+    for asked in () if points else (word,) if word.startswith(("code:", "name:")) else (f"code:{word}", f"name:{word}"):
+        points += [match.point for match in find(device, asked)]
+    return list({point.item: point for point in points}.values())
+
+
+def _of_group(device: Device, group: str) -> list[Point]:
+    return [point for point in device.points if point.group == group and _is_made(point)]
+
+
+def _is_made(point: Point) -> bool:
+    """Whether code has anything of the point."""
+    return point.generated or point.raw_only
+
+
+def _is_like(point: Point, glob: str) -> bool:
+    return any(fnmatchcase(name.lower(), glob) for name in (point.item, point.name, point.code or ""))
+
+
+def _hint(device: Device, word: str) -> str:
+    """Near points, groups and commands."""
+    from difflib import get_close_matches
+
+    others = [*(group.name for group in device.groups), *(command.name for command in device.commands)]
+    names = [*get_close_matches(word.lower()[:64], others, 2), *near(device, word)[:3]]
+    return did_you_mean(list(dict.fromkeys(names))) or f"`fieldscribe list {device.id}` shows them all"
+
+
+def _with_needed(device: Device, items: set[str], named: Iterable[str]) -> list[Point]:
+    """These points, and all that their scales, limits and conditions ask for: those are only read."""
+    by_name: dict[str, list[Point]] = {}
+    for point in device.points:
+        for name in dict.fromkeys((point.item, point.name)):
+            by_name.setdefault(name, []).append(point)
+    read: dict[str, Point] = {}
+    asked = [name for point in device.points if point.item in items for name in _needs(point)]
+    asked += named
+    while asked:
+        for point in by_name.get(asked.pop(), ()):
+            if point.item not in items and point.item not in read:
+                read[point.item] = _only_read(point)
+                asked += _needs(read[point.item])
+    return [read.get(point.item, point) for point in device.points if point.item in items or point.item in read]
+
+
+def _needs(point: Point) -> Iterator[str]:
+    """The names of the points without which this one cannot be converted, or be known to exist."""
+    yield from point.arguments
+    if point.when is not None:
+        yield from point.when.names
+    if point.writable:
+        yield from point.changes_with
+
+
+def _only_read(point: Point) -> Point:
+    """The point without its writing, which would need more points for its limits."""
+    if not (point.readable and point.writable):
+        return point
+    outermost = tuple(Interval(*interval.outer) for interval in point.allowed.intervals)
+    allowed = replace(point.allowed, intervals=outermost) if point.allowed.moves else point.allowed
+    return replace(point, shape=replace(point.shape, access="r"), allowed=allowed, write_place=None)
+
+
+def _reduced(device: Device, points: tuple[Point, ...], commands: tuple[Command, ...]) -> Device:
+    names = {point.name for point in points}
+    groups = {point.group for point in points}
+    things = {f"command:{command.name}" for command in device.commands if command not in commands}
+    reduced = replace(
+        device,
+        points=points,
+        groups=tuple(group for group in device.groups if group.name in groups),
+        enums=_enums_of(device, points),
+        blocks=_blocks(device, points),
+        commands=commands,
+        frames=tuple(frame for frame in device.frames if names.issuperset(frame.meaning)),
+        errata=tuple(
+            erratum
+            for erratum in device.errata
+            if (names.intersection(erratum.points) or not erratum.points) and str(erratum.where) not in things
+        ),
+    )
+    return with_digest(reduced, for_code(reduced))[0]
+
+
+def _enums_of(device: Device, points: Iterable[Point]) -> tuple[Enum, ...]:
+    used = {enum.name for point in points for enum in (point.enum, point.digits and point.digits.enum) if enum}
+    return tuple(enum for enum in device.enums if enum.name in used)
+
+
+def _blocks(device: Device, points: Sequence[Point]) -> Mapping[str, tuple[Block, ...]]:
+    """The reads of each group, planned anew for the points that are left."""
+    reading = family(device.family).part("reading")
+    if reading is None:
+        return {}
+    members = {group: [point for point in points if point.group == group] for group in device.blocks}
+    planned = {
+        group: reading.READING.blocks(device.bus, of_group, device.variants) for group, of_group in members.items()
+    }
+    return {group: blocks for group, blocks in planned.items() if blocks is not None}

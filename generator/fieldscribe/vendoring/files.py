@@ -1,0 +1,94 @@
+"""The files that a project needs to use a device in one language: path below the project's folder, and text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.plain import for_code
+from fieldscribe.records import dataclass, replace
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device
+
+LANGUAGES = ("c", "python", "rust")
+"""The languages that a project can take a device in."""
+
+LICENCE = "LICENSE-fieldscribe.txt"
+_POINTS_IN_A_HEAD = 60
+"""A longer list of points stands in the manifest alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What a project wants of a device: a language, some points (none: all), and how.
+
+    `name` is what the device is called in code, where that is not its id. `frames` and `single_file` are for C, `wheel`
+    for Python.
+    """
+
+    language: str
+    points: tuple[str, ...] = ()
+    name: str | None = None
+    frames: bool = True
+    single_file: bool = False
+    wheel: bool = False
+
+    def command(self, device: str) -> str:
+        """The command that makes the files anew."""
+        words = ["fieldscribe", "vendor", self.language, device]
+        if self.name is not None:
+            words += ["--as", self.name]
+        if self.points:
+            points = ",".join(self.points)
+            words += ["--points", points if len(points) <= _POINTS_IN_A_HEAD else "..."]
+        words += ["--single-file"] if self.single_file else []
+        words += [] if self.frames else ["--no-frames"]
+        words += ["--wheel"] if self.wheel else []
+        return " ".join(words)
+
+    def as_data(self, device: str) -> dict[str, object]:
+        """What a manifest says of it."""
+        said: dict[str, object] = {"device": device, "points": list(self.points)}
+        said |= {} if self.frames else {"frames": False}
+        return said | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
+
+
+def contents_of(device: Device, wish: Wish) -> Iterator[tuple[str, bytes]]:
+    """The files that the wish asks for. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
+    texts = dict(files_of(device, wish))
+    if wish.wheel:
+        from fieldscribe.vendoring.wheel import wheel_of
+
+        yield wheel_of(texts, wish.name or device.id)
+        texts = {LICENCE: texts[LICENCE]}
+    for path, text in texts.items():
+        yield path, text.encode()
+
+
+def files_of(device: Device, wish: Wish) -> Iterator[tuple[str, str]]:
+    """The texts that the wish is about. Raises UnclearError."""
+    from fieldscribe.render import render
+    from fieldscribe.resources import templates_dir
+    from fieldscribe.targets import target
+    from fieldscribe.vendoring.choosing import chosen
+
+    reduced = chosen(device, wish.points) if wish.points else device
+    named = replace(for_code(reduced), id=wish.name or device.id, asked=wish.command(device.id))
+    offered = target(wish.language)
+    files = {path: (templates_dir() / source).read_text("utf-8") for path, source in offered.vendored_runtime(named)}
+    files |= offered.vendored(named, render)
+    if not wish.frames:
+        files = {path: text for path, text in files.items() if path not in _of_frames(named)}
+    if wish.single_file:
+        from fieldscribe.targets.c.joining import joined
+
+        files = {f"{named.id}.h": joined(files, named)}
+    yield from files.items()
+    yield LICENCE, (templates_dir() / LICENCE).read_text("utf-8")
+
+
+def _of_frames(device: Device) -> frozenset[str]:
+    """The headers in C that only frames need."""
+    return frozenset((f"fieldscribe_{device.family}.h", f"{device.id}_{device.family}.h"))

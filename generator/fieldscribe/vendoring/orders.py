@@ -1,0 +1,131 @@
+"""What is to be left where, and doing it: compare the files with a project's folder, or write them to it."""
+
+from __future__ import annotations
+
+import os
+from hashlib import sha256
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.asked import UnclearError
+from fieldscribe.output.manifests import VENDORED, Manifests
+from fieldscribe.output.plan import plan_of
+from fieldscribe.reading import read_regular
+from fieldscribe.records import dataclass, field
+from fieldscribe.vendoring.files import contents_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+    from fieldscribe.output.plan import Made, Plan
+    from fieldscribe.vendoring.files import Wish
+
+_MOST_BYTES = 512 << 20
+
+
+class Order(NamedTuple):
+    """A device in a language, for a folder of a project."""
+
+    device: Device
+    wish: Wish
+    out: Path
+
+    @property
+    def name(self) -> str:
+        """What the device is called in the project."""
+        return self.wish.name or self.device.id
+
+
+@dataclass(slots=True)
+class Delivery:
+    """What became of an order: paths below its folder. `stale` would be written anew, `edited` were changed by hand."""
+
+    order: Order
+    files: list[str]
+    written: list[str] = field(default_factory=list)
+    removed: list[str] = field(default_factory=list)
+    missing: list[str] = field(default_factory=list)
+    edited: list[str] = field(default_factory=list)
+    stale: list[str] = field(default_factory=list)
+    kept: list[str] = field(default_factory=list)
+    refused: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def is_current(self) -> bool:
+        """Whether nothing is to be done."""
+        return not (self.missing or self.edited or self.stale or self.refused)
+
+    def as_data(self) -> dict[str, object]:
+        """All of it, for tools."""
+        order = self.order
+        names = ("files", "written", "removed", "missing", "edited", "stale", "kept", "refused")
+        head = {"device": order.device.id, "name": order.name, "language": order.wish.language, "out": str(order.out)}
+        return head | {name: getattr(self, name) for name in names}
+
+
+def refuse_doubles(orders: Iterable[Order]) -> None:
+    """Two orders for the same files cannot both be had. Raises UnclearError."""
+    known: set[tuple[str, str, str]] = set()
+    for order in orders:
+        key = os.path.realpath(order.out), order.wish.language, order.name
+        if key in known:
+            raise UnclearError(
+                f"`{order.name}` is asked for twice in {order.out}", "give one of them another folder, or another name"
+            )
+        known.add(key)
+
+
+def compare(order: Order) -> Delivery:
+    """Say what differs; touches nothing. Raises UnclearError."""
+    manifests, made = Manifests(order.out, VENDORED), _made(order)
+    plan = _plan(order, manifests, made, force=False)
+    delivery = Delivery(order, _paths(plan, made), kept=sorted(plan.kept), refused=dict(sorted(plan.refused.items())))
+    for path in plan.stale:
+        if path not in plan.refused:
+            _difference(order, manifests, delivery, path).append(path)
+    return delivery
+
+
+def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = False) -> Delivery:
+    """Write what differs, under the lock of the folder; nothing where a foreign file is in the way.
+
+    Raises UnclearError, ModuleNotFoundError and OSError.
+    """
+    from fieldscribe.output.lock import only_run
+    from fieldscribe.output.writing import carry_out
+
+    made = _made(order)
+    with only_run(order.out, lambda: waiting(order.out)):
+        manifests = Manifests(order.out, VENDORED)
+        plan = _plan(order, manifests, made, force=force)
+        delivery = Delivery(order, _paths(plan, made), refused=dict(sorted(plan.refused.items())))
+        if not plan.refused:
+            carry_out(order.out, manifests, plan)
+            delivery.written, delivery.removed, delivery.kept = sorted(plan.write), plan.remove, plan.kept
+    return delivery
+
+
+def _made(order: Order) -> Made:
+    from fieldscribe.output.spool import kept
+
+    return {order.wish.language: {path: kept(data) for path, data in contents_of(order.device, order.wish)}}
+
+
+def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:
+    manifests.ask(order.name, order.wish.language, order.wish.as_data(order.device.id))
+    return plan_of(order.out, manifests, order.name, made, force=force)
+
+
+def _paths(plan: Plan, made: Made) -> list[str]:
+    return sorted([plan.record, *(path for files in made.values() for path in files)])
+
+
+def _difference(order: Order, manifests: Manifests, delivery: Delivery, path: str) -> list[str]:
+    """Where a path belongs that is not as it should be."""
+    place = order.out / path
+    if not os.path.lexists(place):
+        return delivery.missing
+    recorded = manifests.of(order.name).get(order.wish.language, {}).get(path, ())
+    digest = sha256(read_regular(place, _MOST_BYTES).data).hexdigest()
+    return delivery.edited if recorded and digest not in recorded else delivery.stale

@@ -1,0 +1,171 @@
+"""`fieldscribe.toml`: what a project takes of which devices, so that nobody types it twice.
+
+out = "drivers"              # below this file's folder; of each device, if it says no other
+targets = ["c"]              # c, python, rust; likewise
+
+[[devices]]
+device = "hitachi_l200"      # an id, or the path of a description below this file's folder
+points = ["A001", "status"]  # codes, names, groups, patterns; without it all
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from fieldscribe.asked import did_you_mean, quoted
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.reading import read_regular, shown_path
+from fieldscribe.vendoring.files import LANGUAGES, Wish
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from pathlib import Path
+
+NAME = "fieldscribe.toml"
+_MOST_BYTES = 1 << 20
+_LISTS = {"targets", "points"}
+_SWITCHES = {"frames", "single_file", "wheel"}
+_KEYS = {"device", "targets", "points", "out", "as", *_SWITCHES}
+_COMMON = {"out", "targets"}
+_WHERE = re.compile(r"at line (\d+), column (\d+)")
+
+
+class Wanted(NamedTuple):
+    """A device as the project file names it, where it does, what is wanted of it, and the folder for it."""
+
+    device: str
+    place: Span
+    wish: Wish
+    out: Path
+
+
+def read_project(file: Path, report: Report) -> list[Wanted]:
+    """All that a project wants; what is wrong with the file is in the report. Raises OSError."""
+    import tomllib
+
+    data = read_regular(file, _MOST_BYTES).data
+    try:
+        text = data.decode("utf-8-sig")
+        document = tomllib.loads(text)
+    except UnicodeDecodeError:
+        report.error("bad-project", "the file is no UTF-8 text", Span(shown_path(file), 1, 1))
+        return []
+    except tomllib.TOMLDecodeError as error:
+        report.error("bad-project", f"this is no TOML: {quoted(_said(error))}", _span_of(error, file, text))
+        return []
+    return list(_Reader(file, text, report).wanted(document))
+
+
+class _Reader:
+    """Reads one project file."""
+
+    def __init__(self, file: Path, text: str, report: Report) -> None:
+        self._file, self._report = file, report
+        self._lines = text.split("\n")
+        self._heads = [number for number, line in enumerate(self._lines) if _is_head(line)]
+
+    def wanted(self, document: Mapping[str, Any]) -> Iterator[Wanted]:
+        """Everything under `devices`."""
+        common = {key: value for key, value in document.items() if key != "devices"}
+        self._check(common, None, _COMMON)
+        devices = document.get("devices")
+        if not isinstance(devices, list) or not devices or not all(isinstance(entry, dict) for entry in devices):
+            hint = 'write `[[devices]]`, and `device = "hitachi_l200"` below it'
+            self._report.error("bad-project", "the file names no devices", self._span(None, "devices"), hint)
+            return
+        for number, entry in enumerate(devices):
+            self._check(entry, number, _KEYS)
+            if not self._report.has_errors:
+                yield from self._of_device({**common, **entry}, number, entry)
+
+    def _of_device(self, said: Mapping[str, Any], number: int, entry: Mapping[str, Any]) -> Iterator[Wanted]:
+        for key in ("device", "out", "targets"):
+            if not said.get(key):
+                hint = f"write `{key} = {_EXAMPLES[key]}`"
+                self._report.error("bad-project", f"`{key}` is missing", self._span(number, key), hint)
+        if self._report.has_errors:
+            return
+        out = self._inside(said["out"], number, "out" in entry)
+        for language in dict.fromkeys(said["targets"]):
+            wish = Wish(
+                language,
+                tuple(said.get("points", ())),
+                said.get("as"),
+                frames=said.get("frames", True),
+                single_file=said.get("single_file", False),
+                wheel=said.get("wheel", False),
+            )
+            yield Wanted(said["device"], self._span(number, "device"), wish, out)
+
+    def _check(self, said: Mapping[str, Any], number: int | None, known: set[str]) -> None:
+        from difflib import get_close_matches
+
+        for key, value in said.items():
+            span = self._span(number, key)
+            if key not in known:
+                hint = did_you_mean(get_close_matches(key, sorted(known), 1)) or f"there are {', '.join(sorted(known))}"
+                self._report.error("bad-project", f"there is no key `{quoted(key)}` here", span, hint)
+            elif not _fits(key, value):
+                self._report.error("bad-project", f"`{key}` {_kind(key)}", span, f"write `{key} = {_EXAMPLES[key]}`")
+            elif key == "targets" and (unknown := [name for name in value if name not in LANGUAGES]):
+                message = f"`{quoted(unknown[0])}` is no language to take a device in"
+                self._report.error("bad-project", message, span, f"there are {', '.join(LANGUAGES)}")
+
+    def _inside(self, out: str, number: int, own: bool) -> Path:
+        """The folder, which lies below the file's."""
+        root = os.path.realpath(self._file.parent)
+        place = os.path.realpath(os.path.join(root, out))
+        if os.path.commonpath([root, place]) != root:
+            message = f"`{quoted(out)}` leads out of the folder of {self._file.name}"
+            self._report.error("bad-project", message, self._span(number if own else None, "out"))
+        return self._file.parent / out
+
+    def _span(self, number: int | None, key: str) -> Span:
+        """Where a key of the n-th device stands, or one of the file; the head, or the first line, if there is none."""
+        first = 0 if number is None or number >= len(self._heads) else self._heads[number]
+        ends = [head for head in self._heads if number is None or head > first]
+        for line in range(first, ends[0] if ends else len(self._lines)):
+            match = re.match(rf"\s*(\"?){re.escape(key)}\1\s*=", self._lines[line])
+            if match is not None:
+                return Span(shown_path(self._file), line + 1, self._lines[line].index(key) + 1, len(key))
+        return Span(shown_path(self._file), first + 1, 1)
+
+
+_EXAMPLES = {
+    "device": '"hitachi_l200"',
+    "targets": '["c"]',
+    "points": '["A001", "status"]',
+    "out": '"drivers"',
+    "as": '"first_drive"',
+    **dict.fromkeys(_SWITCHES, "true"),
+}
+
+
+def _is_head(line: str) -> bool:
+    return "".join(line.split("#", maxsplit=1)[0].split()) == "[[devices]]"
+
+
+def _fits(key: str, value: object) -> bool:
+    if key in _SWITCHES:
+        return isinstance(value, bool)
+    if key in _LISTS:
+        return isinstance(value, list) and all(isinstance(word, str) and word for word in value)
+    return isinstance(value, str) and "\0" not in value and bool(value)
+
+
+def _kind(key: str) -> str:
+    return "is true or false" if key in _SWITCHES else "is a list of words" if key in _LISTS else "is a text"
+
+
+def _said(error: ValueError) -> str:
+    return _WHERE.sub("", str(error)).removesuffix("()").strip().removesuffix("(").strip()
+
+
+def _span_of(error: ValueError, file: Path, text: str) -> Span:
+    """Where TOML is broken; Python tells it in words alone before 3.14, and of the end of the file nothing."""
+    match = _WHERE.search(str(error))
+    lines = text.rstrip().split("\n")
+    line, column = (int(match[1]), int(match[2])) if match else (len(lines), len(lines[-1]) + 1)
+    return Span(shown_path(file), line, column)

@@ -1,0 +1,135 @@
+"""`fieldscribe.toml`: what a project takes of which devices, without a flag."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.cli import main
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+PROJECT = """\
+out = "drivers"
+targets = ["c"]
+
+[[devices]]
+device = "hitachi_l200"
+points = ["A001", "status"]
+
+[[devices]]
+device = "own/siemens_mm4"     # a description of the project's own
+targets = ["c", "python"]
+out = "more"
+as = "second_drive"
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_one_command_leaves_and_checks_all_of_it(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shutil.copytree(ROOT / "descriptions/siemens_mm4", project / "own/siemens_mm4")
+    shutil.copy(ROOT / "descriptions/glossary.yaml", project / "own/glossary.yaml")
+    (project / "fieldscribe.toml").write_text(PROJECT, "utf-8")
+    assert main(["vendor", "--check"]) == 1
+    assert main(["vendor"]) == 0
+    assert {path.name for path in (project / "drivers").iterdir()} >= {"hitachi_l200.h", "hitachi_l200_modbus.h"}
+    assert {path.name for path in (project / "more").iterdir()} >= {"second_drive.h", "second_drive", "fieldscribe.h"}
+    manifest = json.loads((project / "more/second_drive.manifest.json").read_text("utf-8"))
+    assert sorted(manifest["asked"]) == sorted(manifest["targets"]) == ["c", "python"]
+    capsys.readouterr()
+    assert main(["vendor", "--check"]) == 0
+    assert "0 of" in capsys.readouterr().out
+    (project / "drivers/hitachi_l200.h").unlink()
+    assert main(["vendor", "--check", "--project", str(project / "fieldscribe.toml")]) == 1
+    assert "missing: " in capsys.readouterr().out
+
+
+DEVICE = '[[devices]]\ndevice = "hitachi_l200"\n'
+TOP = 'out = "d"\ntargets = ["c"]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "said"),
+    [
+        ("out = ", "1:6", "this is no TOML"),
+        ("out = 1\nout 2\n", "2:5", "this is no TOML"),
+        ("", "1:1", "names no devices"),
+        ('devices = "hitachi_l200"\n', "1:1", "names no devices"),
+        (f'{DEVICE}out = "d"\n', "1:1", "`targets` is missing"),
+        (f'targets = ["c"]\n{DEVICE}', "2:1", "`out` is missing"),
+        (f'{TOP}{DEVICE}[[devices]]\npoints = ["A001"]\n', "5:1", "`device` is missing"),
+        (f'{TOP}{DEVICE}point = ["A001"]\n', "5:1", "did you mean `points`"),
+        (f'{TOP}{DEVICE}points = "A001"\n', "5:1", "`points` is a list of words"),
+        (f"{TOP}{DEVICE}single_file = 1\n", "5:1", "`single_file` is true or false"),
+        (f'{TOP}{DEVICE}targets = ["c", "go"]\n', "5:1", "`go` is no language"),
+        (f'{TOP}{DEVICE}  out = "../elsewhere"\n', "5:3", "leads out of the folder"),
+        (f'out = "/"\ntargets = ["c"]\n{DEVICE}', "1:1", "leads out of the folder"),
+        (f'{TOP}[[devices]]\n\ndevice = "hitachi_l2000"\n', "5:1", "did you mean `hitachi_l200`"),
+        (f'{TOP}{DEVICE}points = ["A0Z9"]\n', "4:1", "no point, group or command `A0Z9`"),
+        (f'{TOP}{DEVICE}as = "Drive 1"\n', "4:1", "`Drive 1` is no name"),
+        ('title = "x"\n' + TOP + DEVICE, "1:1", "there is no key `title` here"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_place(
+    text: str, place: str, said: str, project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (project / "fieldscribe.toml").write_text(text, "utf-8")
+    assert main(["vendor"]) == 1
+    told = capsys.readouterr().err
+    assert f"fieldscribe.toml:{place}" in told
+    assert said in told
+    assert [path.name for path in project.iterdir()] == ["fieldscribe.toml"]
+
+
+def test_the_same_files_twice_are_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (project / "fieldscribe.toml").write_text(TOP + DEVICE + DEVICE, "utf-8")
+    assert main(["vendor"]) == 2
+    assert "asked for twice" in capsys.readouterr().err
+
+
+def test_vendored_python_needs_no_compiler(project: Path) -> None:
+    assert main(["vendor", "python", "hitachi_l200", "--out", "tools", "--points", "A020,D001,status"]) == 0
+    program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500), D.inverter_status)"
+    done = subprocess.run(
+        [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'tools'); {program}"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stdout.startswith("50.0 "), done.stderr
+
+
+@pytest.mark.full(seconds=3)
+def test_a_wheel_is_the_same_every_time_and_installs(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    order = ["vendor", "python", "hitachi_l200", "--out", "wheels", "--points", "A020", "--wheel"]
+    assert main(order) == 0
+    [wheel] = (project / "wheels").glob("*.whl")
+    assert wheel.name == "hitachi_l200-1.0.0-py3-none-any.whl"
+    assert main([*order, "--check"]) == 0, capsys.readouterr().out
+    install = [sys.executable, "-m", "pip", "install", "-q", "--no-index", "--target", "site", str(wheel)]
+    subprocess.run(install, check=True, capture_output=True)
+    assert not (project / "site/hitachi_l200/pyproject.toml").exists()
+    program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500))"
+    said = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
+    assert subprocess.run(said, capture_output=True, text=True, check=True).stdout == "50.0\n"
+    assert main(["vendor", "c", "hitachi_l200", "--out", "x", "--wheel"]) == 2
+
+
+def test_a_wheel_needs_hatchling(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "hatchling.builders.wheel", None)
+    assert main(["vendor", "python", "hitachi_l200", "--out", "wheels", "--wheel"]) == 2
+    assert 'pip install "fieldscribe[wheel]"' in capsys.readouterr().err
+    assert list(project.iterdir()) == []

@@ -1,0 +1,267 @@
+"""`fieldscribe vendor`: exactly the files that a project needs, for all of a device or some points."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.asked import UnclearError
+from fieldscribe.cli import main
+from fieldscribe.vendoring.choosing import chosen
+from fieldscribe.vendoring.files import LICENCE, Wish, files_of
+from support.c_device import WARNINGS
+from support.described import made, shipped
+from support.places import ROOT
+from support.toolchains import succeed, tool
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+
+SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
+TEN = "A001,A002,A003,A020,D001,D002,F002,F003,run_command,inverter_status"
+HARD = TEN.replace("A003,A020", "A061,A062")
+"""Two whose limits depend on other points."""
+
+
+def vendor(*words: str | Path) -> int:
+    return main(["vendor", *map(str, words)])
+
+
+def names(device: Device, *words: str) -> list[str]:
+    """The points that are left of a device."""
+    return [point.item for point in chosen(device, words).points]
+
+
+@pytest.mark.parametrize(
+    ("device", "words", "points"),
+    [
+        ("hitachi_l200", ("A020",), ["base_frequency"]),
+        ("hitachi_l200", ("a020", "base_frequency"), ["base_frequency"]),
+        ("hitachi_l200", ("name:base_frequency",), ["base_frequency"]),
+        (
+            "hitachi_l200",
+            ("*_command", "d00[12]"),
+            ["run_command", "direction_command", "output_frequency", "motor_current"],
+        ),
+        # a limit needs the points that it is made of, and not their limits
+        ("hitachi_l200", ("A061",), ["maximum_frequency", "upper_frequency_limit", "lower_frequency_limit"]),
+        ("hitachi_l200", ("A062",), ["upper_frequency_limit", "lower_frequency_limit", "start_frequency"]),
+        ("hitachi_l200", ("group:monitor_d",), None),
+        ("hitachi_l200", ("monitor_d",), None),
+        ("woodward_mpu2s", ("generator_active_power",), ["generator_active_power", "generator_power_exponent"]),
+        ("nord_sk5xxe", ("P050[2]",), ["setpoint_1"]),
+    ],
+)
+def test_points_are_chosen_with_what_they_need(device: str, words: tuple[str, ...], points: list[str] | None) -> None:
+    whole = shipped(device)
+    group = words[0].removeprefix("group:")
+    assert names(whole, *words) == (points or [point.item for point in whole.points if point.group == group])
+
+
+def test_a_command_is_chosen_by_its_name() -> None:
+    device = shipped("hitachi_l200")
+    with_command = chosen(device, ["A020", "enter"])
+    assert [command.name for command in with_command.commands] == ["enter"]
+    assert {"base_frequency", "data_write"} == {point.name for point in with_command.points}  # it says when it is done
+    assert not chosen(device, ["A020"]).commands
+
+
+@pytest.mark.parametrize(
+    ("device", "word", "message", "hint"),
+    [
+        ("hitachi_l200", "A0020", "no point, group or command `A0020`", "did you mean"),
+        ("hitachi_l200", "enterr", "`enterr`", "`enter`"),
+        ("hitachi_l200", "zzz*", "`zzz*`", "fieldscribe list hitachi_l200"),
+        ("hitachi_l200", "4137", "`4137`", ""),
+        ("hitachi_l200", "reserved_coil_0004", "cannot be used in code: reserved by the maker", "leave it out"),
+    ],
+)
+def test_words_that_mean_nothing(device: str, word: str, message: str, hint: str) -> None:
+    with pytest.raises(UnclearError) as refused:
+        chosen(shipped(device), [word])
+    assert message in refused.value.message
+    assert hint in refused.value.hint
+
+
+@pytest.mark.parametrize(("points", "most"), [(TEN, 20), (HARD, 25)])
+def test_ten_points_are_small_and_compile(points: str, most: int, tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", points) == 0
+    left = {path.name: path.stat().st_size for path in tmp_path.iterdir()}
+    runtime = {"fieldscribe.h", "fieldscribe_modbus.h"}
+    assert left.keys() == {*runtime, "hitachi_l200.h", "hitachi_l200_modbus.h", "hitachi_l200.manifest.json", LICENCE}
+    assert left["hitachi_l200.h"] <= 20 * 1024
+    assert left["hitachi_l200.h"] + left["hitachi_l200_modbus.h"] <= most * 1024
+    compiles(tmp_path, "hitachi_l200_modbus.h")
+
+
+def compiles(folder: Path, *headers: str) -> None:
+    """One C file that includes these headers is compiled and linked, without a warning."""
+    text = "".join(f'#include "{header}"\n' for header in headers)
+    (folder / "all.c").write_text(f"#define FIELDSCRIBE_IMPLEMENTATION\n{text}int main(void) {{ return 0; }}\n")
+    succeed([tool("gcc"), *WARNINGS, "-std=c99", f"-I{folder}", folder / "all.c", "-o", folder / "all"])
+    (folder / "all").unlink()
+    (folder / "all.c").unlink()
+
+
+@pytest.mark.parametrize("device", SHIPPED)
+def test_all_of_a_device_is_what_generate_makes(device: str, tmp_path: Path) -> None:
+    assert vendor("c", device, "--out", tmp_path) == 0
+    made_headers = {path.name: path.read_text("utf-8") for path in tmp_path.glob("*.h")}
+    head = re.compile("Regenerate with: .*")
+    for name, text in made_headers.items():
+        assert head.sub("", text) == head.sub("", (ROOT / "generated/c" / name).read_text("utf-8")), name
+
+
+@pytest.mark.parametrize("device", SHIPPED)
+def test_lines_of_a_choice_are_lines_of_the_whole(device: str) -> None:
+    """Nothing of a point changes its name or its bytes because others are left out."""
+    whole = shipped(device)
+    known = {line for _, text in files_of(whole, Wish("c")) for line in text.split("\n")}
+    alone = [point.item for point in whole.points if point.generated and not (point.arguments or point.changes_with)]
+    every_third = tuple(alone[::3])
+    new = [
+        line
+        for name, text in files_of(whole, Wish("c", every_third))
+        if name.startswith(device)
+        for line in text.split("\n")
+        if line not in known
+    ]
+    allowed = re.compile(
+        r" \* Generated by| \* Regenerate with|#if \w+_DESCRIPTION != |#define \w+_DESCRIPTION(_DIGEST)? |"
+        r"    0x\w+U, /\*|#define \w+_(BLOCK_MOST|GROUP_COUNT) |    \{\d+U, 0x\w+, \d+U\}, /\*|/\* ---- "
+    )
+    assert [line for line in new if not allowed.match(line)] == []
+
+
+@pytest.mark.full(seconds=12)
+@pytest.mark.parametrize("device", [*SHIPPED, "kitchen_sink", "kitchen_can", "kitchen_uss", "kitchen_codes"])
+def test_each_point_alone_compiles(device: str, tmp_path: Path) -> None:
+    """With what it needs, and under a name of its own, so that all lie in one program."""
+    whole = shipped(device) if device in SHIPPED else made(device)
+    headers = []
+    for number, point in enumerate(whole.points):
+        if point.generated or point.raw_only:
+            wish = Wish("c", (f"name:{point.item}",), f"alone_{number}")
+            for path, text in files_of(whole, wish):
+                (tmp_path / path).write_text(text, "utf-8")
+            headers.append(f"alone_{number}_{whole.family}.h")
+    compiles(tmp_path, *headers)
+
+
+def test_all_in_one_file_beside_another_version(tmp_path: Path) -> None:
+    """Two devices, and two versions of one, live in one program."""
+    older = ROOT / "descriptions/hitachi_l200"
+    shutil.copytree(older, tmp_path / "older")
+    text = (tmp_path / "older/device.yaml").read_text("utf-8").replace("version: 1.0.0", "version: 0.9.0")
+    (tmp_path / "older/device.yaml").write_text(text, "utf-8")
+    out = tmp_path / "out"
+    assert vendor("c", "hitachi_l200", "--out", out, "--points", TEN, "--single-file") == 0
+    assert vendor("c", tmp_path / "older", "--out", out, "--points", TEN, "--single-file", "--as", "older_l200") == 0
+    assert vendor("c", "siemens_mm4", "--out", out, "--points", "P1082", "--single-file") == 0
+    assert sorted(path.name for path in out.glob("*.h")) == ["hitachi_l200.h", "older_l200.h", "siemens_mm4.h"]
+    compiles(out, "hitachi_l200.h", "older_l200.h", "siemens_mm4.h")
+    assert "OLDER_L200_DESCRIPTION_VERSION_NUMBER 9000UL" in (out / "older_l200.h").read_text("utf-8")
+
+
+def test_points_alone_need_no_frames(tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A020", "--no-frames") == 0
+    assert sorted(path.name for path in tmp_path.glob("*.h")) == ["fieldscribe.h", "hitachi_l200.h"]
+    compiles(tmp_path, "hitachi_l200.h")
+
+
+def test_points_from_a_file(tmp_path: Path) -> None:
+    (tmp_path / "points.txt").write_text("A001, D001  # what the panel shows\n\n# and what it sets\nF002\n", "utf-8")
+    assert vendor("c", "hitachi_l200", "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
+    asked = json.loads((tmp_path / "out/hitachi_l200.manifest.json").read_text("utf-8"))["asked"]
+    assert asked == {"c": {"device": "hitachi_l200", "points": ["A001", "D001", "F002"]}}
+
+
+def test_check_tells_what_is_missing_stale_edited_and_foreign(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    order = ("c", "hitachi_l200", "--out", out, "--points", TEN)
+
+    def check() -> dict[str, list[str]]:
+        capsys.readouterr()
+        code = vendor(*order, "--check", "--format", "json")
+        [delivery] = json.loads(capsys.readouterr().out)["deliveries"]
+        wrong = {key: delivery[key] for key in ("missing", "edited", "stale", "refused") if delivery[key]}
+        assert code == (1 if wrong else 0)
+        return wrong
+
+    assert len(check()["missing"]) == 6
+    assert vendor(*order) == 0
+    assert check() == {}
+    (out / "fieldscribe.h").unlink()
+    header = (out / "hitachi_l200.h").read_text("utf-8")
+    (out / "hitachi_l200.h").write_text(header.replace("4000, raw", "5000, raw"), "utf-8")
+    assert check() == {"missing": ["fieldscribe.h"], "edited": ["hitachi_l200.h"]}
+    assert vendor(*order) == 0
+    assert (out / "hitachi_l200.h").read_text("utf-8") == header
+    order = (*order[:-1], "A001")
+    assert check() == {"stale": ["hitachi_l200.h", "hitachi_l200.manifest.json", "hitachi_l200_modbus.h"]}
+    shutil.rmtree(out)
+    out.mkdir()
+    (out / "fieldscribe.h").write_text("by hand", "utf-8")
+    assert list(check()["refused"]) == ["fieldscribe.h"]
+    assert vendor(*order) == 1
+    assert [path.name for path in out.iterdir()] == ["fieldscribe.h"]
+    assert vendor(*order, "--force") == 0
+
+
+def test_what_nobody_took_changes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Only the chosen points decide whether vendored files are current."""
+    shutil.copytree(ROOT / "descriptions/hitachi_l200", tmp_path / "hitachi_l200")
+    order = ("c", tmp_path / "hitachi_l200", "--out", tmp_path / "out", "--points", "D001,F002")
+    assert vendor(*order) == 0
+    coils = tmp_path / "hitachi_l200/coils.yaml"
+    text = coils.read_text("utf-8")
+    coils.write_text(text.replace("name: trip_reset", "name: trip_acknowledge", 1), "utf-8")
+    assert coils.read_text("utf-8") != text
+    assert vendor(*order, "--check") == 0, capsys.readouterr()
+
+
+def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "D001") == 0
+    assert vendor("c", "jumo_controller", "--out", tmp_path) == 0
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "D001", "--no-frames") == 0
+    assert (tmp_path / "fieldscribe_modbus.h").is_file()  # the other device has it
+    assert not (tmp_path / "hitachi_l200_modbus.h").exists()
+    compiles(tmp_path, "hitachi_l200.h", "jumo_controller_modbus.h")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("c", "hitachi_l200"), "--out DIR is missing"),
+        (("c",), "DEVICE is missing"),
+        (("d", "hitachi_l200", "--out", "x"), "`d` is no language"),
+        (("--points", "A001"), "LANGUAGE and DEVICE are missing"),
+        ((), "there is no project file fieldscribe.toml"),
+        (("python", "hitachi_l200", "--out", "x", "--single-file"), "--single-file is for c"),
+        (("rust", "hitachi_l200", "--out", "x", "--no-frames"), "--no-frames is for c"),
+        (("c", "hitachi_l200", "--out", "x", "--points", " , "), "--points names no point"),
+        (("c", "hitachi_l200", "--out", "x", "--points", "@nothing"), "cannot read nothing: No such file"),
+        (("c", "hitachi_l200", "--out", "x", "--points", "A0Z1"), "no point, group or command `A0Z1`"),
+        (("c", "hitachi_l200", "--out", "x", "--as", "../x"), "`../x` is no name"),
+        (("c", "hitachi_l200", "--out", "x", "--as", "stdint"), "hides the one of the C library"),
+        (("c", "hitachi_l2000", "--out", "x"), "did you mean `hitachi_l200`"),
+    ],
+)
+def test_wrong_calls(
+    words: tuple[str, ...],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert vendor(*words) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
