@@ -171,9 +171,7 @@ CLAIMS = {
             0, "", made="firmware/drivers/hitachi_l200.h"
         ),
         "python woodward_mpu2s --out tools": Claim(0, "", made="tools/woodward_mpu2s/__init__.py"),
-        'rust siemens_mm4 --out crates --points "P10*,status_word"': Claim(
-            0, "", made="crates/siemens_mm4/Cargo.toml"
-        ),
+        'rust siemens_mm4 --out crates --points "P10*,status_word"': Claim(0, "", made="crates/siemens_mm4/Cargo.toml"),
         "--check": Claim(1, r"missing: vendored/hitachi_l200\.h"),
     },
     "units": {

@@ -130,8 +130,8 @@ def test_a_row_of_the_page() -> None:
         ("max(1, upper_speed_limit)..4000", "max(1, upper_<wbr>speed_<wbr>limit)..<wbr>4000"),
         ("-32768..32767", "-32768..<wbr>32767"),
         ("0..4294967295", "0..<wbr>4294967295"),
-        ("0..A061", "0..<wbr>A061"),
-        ("0..400", "0..400"),
+        ("0..A061", "0..A061"),
+        ("1..A061; while A061.raw is 0: to 400", "1..<wbr>A061; while A061.raw is 0: to 400"),
     ],
 )
 def test_where_a_narrow_cell_may_be_broken(text: str, broken: str) -> None:
@@ -151,6 +151,23 @@ def test_a_list_of_names_stands_once_a_group_beside_its_first_point() -> None:
     assert said == [levels, below, "numbers as of [user_0](#point-user_0)", below]
     assert '<a id="numbers-user_1"></a>Numbers of [`user_1`](#point-user_1), [`user_3`](#point-user_3):' in page
     assert page.count("| 39 | `event_39` | event_39 |") == 1
+
+
+@pytest.mark.parametrize(
+    ("note", "errata", "in_row", "below"),
+    [
+        ("Short.", ("a",), "Short; erratum [a](#erratum-a)", ""),
+        ("Long " * 30, (), "[more below](#more-speed)", "Long " * 30),
+        ("", ("a" * 50, "b" * 80), "[more below](#more-speed)", f"errata [`{'a' * 50}`](#erratum-{'a' * 50}), [`"),
+        ("", (), "", ""),
+    ],
+)
+def test_a_long_remark_stands_below_the_table(note: str, errata: tuple[str, ...], in_row: str, below: str) -> None:
+    page = _page(sample_device((point("speed", 1, note=titles(note) if note else {}, errata=errata),)))
+    assert _row(page, "speed")[-2] == in_row
+    said = page.partition('\n- <a id="more-speed"></a>`speed`: ')[2]
+    assert said.startswith(below.strip())
+    assert bool(said) == bool(below)
 
 
 def _flag(low: int, width: int, name: str, active: int = 1, values: tuple[str, ...] = ()) -> Flag:
@@ -227,8 +244,8 @@ def test_rules_call_points_by_codes_that_are_theirs_alone() -> None:
     limited = Allowed((Interval(1, limit),), False, ())
     upper = point("upper", 1, code="A061")
     points = (upper, point("lower", 2, allowed=limited), point("other", 3, code="A061"))
-    assert "1..<wbr>upper" in _row(_page(sample_device(points)), "lower")
-    assert "1..<wbr>A061" in _row(_page(sample_device(points[:2])), "lower")
+    assert "1..upper" in _row(_page(sample_device(points)), "lower")
+    assert "1..A061" in _row(_page(sample_device(points[:2])), "lower")
 
 
 def test_the_page_names_what_is_not_generated_and_why() -> None:

@@ -22,6 +22,8 @@ _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
 """A name that would make its column wide."""
+_NARROW = 12
+"""A shorter text needs no break."""
 _LONG = 17
 """A point's own name is broken if it is so long: names are code, which takes more signs to break."""
 _LONG_SPAN = re.compile(r"(?:(?<=[a-z)])|(?<=[0-9.]{5}))\.\.|\.\.(?=[A-Za-z]|-?[0-9]{6})")
@@ -78,7 +80,7 @@ def code(text: str) -> str:
 
 def narrow(text: str) -> str:
     """A finished cell whose long names may be broken behind their signs `_`; who searches for them does not notice."""
-    return _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", text))
+    return text if len(text) < _NARROW else _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", text))
 
 
 def _breaking(name: re.Match[str]) -> str:

@@ -20,7 +20,7 @@ from fieldscribe.targets.docs.cells import (
     source_text,
 )
 from fieldscribe.targets.docs.numbers import Lists
-from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, own_remarks, remarks_text
+from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, more_below, own_remarks, remarks_text
 from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, reference_heads
 from fieldscribe.targets.docs.words import Words
 
@@ -52,6 +52,7 @@ class GroupView:
     note: str
     facts: str
     points: str
+    more: str
     words: tuple[WordView, ...]
     lists: tuple[ListView, ...]
 
@@ -92,6 +93,7 @@ def _group_view(group: Group, subjects: list[Subject], rows: _Rows) -> GroupView
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
         points=rows.table(subjects, lists, with_space=len(spaces) > 1),
+        more=more_below(subject.point for subject in subjects),
         words=tuple(words.views()),
         lists=tuple(lists.views()),
     )

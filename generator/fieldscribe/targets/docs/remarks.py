@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.targets.docs.cells import LINE_BREAK, cell, code, narrow, narrow_link
+from fieldscribe.targets.docs.cells import LINE_BREAK, anchor, cell, code, link, narrow, narrow_link, target
 from fieldscribe.targets.docs.numbers import SHORT_LIST, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from fieldscribe.model import Point
     from fieldscribe.targets.docs.subjects import Scope
@@ -19,6 +19,10 @@ _KEEPS = {
     "yes": "kept, each write wears the memory",
     "choice": "kept when written to the EEPROM",
 }
+
+
+_LONGEST_REMARK = 120
+"""Note and errata of more signs stand below the table."""
 
 
 class OwnRemarks(NamedTuple):
@@ -52,14 +56,39 @@ def own_remarks(point: Point, numbers: str) -> OwnRemarks:
         numbers,
         cell(f"written at {wording.write_place_text(point)}") if point.write_place else "",
         "; ".join([f"was {code(old)}" for old in point.was]),
-        cell(wording.title_text(point.note).rstrip(".")) if point.note else "",
-        _errata(point.errata) if point.errata else "",
+        *_note_and_errata(point),
     )
 
 
-def _errata(ids: tuple[str, ...]) -> str:
-    links = ", ".join([narrow_link("erratum", erratum) for erratum in ids])
-    return f"{'erratum' if len(ids) == 1 else 'errata'} {links}"
+def _note_and_errata(point: Point) -> tuple[str, str]:
+    if _has_more(point):
+        return f"[more below](#{anchor('more', point.item)})", ""
+    return _note(point), _errata(point.errata, narrow_link)
+
+
+def _has_more(point: Point) -> bool:
+    """Whether note and errata would make the row a tall one."""
+    if not (point.note or point.errata):
+        return False
+    return len(wording.title_text(point.note) if point.note else "") + sum(map(len, point.errata)) > _LONGEST_REMARK
+
+
+def more_below(points: Iterable[Point]) -> str:
+    """The long notes and the many errata of points, as a list below their table."""
+    return "".join(
+        f"- {target('more', point.item)}: {'; '.join(filter(None, (_note(point), _errata(point.errata, link))))}\n"
+        for point in points
+        if _has_more(point)
+    )
+
+
+def _note(point: Point) -> str:
+    return cell(wording.title_text(point.note).rstrip(".")) if point.note else ""
+
+
+def _errata(ids: tuple[str, ...], linked: Callable[[str, str], str]) -> str:
+    links = ", ".join([linked("erratum", erratum) for erratum in ids])
+    return f"{'erratum' if len(ids) == 1 else 'errata'} {links}" if ids else ""
 
 
 def form_of(own: OwnRemarks) -> tuple[bool, ...]:
