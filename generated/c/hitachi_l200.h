@@ -1612,12 +1612,12 @@ static inline bool hitachi_l200_upper_frequency_limit_is_no_value(uint16_t raw) 
 static inline const char *hitachi_l200_upper_frequency_limit_special_name(uint16_t raw)
 { return (raw == 0U) ? "inactive" : NULL; }
 /* The raw numbers of other points. */
-typedef struct hitachi_l200_upper_frequency_limit_with {
+typedef struct hitachi_l200_with_lower_frequency_limit_and_maximum_frequency {
     uint16_t lower_frequency_limit_raw;
     uint16_t maximum_frequency_raw;
-} hitachi_l200_upper_frequency_limit_with;
+} hitachi_l200_with_lower_frequency_limit_and_maximum_frequency;
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_check(
-    uint16_t raw, const hitachi_l200_upper_frequency_limit_with *with)
+    uint16_t raw, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with)
 {
     return (raw == 0U) ? FIELDSCRIBE_OK
         : (hitachi_l200_upper_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
@@ -1626,7 +1626,7 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_check(
         fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->maximum_frequency_raw * 10), 4000))));
 }
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode_count(
-    int32_t count, const hitachi_l200_upper_frequency_limit_with *with, uint16_t *raw)
+    int32_t count, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with, uint16_t *raw)
 {
     return fieldscribe_within(count, 0, 4000)
         ? fieldscribe_keep_u16((hitachi_l200_upper_frequency_limit_is_special((uint16_t)count) ? FIELDSCRIBE_SPECIAL
@@ -1640,7 +1640,7 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_decode_count(uint16_t raw,
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_encode(
-    fieldscribe_real value, const hitachi_l200_upper_frequency_limit_with *with, uint16_t *raw)
+    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency *with, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_RAW_MAX);
@@ -1670,12 +1670,12 @@ static inline bool hitachi_l200_upper_frequency_limit_set_2_is_no_value(uint16_t
 static inline const char *hitachi_l200_upper_frequency_limit_set_2_special_name(uint16_t raw)
 { return (raw == 0U) ? "inactive" : NULL; }
 /* The raw numbers of other points. */
-typedef struct hitachi_l200_upper_frequency_limit_set_2_with {
+typedef struct hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 {
     uint16_t lower_frequency_limit_set_2_raw;
     uint16_t maximum_frequency_set_2_raw;
-} hitachi_l200_upper_frequency_limit_set_2_with;
+} hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2;
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_check(
-    uint16_t raw, const hitachi_l200_upper_frequency_limit_set_2_with *with)
+    uint16_t raw, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with)
 {
     return (raw == 0U) ? FIELDSCRIBE_OK
         : (hitachi_l200_upper_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
@@ -1684,7 +1684,7 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_check(
         fieldscribe_no_more(fieldscribe_whole_of((int64_t)with->maximum_frequency_set_2_raw * 10), 4000))));
 }
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode_count(
-    int32_t count, const hitachi_l200_upper_frequency_limit_set_2_with *with, uint16_t *raw)
+    int32_t count, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with, uint16_t *raw)
 {
     return fieldscribe_within(count, 0, 4000)
         ? fieldscribe_keep_u16((hitachi_l200_upper_frequency_limit_set_2_is_special((uint16_t)count)
@@ -1698,7 +1698,8 @@ FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_decode_count(uint16_
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS hitachi_l200_upper_frequency_limit_set_2_encode(
-    fieldscribe_real value, const hitachi_l200_upper_frequency_limit_set_2_with *with, uint16_t *raw)
+    fieldscribe_real value, const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 *with,
+    uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10),
         HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MIN, HITACHI_L200_UPPER_FREQUENCY_LIMIT_SET_2_RAW_MAX);
@@ -1728,12 +1729,12 @@ static inline bool hitachi_l200_lower_frequency_limit_is_no_value(uint16_t raw) 
 static inline const char *hitachi_l200_lower_frequency_limit_special_name(uint16_t raw)
 { return (raw == 0U) ? "inactive" : NULL; }
 /* The raw numbers of other points. */
-typedef struct hitachi_l200_lower_frequency_limit_with {
+typedef struct hitachi_l200_with_start_frequency_and_upper_frequency_limit {
     uint16_t start_frequency_raw;
     uint16_t upper_frequency_limit_raw;
-} hitachi_l200_lower_frequency_limit_with;
+} hitachi_l200_with_start_frequency_and_upper_frequency_limit;
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_check(
-    uint16_t raw, const hitachi_l200_lower_frequency_limit_with *with)
+    uint16_t raw, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with)
 {
     return (raw == 0U) ? FIELDSCRIBE_OK
         : (hitachi_l200_lower_frequency_limit_is_special(raw) ? FIELDSCRIBE_SPECIAL
@@ -1743,7 +1744,7 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_check(
         : fieldscribe_whole_of(4000))));
 }
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode_count(
-    int32_t count, const hitachi_l200_lower_frequency_limit_with *with, uint16_t *raw)
+    int32_t count, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with, uint16_t *raw)
 {
     return fieldscribe_within(count, 0, 4000)
         ? fieldscribe_keep_u16((hitachi_l200_lower_frequency_limit_is_special((uint16_t)count) ? FIELDSCRIBE_SPECIAL
@@ -1757,7 +1758,7 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_decode_count(uint16_t raw,
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_encode(
-    fieldscribe_real value, const hitachi_l200_lower_frequency_limit_with *with, uint16_t *raw)
+    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit *with, uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
@@ -1786,12 +1787,12 @@ static inline bool hitachi_l200_lower_frequency_limit_set_2_is_no_value(uint16_t
 static inline const char *hitachi_l200_lower_frequency_limit_set_2_special_name(uint16_t raw)
 { return (raw == 0U) ? "inactive" : NULL; }
 /* The raw numbers of other points. */
-typedef struct hitachi_l200_lower_frequency_limit_set_2_with {
+typedef struct hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 {
     uint16_t start_frequency_raw;
     uint16_t upper_frequency_limit_set_2_raw;
-} hitachi_l200_lower_frequency_limit_set_2_with;
+} hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2;
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_check(
-    uint16_t raw, const hitachi_l200_lower_frequency_limit_set_2_with *with)
+    uint16_t raw, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with)
 {
     return (raw == 0U) ? FIELDSCRIBE_OK
         : (hitachi_l200_lower_frequency_limit_set_2_is_special(raw) ? FIELDSCRIBE_SPECIAL
@@ -1801,7 +1802,7 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_check(
         : fieldscribe_whole_of(4000))));
 }
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode_count(
-    int32_t count, const hitachi_l200_lower_frequency_limit_set_2_with *with, uint16_t *raw)
+    int32_t count, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with, uint16_t *raw)
 {
     return fieldscribe_within(count, 0, 4000)
         ? fieldscribe_keep_u16((hitachi_l200_lower_frequency_limit_set_2_is_special((uint16_t)count)
@@ -1815,7 +1816,8 @@ FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_decode_count(uint16_
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS hitachi_l200_lower_frequency_limit_set_2_encode(
-    fieldscribe_real value, const hitachi_l200_lower_frequency_limit_set_2_with *with, uint16_t *raw)
+    fieldscribe_real value, const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 *with,
+    uint16_t *raw)
 {
     const fieldscribe_whole whole = fieldscribe_rounded(fieldscribe_times(value, 10), 0, 4000);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,

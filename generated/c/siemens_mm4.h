@@ -831,12 +831,13 @@ FIELDSCRIBE_STATUS siemens_mm4_control_word_encode(int32_t value, uint16_t *raw)
 #define SIEMENS_MM4_MAIN_SETPOINT_RAW_MAX 65535
 #define SIEMENS_MM4_MAIN_SETPOINT_DECIMALS 5
 /* The raw numbers of other points. */
-typedef struct siemens_mm4_main_setpoint_with {
-    uint16_t uss_normalisation_raw;
+typedef struct siemens_mm4_with_reference_frequency_and_uss_normalisation {
     uint32_t reference_frequency_raw;
-} siemens_mm4_main_setpoint_with;
+    uint16_t uss_normalisation_raw;
+} siemens_mm4_with_reference_frequency_and_uss_normalisation;
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
-static inline fieldscribe_rule siemens_mm4_main_setpoint_rule(const siemens_mm4_main_setpoint_with *with)
+static inline fieldscribe_rule siemens_mm4_rule_fa46e384(
+    const siemens_mm4_with_reference_frequency_and_uss_normalisation *with)
 {
     return (with->uss_normalisation_raw == 0)
         ? fieldscribe_rule_f32(fieldscribe_rule_of(16384, 1, 0, 1), with->reference_frequency_raw, true)
@@ -844,15 +845,15 @@ static inline fieldscribe_rule siemens_mm4_main_setpoint_rule(const siemens_mm4_
         : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)));
 }
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode_count(
-    int64_t count, const siemens_mm4_main_setpoint_with *with, uint16_t *raw)
+    int64_t count, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
 {
-    return fieldscribe_store_u16(fieldscribe_ruled_count(siemens_mm4_main_setpoint_rule(with), count, 100000, 0, 65535),
+    return fieldscribe_store_u16(fieldscribe_ruled_count(siemens_mm4_rule_fa46e384(with), count, 100000, 0, 65535),
         raw);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
-    double value, const siemens_mm4_main_setpoint_with *with, uint16_t *raw)
-{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_main_setpoint_rule(with), value, 0, 65535), raw); }
+    double value, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
+{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_rule_fa46e384(with), value, 0, 65535), raw); }
 #endif
 
 /* HSW2 second setpoint: 0..65535; w, pzd 3; not generated: the manual does not settle its scale */
@@ -905,25 +906,13 @@ static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw;
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_ADDRESS 0x0001U
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_TELEGRAM SIEMENS_MM4_TELEGRAM_ANSWER
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_DECIMALS 5
-/* The raw numbers of other points. */
-typedef struct siemens_mm4_main_actual_value_with {
-    uint16_t uss_normalisation_raw;
-    uint32_t reference_frequency_raw;
-} siemens_mm4_main_actual_value_with;
-static inline fieldscribe_rule siemens_mm4_main_actual_value_rule(const siemens_mm4_main_actual_value_with *with)
-{
-    return (with->uss_normalisation_raw == 0)
-        ? fieldscribe_rule_f32(fieldscribe_rule_of(16384, 1, 0, 1), with->reference_frequency_raw, true)
-        : ((with->uss_normalisation_raw == 1) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)));
-}
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
-    uint16_t raw, const siemens_mm4_main_actual_value_with *with, int64_t *count)
-{ return fieldscribe_decode_count(siemens_mm4_main_actual_value_rule(with), (int64_t)raw, 100000, count); }
+    uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, int64_t *count)
+{ return fieldscribe_decode_count(siemens_mm4_rule_fa46e384(with), (int64_t)raw, 100000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
-    uint16_t raw, const siemens_mm4_main_actual_value_with *with, double *value)
-{ return fieldscribe_decode_value(siemens_mm4_main_actual_value_rule(with), (int64_t)raw, value); }
+    uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, double *value)
+{ return fieldscribe_decode_value(siemens_mm4_rule_fa46e384(with), (int64_t)raw, value); }
 #endif
 
 /*

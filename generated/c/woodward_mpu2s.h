@@ -75,17 +75,14 @@ static inline fieldscribe_real woodward_mpu2s_generator_frequency_decode(uint16_
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_ADDRESS 0x0002U
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_DECIMALS 0
-static inline fieldscribe_rule woodward_mpu2s_generator_active_power_rule(int8_t generator_power_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_rule_bb21e790(int8_t other_raw)
 {
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_power_exponent_raw, 0, 5), -(int64_t)generator_power_exponent_raw);
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1), (int64_t)other_raw, 0, 5),
+        -(int64_t)other_raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode_count(
     int16_t raw, int8_t generator_power_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
-        (int64_t)raw, 1, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_bb21e790(generator_power_exponent_raw), (int64_t)raw, 1, count); }
 static inline void woodward_mpu2s_generator_active_power_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uint16_t words[1])
@@ -93,10 +90,7 @@ static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uin
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode(
     int16_t raw, int8_t generator_power_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_bb21e790(generator_power_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* PGNEXPO generator power exponent: 0..5; r, mux 1, word 1, nr 4 */
@@ -126,31 +120,30 @@ static inline uint16_t woodward_mpu2s_generator_voltage_exponent_insert(uint16_t
 #define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_PRESENT_ACTIVE_POWER_SETPOINT_DECIMALS 4
 /* The raw numbers of other points. */
-typedef struct woodward_mpu2s_present_active_power_setpoint_with {
+typedef struct woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent {
     uint16_t active_power_setpoint_factor_raw;
     int8_t generator_power_exponent_raw;
-} woodward_mpu2s_present_active_power_setpoint_with;
-static inline fieldscribe_rule woodward_mpu2s_present_active_power_setpoint_rule(
-    const woodward_mpu2s_present_active_power_setpoint_with *with)
+} woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent;
+static inline fieldscribe_rule woodward_mpu2s_rule_7026a1a1(
+    const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with)
 {
     return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_over(fieldscribe_rule_of(2800, 1, 0, 1),
         (int64_t)with->active_power_setpoint_factor_raw), (int64_t)with->generator_power_exponent_raw, 0, 5),
         -(int64_t)with->generator_power_exponent_raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode_count(
-    int16_t raw, const woodward_mpu2s_present_active_power_setpoint_with *with, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, 10000,
-        count);
-}
+    int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
+    int64_t *count)
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_7026a1a1(with), (int64_t)raw, 10000, count); }
 static inline void woodward_mpu2s_present_active_power_setpoint_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_present_active_power_setpoint_from_words(const uint16_t words[1])
 { return (int16_t)fieldscribe_signed(words[0], 0x8000U); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_present_active_power_setpoint_decode(
-    int16_t raw, const woodward_mpu2s_present_active_power_setpoint_with *with, double *value)
-{ return fieldscribe_decode_value(woodward_mpu2s_present_active_power_setpoint_rule(with), (int64_t)raw, value); }
+    int16_t raw, const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent *with,
+    double *value)
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_7026a1a1(with), (int64_t)raw, value); }
 #endif
 
 /* PGNWWD active power setpoint factor: 0..65535; r, mux 1, word 3, nr 6 */
@@ -162,48 +155,37 @@ static inline int32_t woodward_mpu2s_active_power_setpoint_factor_decode(uint16_
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_ADDRESS 0x0006U
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_busbar_voltage_l1_l2_rule(int8_t busbar_voltage_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_rule_29d61031(int8_t other_raw)
 {
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)busbar_voltage_exponent_raw, -4, 4), -(int64_t)busbar_voltage_exponent_raw);
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1), (int64_t)other_raw, -4, 4),
+        -(int64_t)other_raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t busbar_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(busbar_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
     uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(busbar_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 2, word 2, nr 8 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_ADDRESS 0x0007U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l1_l2_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* present fault classes: 0..65535; r, mux 2, word 3, nr 9 */
@@ -301,144 +283,96 @@ static inline int32_t woodward_mpu2s_internal_faults_6_decode(uint16_t raw) { re
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_ADDRESS 0x000EU
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l2_l3_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_l3_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 5, word 1, nr 16 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_ADDRESS 0x000FU
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l3_l1_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l3_l1_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l3_l1_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 2, nr 17 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_ADDRESS 0x0010U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l1_n_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l1_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l1_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 5, word 3, nr 18 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_ADDRESS 0x0011U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l2_n_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l2_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l2_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 6, word 1, nr 19 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_ADDRESS 0x0012U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l3_n_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l3_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l3_n_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator voltage l1 l2: raw 0..65535; 0.0001 V a count; r, mux 6, word 2, nr 20 */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_ADDRESS 0x0013U
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_l1_l2_rule(int8_t generator_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_voltage_exponent_raw, -4, 4), -(int64_t)generator_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(generator_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* reserved word 21: 0..65535; r, mux 6, word 3, nr 21; not generated: reserved by the maker */
@@ -447,72 +381,53 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_ADDRESS 0x0015U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L1_DECIMALS 3
-static inline fieldscribe_rule woodward_mpu2s_generator_current_l1_rule(int8_t generator_current_exponent_raw)
+static inline fieldscribe_rule woodward_mpu2s_rule_e38f1fca(int8_t other_raw)
 {
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
+    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1), (int64_t)other_raw, -3, 3),
+        -(int64_t)other_raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator current l2: raw 0..65535; 0.001 A a count; r, mux 7, word 2, nr 23 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_ADDRESS 0x0016U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_DECIMALS 3
-static inline fieldscribe_rule woodward_mpu2s_generator_current_l2_rule(int8_t generator_current_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l2_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l2_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* generator current l3: raw 0..65535; 0.001 A a count; r, mux 7, word 3, nr 24 */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_ADDRESS 0x0017U
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_DECIMALS 3
-static inline fieldscribe_rule woodward_mpu2s_generator_current_l3_rule(int8_t generator_current_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)generator_current_exponent_raw, -3, 3), -(int64_t)generator_current_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l3_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_current_l3_rule(generator_current_exponent_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_e38f1fca(generator_current_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -621,120 +536,80 @@ static inline uint16_t woodward_mpu2s_busbar_state_insert(uint16_t word, uint8_t
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_ADDRESS 0x0021U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l2_l3_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l2_l3_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l2_l3_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains voltage l3 l1: raw 0..65535; 0.0001 V a count; r, mux 11, word 2, nr 35 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_ADDRESS 0x0022U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l3_l1_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l3_l1_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l3_l1_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains voltage l1 n: raw 0..65535; 0.0001 V a count; r, mux 11, word 3, nr 36 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_ADDRESS 0x0023U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l1_n_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l1_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l1_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains voltage l2 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 1, nr 37 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_ADDRESS 0x0024U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l2_n_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l2_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l2_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains voltage l3 n: raw 0..65535; 0.0001 V a count; r, mux 12, word 2, nr 38 */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_ADDRESS 0x0025U
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_TELEGRAM WOODWARD_MPU2S_TELEGRAM_VISUALISATION
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_DECIMALS 4
-static inline fieldscribe_rule woodward_mpu2s_mains_voltage_l3_n_rule(int8_t mains_voltage_exponent_raw)
-{
-    return fieldscribe_rule_ten_to(fieldscribe_rule_within(fieldscribe_rule_of(1, 1, 0, 1),
-        (int64_t)mains_voltage_exponent_raw, -4, 4), -(int64_t)mains_voltage_exponent_raw);
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_mains_voltage_l3_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, 10000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_voltage_l3_n_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_29d61031(mains_voltage_exponent_raw), (int64_t)raw, value); }
 #endif
 
 /* mains frequency: 0..655.35 Hz; 0.01 Hz a count; r, mux 12, word 3, nr 39 */
@@ -1288,15 +1163,14 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 16),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 5, 16));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_setpoint_100v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
+static inline fieldscribe_rule woodward_mpu2s_rule_78f2272d(uint16_t other_raw)
+{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)other_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
@@ -1304,26 +1178,23 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -1340,15 +1211,12 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 8),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 6, 5), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_voltage_setpoint_400v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
@@ -1356,26 +1224,23 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_voltage_setpoint_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_setpoint_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_voltage_setpoint_400v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -1392,14 +1257,12 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 16),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 5, 16));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_rated_voltage_100v_rule(uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
@@ -1407,26 +1270,23 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_100v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_rated_voltage_100v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -1443,14 +1303,12 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 8),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 6, 5), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_rated_voltage_400v_rule(uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
@@ -1458,26 +1316,23 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode_count(
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
+        count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MIN,
+        WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_rated_voltage_400v_check((uint16_t)whole.number, generator_voltage_factor_raw)),
         (uint16_t)whole.number, raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_rated_voltage_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_generator_rated_voltage_400v_rule(generator_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* generator current transformer ratio: 10..7000 A; rw */
@@ -3091,15 +2946,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
@@ -3108,17 +2959,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_1_threshold_100v_check((uint16_t)whole.number,
@@ -3126,10 +2975,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_overvoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3146,15 +2992,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
@@ -3163,17 +3005,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_1_threshold_400v_check((uint16_t)whole.number,
@@ -3181,10 +3021,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_1_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_overvoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* generator overvoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -3223,15 +3060,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
@@ -3240,17 +3073,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_2_threshold_100v_check((uint16_t)whole.number,
@@ -3258,10 +3089,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_overvoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3278,15 +3106,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
@@ -3295,17 +3119,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode_
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_overvoltage_2_threshold_400v_check((uint16_t)whole.number,
@@ -3313,10 +3135,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_overvoltage_2_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_overvoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* generator overvoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -3374,15 +3193,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
@@ -3391,17 +3206,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_1_threshold_100v_check((uint16_t)whole.number,
@@ -3409,10 +3222,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_encode
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_undervoltage_1_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3429,15 +3239,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
@@ -3446,17 +3252,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_1_threshold_400v_check((uint16_t)whole.number,
@@ -3464,10 +3268,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_encode
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_1_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_undervoltage_1_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* generator undervoltage 1 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -3506,15 +3307,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
@@ -3523,17 +3320,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_2_threshold_100v_check((uint16_t)whole.number,
@@ -3541,10 +3336,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_encode
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_100v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_undervoltage_2_threshold_100v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3561,15 +3353,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)generator_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(
-    uint16_t generator_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)generator_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode_count(
     int64_t count, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
@@ -3578,17 +3366,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode_count(
     uint16_t raw, uint16_t generator_voltage_factor_raw, int64_t *count)
 {
-    return fieldscribe_decode_count(
-        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, 1000,
+    return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, 1000,
         count);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode(
     double value, uint16_t generator_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), value,
-        WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw),
+        value, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_generator_undervoltage_2_threshold_400v_check((uint16_t)whole.number,
@@ -3596,10 +3382,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_encode
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_undervoltage_2_threshold_400v_decode(
     uint16_t raw, uint16_t generator_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_generator_undervoltage_2_threshold_400v_rule(generator_voltage_factor_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(generator_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* generator undervoltage 2 delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -3760,14 +3543,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_mains_overvoltage_threshold_100v_rule(uint16_t mains_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3775,17 +3555,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode_count(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, 1000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        value, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_overvoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3793,10 +3569,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_100v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3813,14 +3586,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_mains_overvoltage_threshold_400v_rule(uint16_t mains_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3828,17 +3598,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode_count(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, 1000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        value, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_overvoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3846,10 +3612,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_overvoltage_threshold_400v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_overvoltage_threshold_400v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* mains overvoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -3886,14 +3649,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
         fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 3, 8));
 }
-static inline fieldscribe_rule woodward_mpu2s_mains_undervoltage_threshold_100v_rule(uint16_t mains_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3901,17 +3661,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode_count
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, 1000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        value, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_undervoltage_threshold_100v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3919,10 +3675,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_100v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_undervoltage_threshold_100v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /*
@@ -3939,14 +3692,11 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_check(
     return fieldscribe_between(raw, fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw, 20),
         fieldscribe_no_more(fieldscribe_limit_ratio((int64_t)mains_voltage_factor_raw * 13, 10), 65535));
 }
-static inline fieldscribe_rule woodward_mpu2s_mains_undervoltage_threshold_400v_rule(uint16_t mains_voltage_factor_raw)
-{ return fieldscribe_rule_times(fieldscribe_rule_of(1, 400, 0, 1), (int64_t)mains_voltage_factor_raw); }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count(
     int64_t count, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_count(
-        woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw), count, 1000,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        count, 1000, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3954,17 +3704,13 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode_count
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode_count(
     uint16_t raw, uint16_t mains_voltage_factor_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, 1000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
     double value, uint16_t mains_voltage_factor_raw, uint16_t *raw)
 {
-    const fieldscribe_whole whole = fieldscribe_ruled_value(
-        woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw), value,
-        WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
+    const fieldscribe_whole whole = fieldscribe_ruled_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw),
+        value, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MIN,
         WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_RAW_MAX);
     return fieldscribe_keep_u16(fieldscribe_both(whole.status,
         woodward_mpu2s_mains_undervoltage_threshold_400v_check((uint16_t)whole.number, mains_voltage_factor_raw)),
@@ -3972,10 +3718,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_encode(
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_undervoltage_threshold_400v_decode(
     uint16_t raw, uint16_t mains_voltage_factor_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_mains_undervoltage_threshold_400v_rule(mains_voltage_factor_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_78f2272d(mains_voltage_factor_raw), (int64_t)raw, value); }
 #endif
 
 /* mains undervoltage delay: 0.02..9.98 s; in steps of 0.02 s; 0.01 s a count; rw */
@@ -4738,38 +4481,33 @@ static inline uint16_t woodward_mpu2s_analog_output_1_current_range_insert(uint1
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
-static inline fieldscribe_rule woodward_mpu2s_analog_output_1_value_at_0_percent_rule(
-    uint16_t analog_output_1_source_raw)
+static inline fieldscribe_rule woodward_mpu2s_rule_0e76d9f9(uint16_t other_raw)
 {
-    return (analog_output_1_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
+    return (other_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((other_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((other_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
+        : ((other_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
+        : ((other_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
         : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode_count(
     int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_count(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, 100, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw), (int64_t)raw, 100, count); }
 static inline void woodward_mpu2s_analog_output_1_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_words(const uint16_t words[1])
@@ -4778,16 +4516,12 @@ static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_wor
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_encode(
     double value, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_value(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
     int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_1_value_at_0_percent_rule(analog_output_1_source_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw), (int64_t)raw, value); }
 #endif
 
 /* analog output 1 value at 100 percent: raw -9999..9999; 0.01 a count; rw */
@@ -4797,38 +4531,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_0_percent_decode(
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
-static inline fieldscribe_rule woodward_mpu2s_analog_output_1_value_at_100_percent_rule(
-    uint16_t analog_output_1_source_raw)
-{
-    return (analog_output_1_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_1_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_1_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode_count(
     int64_t count, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_count(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_1_source_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(
-        woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw), (int64_t)raw, 100, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw), (int64_t)raw, 100, count); }
 static inline void woodward_mpu2s_analog_output_1_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_1_value_at_100_percent_from_words(const uint16_t words[1])
@@ -4837,16 +4548,12 @@ static inline int16_t woodward_mpu2s_analog_output_1_value_at_100_percent_from_w
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_encode(
     double value, uint16_t analog_output_1_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_value(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_1_value_at_100_percent_decode(
     int16_t raw, uint16_t analog_output_1_source_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_analog_output_1_value_at_100_percent_rule(analog_output_1_source_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_0e76d9f9(analog_output_1_source_raw), (int64_t)raw, value); }
 #endif
 
 /* analog output 2 source: 0..23; rw */
@@ -4880,38 +4587,15 @@ static inline uint16_t woodward_mpu2s_analog_output_2_current_range_insert(uint1
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
-static inline fieldscribe_rule woodward_mpu2s_analog_output_2_value_at_0_percent_rule(
-    uint16_t analog_output_2_source_raw)
-{
-    return (analog_output_2_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode_count(
     int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_count(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, 100, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw), (int64_t)raw, 100, count); }
 static inline void woodward_mpu2s_analog_output_2_value_at_0_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_words(const uint16_t words[1])
@@ -4920,16 +4604,12 @@ static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_wor
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_encode(
     double value, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_value(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
     int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    return fieldscribe_decode_value(woodward_mpu2s_analog_output_2_value_at_0_percent_rule(analog_output_2_source_raw),
-        (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw), (int64_t)raw, value); }
 #endif
 
 /* analog output 2 value at 100 percent: raw -9999..9999; 0.01 a count; rw */
@@ -4939,38 +4619,15 @@ FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_0_percent_decode(
 #define WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_DECIMALS 2
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_check(int16_t raw)
 { return fieldscribe_check(raw, -9999, 9999); }
-static inline fieldscribe_rule woodward_mpu2s_analog_output_2_value_at_100_percent_rule(
-    uint16_t analog_output_2_source_raw)
-{
-    return (analog_output_2_source_raw == 1) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 2) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 3) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 4) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 5) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 6) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 7) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 8) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 9) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 10) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 19) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 20) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : ((analog_output_2_source_raw == 21) ? fieldscribe_rule_of(100, 1, 0, 1)
-        : ((analog_output_2_source_raw == 22) ? fieldscribe_rule_of(1, 1, 0, 1)
-        : (fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)))))))))))))));
-}
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode_count(
     int64_t count, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_count(woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_count(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw),
         count, 100, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode_count(
     int16_t raw, uint16_t analog_output_2_source_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(
-        woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw), (int64_t)raw, 100, count);
-}
+{ return fieldscribe_decode_count(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw), (int64_t)raw, 100, count); }
 static inline void woodward_mpu2s_analog_output_2_value_at_100_percent_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_analog_output_2_value_at_100_percent_from_words(const uint16_t words[1])
@@ -4979,16 +4636,12 @@ static inline int16_t woodward_mpu2s_analog_output_2_value_at_100_percent_from_w
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_encode(
     double value, uint16_t analog_output_2_source_raw, int16_t *raw)
 {
-    return fieldscribe_store_s16(
-        fieldscribe_ruled_value(woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw),
+    return fieldscribe_store_s16(fieldscribe_ruled_value(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw),
         value, -9999, 9999), raw);
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_analog_output_2_value_at_100_percent_decode(
     int16_t raw, uint16_t analog_output_2_source_raw, double *value)
-{
-    return fieldscribe_decode_value(
-        woodward_mpu2s_analog_output_2_value_at_100_percent_rule(analog_output_2_source_raw), (int64_t)raw, value);
-}
+{ return fieldscribe_decode_value(woodward_mpu2s_rule_0e76d9f9(analog_output_2_source_raw), (int64_t)raw, value); }
 #endif
 
 /* ---- parameters relays (parameter) ---- */

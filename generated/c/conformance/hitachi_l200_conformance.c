@@ -9,35 +9,37 @@
 #include "../hitachi_l200_modbus.h"
 #include "../fieldscribe_conformance_modbus.h"
 
-static inline const hitachi_l200_upper_frequency_limit_with *with_upper_frequency_limit(fieldscribe_vector *v)
+static inline const hitachi_l200_with_lower_frequency_limit_and_maximum_frequency
+    *with_upper_frequency_limit(fieldscribe_vector *v)
 {
-    static hitachi_l200_upper_frequency_limit_with with;
+    static hitachi_l200_with_lower_frequency_limit_and_maximum_frequency with;
     with.lower_frequency_limit_raw = (uint16_t)fieldscribe_with(v, "lower_frequency_limit");
     with.maximum_frequency_raw = (uint16_t)fieldscribe_with(v, "maximum_frequency");
     return &with;
 }
 
-static inline const hitachi_l200_upper_frequency_limit_set_2_with *with_upper_frequency_limit_set_2(fieldscribe_vector
-    *v)
+static inline const hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2
+    *with_upper_frequency_limit_set_2(fieldscribe_vector *v)
 {
-    static hitachi_l200_upper_frequency_limit_set_2_with with;
+    static hitachi_l200_with_lower_frequency_limit_set_2_and_maximum_frequency_set_2 with;
     with.lower_frequency_limit_set_2_raw = (uint16_t)fieldscribe_with(v, "lower_frequency_limit_set_2");
     with.maximum_frequency_set_2_raw = (uint16_t)fieldscribe_with(v, "maximum_frequency_set_2");
     return &with;
 }
 
-static inline const hitachi_l200_lower_frequency_limit_with *with_lower_frequency_limit(fieldscribe_vector *v)
+static inline const hitachi_l200_with_start_frequency_and_upper_frequency_limit
+    *with_lower_frequency_limit(fieldscribe_vector *v)
 {
-    static hitachi_l200_lower_frequency_limit_with with;
+    static hitachi_l200_with_start_frequency_and_upper_frequency_limit with;
     with.start_frequency_raw = (uint16_t)fieldscribe_with(v, "start_frequency");
     with.upper_frequency_limit_raw = (uint16_t)fieldscribe_with(v, "upper_frequency_limit");
     return &with;
 }
 
-static inline const hitachi_l200_lower_frequency_limit_set_2_with *with_lower_frequency_limit_set_2(fieldscribe_vector
-    *v)
+static inline const hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2
+    *with_lower_frequency_limit_set_2(fieldscribe_vector *v)
 {
-    static hitachi_l200_lower_frequency_limit_set_2_with with;
+    static hitachi_l200_with_start_frequency_and_upper_frequency_limit_set_2 with;
     with.start_frequency_raw = (uint16_t)fieldscribe_with(v, "start_frequency");
     with.upper_frequency_limit_set_2_raw = (uint16_t)fieldscribe_with(v, "upper_frequency_limit_set_2");
     return &with;

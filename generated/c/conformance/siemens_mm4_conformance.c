@@ -9,17 +9,19 @@
 #include "../siemens_mm4_uss.h"
 #include "../fieldscribe_conformance_uss.h"
 
-static inline const siemens_mm4_main_setpoint_with *with_main_setpoint(fieldscribe_vector *v)
+static inline const siemens_mm4_with_reference_frequency_and_uss_normalisation *with_main_setpoint(fieldscribe_vector
+    *v)
 {
-    static siemens_mm4_main_setpoint_with with;
+    static siemens_mm4_with_reference_frequency_and_uss_normalisation with;
     with.uss_normalisation_raw = (uint16_t)fieldscribe_with(v, "uss_normalisation");
     with.reference_frequency_raw = (uint32_t)fieldscribe_with(v, "reference_frequency");
     return &with;
 }
 
-static inline const siemens_mm4_main_actual_value_with *with_main_actual_value(fieldscribe_vector *v)
+static inline const siemens_mm4_with_reference_frequency_and_uss_normalisation
+    *with_main_actual_value(fieldscribe_vector *v)
 {
-    static siemens_mm4_main_actual_value_with with;
+    static siemens_mm4_with_reference_frequency_and_uss_normalisation with;
     with.uss_normalisation_raw = (uint16_t)fieldscribe_with(v, "uss_normalisation");
     with.reference_frequency_raw = (uint32_t)fieldscribe_with(v, "reference_frequency");
     return &with;

@@ -9,10 +9,10 @@
 #include "../woodward_mpu2s_can.h"
 #include "../fieldscribe_conformance_can.h"
 
-static inline const woodward_mpu2s_present_active_power_setpoint_with
+static inline const woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent
     *with_present_active_power_setpoint(fieldscribe_vector *v)
 {
-    static woodward_mpu2s_present_active_power_setpoint_with with;
+    static woodward_mpu2s_with_active_power_setpoint_factor_and_generator_power_exponent with;
     with.active_power_setpoint_factor_raw = (uint16_t)fieldscribe_with(v, "active_power_setpoint_factor");
     with.generator_power_exponent_raw = (int8_t)fieldscribe_with(v, "generator_power_exponent");
     return &with;

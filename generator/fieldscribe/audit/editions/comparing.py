@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.citing import Claim
@@ -12,6 +13,7 @@ from fieldscribe.audit.editions.drafts import Drafts
 from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
 from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Place, Reason, Void
 from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere, with_void
+from fieldscribe.audit.editions.notes import Notes
 from fieldscribe.audit.editions.remarks import Remarks
 from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK
@@ -20,7 +22,7 @@ from fieldscribe.audit.wordings import Wordings
 from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.audit.editions.changes import Change, Move
     from fieldscribe.audit.editions.tracing import Trace
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.subject import Subject
+
+_NO_WORDS: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +44,10 @@ class Edition:
     is_recorded: bool | None
 
 
-def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, Citations]:
-    """What the new edition means for the description, and what that cites."""
+def compare(
+    subject: Subject, old: Edition, new: Edition, glossary: Mapping[str, str] = _NO_WORDS
+) -> tuple[Comparison, Citations]:
+    """What the new edition means for the description, and what that cites; the glossary gives drafts English titles."""
     editions = Editions(old.text, new.text)
     citations = Citations(subject, editions)
     names = Wordings(subject.scope.header["documents"]).names
@@ -49,12 +55,20 @@ def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, C
     citations.settle(*manuals, accepted=bool(new.is_recorded))
     device = str(subject.scope.header["device"])
     outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
-    _Comparing(subject, citations, *manuals, outcome).run()
+    _Comparing(subject, citations, manuals, outcome, glossary).run()
     return outcome, citations
 
 
 class _Comparing:
-    def __init__(self, subject: Subject, citations: Citations, old: Manual, new: Manual, outcome: Comparison) -> None:
+    def __init__(
+        self,
+        subject: Subject,
+        citations: Citations,
+        manuals: tuple[Manual, Manual],
+        outcome: Comparison,
+        glossary: Mapping[str, str],
+    ) -> None:
+        old, new = manuals
         self.citations, self.editions, self.outcome = citations, citations.editions, outcome
         in_old, in_new = citations.in_old(), citations.in_new()
         self.old = in_old.trace(old, self.editions.old)
@@ -62,7 +76,8 @@ class _Comparing:
         pairs = list(map(Pair, citations.claims, in_old.claims, in_new.claims))
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
-        self.drafts = Drafts(subject, self.new, pairs)
+        self.drafts = Drafts(subject, self.editions, pairs, glossary)
+        self.notes = Notes(subject, self.old, self.editions)
         self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
 
     def run(self) -> None:
@@ -76,6 +91,7 @@ class _Comparing:
             self._finding(number, change, (*reasons.get(number, ()), *self.explaining.reasons(number, change)))
             for number, change in enumerate(editions.changes)
         ]
+        outcome.notes = self.notes.stale(zip(editions.changes, findings, strict=True))
         findings = joined(sorted((*findings, *map(self._of_move, editions.moves)), key=self._order))
         elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
@@ -113,7 +129,7 @@ class _Comparing:
             self._words(change),
             tuple(dict.fromkeys(cites)),
             reasons,
-            tuple(self.drafts.of(line for line in change.new if self._is_new(line))) if reasons else (),
+            tuple(self.drafts.of(change.new)) if reasons else (),
             "" if cites else self._place_above(change),
         )
 
@@ -148,10 +164,6 @@ class _Comparing:
 
     def _order_of_old(self, line: int) -> int:
         return next((place[1] for above in range(line - 1, 0, -1) if (place := self.editions.now(above))), 0)
-
-    def _is_new(self, line: int) -> bool:
-        words = self.editions.new.of_line(line)
-        return bool(words) and all(map(self.editions.is_new, words))
 
     def _errata_at(self, change: Change) -> Iterator[Cite]:
         for erratum, in_old, in_new in self.errata:

@@ -47,11 +47,11 @@ class Reason:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """What a new row seems to be, its place in the description's YAML if it were pasted, and that YAML."""
+    """What new rows seem to be, where in the description's YAML they are to be pasted, and that YAML."""
 
     line: int
     kind: str
-    below: str
+    place: str
     yaml: str
 
 
@@ -75,6 +75,16 @@ class Void:
     place: str
     is_corrected: bool
     line: int
+
+
+@dataclass(frozen=True, slots=True)
+class StaleNote:
+    """A sentence of the description that says what a changed line said: whose it is, where, and what of which line."""
+
+    owner: str
+    key: str
+    place: str
+    said: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +172,7 @@ class Comparison:
     remarks: list[Remark] = field(default_factory=list)
     elsewhere: list[Reason] = field(default_factory=list)
     void: list[Void] = field(default_factory=list)
+    notes: list[StaleNote] = field(default_factory=list)
     shifted: int = 0
     renumbered: bool = False
 
@@ -192,4 +203,5 @@ class Comparison:
             "void_errata": [
                 values_of(void) for void in (*self.void, *(void for finding in self.findings for void in finding.void))
             ],
+            "notes": [{**values_of(note), "said": dict(note.said)} for note in self.notes],
         }

@@ -40,7 +40,16 @@ def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
         yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: {_of_void(void)}"))]
     for remark in outcome.remarks:
         yield from _of_remark(remark, whole=everything)
+    yield from stale_notes(outcome)
     yield from figures(outcome)
+
+
+def stale_notes(outcome: Comparison) -> Iterator[Line]:
+    """Sentences that say what a changed line does not say any more: whether they still hold is for a reader."""
+    for note in outcome.notes:
+        said = ", ".join(f"`{text}` ({where})" for text, where in note.said)
+        told = f": {note.key} of {note.owner} says {said}: does it still hold?"
+        yield [*_placed(note.place), ("hint", "note"), ("", visible(told))]
 
 
 def _of_remark(remark: Remark, *, whole: bool) -> Iterator[Line]:
@@ -166,8 +175,7 @@ def _around(line: str, start: int) -> str:
 
 
 def _of_draft(draft: Draft) -> Iterator[Line]:
-    below = f", to stand below {draft.below}" if draft.below else ""
-    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}{below}:"))]
+    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}, to stand {draft.place}:"))]
     for line in draft.yaml.splitlines():
         yield [("", visible(f"    {line}"))]
 
@@ -184,6 +192,8 @@ def figures(outcome: Comparison) -> Iterator[Line]:
     yield [("", f"  lines     {kinds}")]
     left = "all explained" if outcome.explained else f"{outcome.unexplained} not explained"
     yield [("", f"  findings  {len(outcome.findings)}, {left}")]
+    if outcome.notes:
+        yield [("", f"  notes     {len(outcome.notes)} to read again: they say what changed")]
     if outcome.remarks:
         yield [("", f"  remarks   {len(outcome.remarks)}, of what holds no fact: --all lists all of them")]
     if outcome.renumbered:
