@@ -101,7 +101,7 @@ CLAIMS = {
     },
     "audit": {
         "hitachi_l200 --manual hitachi_l200_modbus.txt": Claim(
-            1, r"the text that was transcribed(.|\n)*facts +118, 1 of"
+            1, r"the text that was transcribed(.|\n)*facts +\d+, \d+ of them not where"
         ),
         "hitachi_l200 --manual new_edition.txt --report html > audit.html": Claim(1, "(?i)<html"),
         "hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt": Claim(0, r"(\d+) cited lines moved"),

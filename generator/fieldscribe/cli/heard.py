@@ -15,7 +15,7 @@ from fieldscribe.report import visible
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
-    from fieldscribe.families.answers import Bits, Heard
+    from fieldscribe.families.answers import Heard
     from fieldscribe.model import Device
 
 _STEP = 2
@@ -48,7 +48,7 @@ class _Text:
 
     def frame(self, heard: Heard) -> None:
         heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.shown)
-        rows = [(label, visible(text)) for label, text in _rows(heard)]
+        rows = _rows(heard)
         if self._coloured:
             sys.stdout.write(self._between)
             print_rows(heading, rows)
@@ -62,24 +62,16 @@ class _Text:
 
 
 def _rows(heard: Heard) -> list[tuple[str, str]]:
-    rows = [("Frame", heard.summary)]
+    rows = [("Frame", visible(heard.summary))]
     for item in heard.items:
-        rows.append(("Says", item.head or item.text))
-        rows += map(_flag, item.flags)
+        if item.flags:
+            rows += [("Says", visible(item.head)), *[bits.shown for bits in item.flags]]
+        else:
+            rows.append(("Says", visible(item.text)))
     if heard.checks:
-        rows.append(("Header" if heard.framing == "tcp" else "Checksum", heard.checks))
-    rows += [("Wrong", fault) for fault in (*heard.faults, *heard.findings)]
-    return rows + [("Note", note) for note in heard.notes]
-
-
-def _flag(bits: Bits) -> tuple[str, str]:
-    """One line: the bits, their number, their name and what the number means."""
-    label = f"Bit {bits.low}" if bits.high == bits.low else f"Bits {bits.high}..{bits.low}"
-    if bits.name is None:
-        return label, f"{bits.raw}  not named by the manual"
-    inverted = " (true when 0)" if bits.true is not None and bits.true != bool(bits.raw) else ""
-    says_more = bits.text.casefold().replace(" ", "_") not in ("", bits.name)
-    return label, f"{bits.raw}  {bits.name}{inverted}" + (f": {bits.text}" if says_more else "")
+        rows.append(("Header" if heard.framing == "tcp" else "Checksum", visible(heard.checks)))
+    rows += [("Wrong", visible(fault)) for fault in (*heard.faults, *heard.findings)]
+    return rows + [("Note", visible(note)) for note in heard.notes]
 
 
 class _JsonLines:

@@ -17,6 +17,7 @@ from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.families.answers import Bits
 from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
+from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
@@ -28,7 +29,9 @@ if TYPE_CHECKING:
 
 _NAMELESS = "{}, a number without a name in the manual"
 _MOST_RULES = 256
-"""How many scales of a point, and names of a flag's numbers, are remembered."""
+"""How many scales of a point are remembered."""
+_MOST_FLAGS = 64
+"""And how many numbers of a flag, with what they mean."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +57,7 @@ class Meanings:
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
         lowest = point.bits[1] if point.bits else 0
         self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, lowest)) for flag in point.flags]
+        self._nameless = Remembered(_MOST_FLAGS, _nameless_bit)
         self._named_bits = sum(mask << low for low, mask, _ in self._flags)
         self._needs = point.scale_arguments
         self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
@@ -115,7 +119,7 @@ class Meanings:
         lowest = self._point.bits[1] if rest and self._point.bits else 0
         for bit in range(rest.bit_length()):
             if rest >> bit & 1:
-                yield Bits(lowest + bit, lowest + bit, None, 1, None, "")
+                yield self._nameless[lowest + bit]
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
         shape = self._point.shape
@@ -194,14 +198,29 @@ class _Scale:
 def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits]]:
     """By the number of a flag: whether it is a bit whose name is not true, what it is called, and both as a fact."""
     is_bit, low = flag.width == 1, lowest + flag.low
+    high = low + flag.width - 1
+    place = f"Bit {low}" if is_bit else f"Bits {high}..{low}"
 
     def said(number: int) -> tuple[bool, str, Bits]:
         entry = next((entry for entry in flag.values if entry.raw == number), None)
         told = "" if entry is None else line(_told(entry))
         true = number == flag.active if is_bit else None
-        return true is False, _flag_text(flag, number), Bits(low + flag.width - 1, low, flag.name, number, true, told)
+        shown = place, visible(_flag_line(flag, number, told))
+        return true is False, _flag_text(flag, number), Bits(high, low, flag.name, number, true, told, shown)
 
-    return Remembered(_MOST_RULES, said)
+    return Remembered(_MOST_FLAGS, said)
+
+
+def _nameless_bit(bit: int) -> Bits:
+    """A set bit that the manual does not name."""
+    return Bits(bit, bit, None, 1, None, "", (f"Bit {bit}", "1  not named by the manual"))
+
+
+def _flag_line(flag: Flag, number: int, told: str) -> str:
+    """`1  ready`, `0  fault (true when 0): a fault`; what only repeats the name is left out."""
+    inverted = " (true when 0)" if flag.width == 1 and not flag.active else ""
+    says_more = told.casefold().replace(" ", "_") not in ("", flag.name)
+    return f"{number}  {flag.name}{inverted}" + (f": {told}" if says_more else "")
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:

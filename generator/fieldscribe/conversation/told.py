@@ -64,9 +64,13 @@ class Voice:
     def _said(self, raw: int, settings: Settings) -> Item:
         point = self._point
         meaning = self._meanings.of(raw, settings)
-        odd, remark = self._remarks(raw, settings)
+        odd = remark = ""
+        if self._written:
+            odd, unchecked = (self._absent, "") if self._absent else written_remarks(self._device, point, raw, settings)
+            remark = odd or unchecked
         number = self._raw_text(raw)
-        rest = f": {self._title}" + "".join(f"; {text}" for text in (remark, meaning.hint) if text)
+        rest = f": {self._title}; {remark}" if remark else f": {self._title}"
+        rest += f"; {meaning.hint}" if meaning.hint else ""
         return Item(
             *self._base,
             line(f"{self._head}{meaning.text} ({number}){rest}"),
@@ -79,15 +83,6 @@ class Voice:
             line(f"{self._head}{number}{rest}") if meaning.flags else "",
             meaning.flags,
         )
-
-    def _remarks(self, raw: int, settings: Settings) -> tuple[str, str]:
-        """Why the device refuses the number, and that or what else is to be said of writing it."""
-        if not self._written:
-            return "", ""
-        if self._absent:
-            return self._absent, self._absent
-        odd, unchecked = written_remarks(self._device, self._point, raw, settings)
-        return odd, odd or unchecked
 
 
 class Told:

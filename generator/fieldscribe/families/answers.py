@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 class Bits:
     """What some bits of a word say: `raw` is their number, `true` whether the name of a single bit holds.
 
-    Set bits that the manual does not name have no name. `text` is what the number means, where the manual says it.
+    Set bits that the manual does not name have no name. `text` is what the number means, where the manual says it;
+    `shown` is the line with all of that, and what stands before it.
     """
 
     high: int
@@ -28,6 +29,7 @@ class Bits:
     raw: int
     true: bool | None
     text: str
+    shown: tuple[str, str]
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
