@@ -103,9 +103,9 @@ CLAIMS = {
         "hitachi_l200 --manual hitachi_l200_modbus.txt": Claim(
             1, r"the text that was transcribed(.|\n)*facts +\d+, \d+ of them not where"
         ),
-        "hitachi_l200 --manual new_edition.txt --report html > audit.html": Claim(1, "(?i)<html"),
-        "hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt": Claim(0, r"(\d+) cited lines moved"),
-        "hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt --renumber --accept": Claim(
+        "hitachi_l200 --manual new.txt --report html > audit.html": Claim(1, "(?i)<html"),
+        "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt": Claim(0, r"(\d+) cited lines moved"),
+        "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt --renumber --accept --file new.txt": Claim(
             0, r"renumbered: \d+ lines in 1 file\n(.|\n)*accepted"
         ),
     },

@@ -109,7 +109,7 @@ def audited(folder: Path) -> None:
     shutil.copy(_AUDITED / "device.yaml", device)
     manual = (_AUDITED / "manual.txt").read_text("utf-8")
     (folder / "hitachi_l200_modbus.txt").write_text(manual, "utf-8")
-    (folder / "new_edition.txt").write_text("\n" + manual, "utf-8")
+    (folder / "new.txt").write_text("\n" + manual, "utf-8")
 
 
 def drafted(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

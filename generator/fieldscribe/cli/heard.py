@@ -64,10 +64,8 @@ class _Text:
 def _rows(heard: Heard) -> list[tuple[str, str]]:
     rows = [("Frame", visible(heard.summary))]
     for item in heard.items:
-        if item.flags:
-            rows += [("Says", visible(item.head)), *[bits.shown for bits in item.flags]]
-        else:
-            rows.append(("Says", visible(item.text)))
+        rows.append(("Says", visible(item.head or item.text)))
+        rows += [bits.shown for bits in item.flags]
     if heard.checks:
         rows.append(("Header" if heard.framing == "tcp" else "Checksum", visible(heard.checks)))
     rows += [("Wrong", visible(fault)) for fault in (*heard.faults, *heard.findings)]

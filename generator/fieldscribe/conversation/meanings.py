@@ -22,7 +22,7 @@ from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from fieldscribe.model import Device, Entry, Flag, Point
 
@@ -42,7 +42,7 @@ class Meaning:
     value: str | None = None
     missing: tuple[str, ...] = ()
     hint: str = ""
-    flags: tuple[Bits, ...] = ()
+    flags: Flags | None = None
 
 
 class Meanings:
@@ -55,10 +55,7 @@ class Meanings:
         self._device = device
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
-        lowest = point.bits[1] if point.bits else 0
-        self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, lowest)) for flag in point.flags]
-        self._nameless = Remembered(_MOST_FLAGS, _nameless_bit)
-        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
+        self._flags = Flags(point) if point.flags else None
         self._needs = point.scale_arguments
         self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
         self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
@@ -71,9 +68,8 @@ class Meanings:
         named = self._named(raw)
         if named is None:
             return self._quantity(raw, settings)
-        if not self._flags or (point.shape.specials and point.special(raw) is not None):
-            return Meaning(named)
-        return Meaning(named, flags=tuple(self._bits(raw)))
+        is_special = bool(point.shape.specials) and point.special(raw) is not None
+        return Meaning(named, flags=None if is_special else self._flags)
 
     def lacks(self, settings: Settings) -> bool:
         """Whether the scale needs other points than those with these settings."""
@@ -91,35 +87,10 @@ class Meanings:
             entry = self._entries.get(raw)
             return line("" if entry is None else wording.entry_meaning(entry)) or _NAMELESS.format(raw)
         if self._flags:
-            return self._flags_text(raw)
+            return self._flags.sentence(raw)
         if shape.digits is not None:
             return _digits_text(point, raw)
         return ("on" if raw else "off") if shape.type == "bit" else None
-
-    def _flags_text(self, raw: int) -> str:
-        true: list[str] = []
-        false: list[str] = []
-        for low, mask, said in self._flags:
-            is_false, text, _ = said[raw >> low & mask]
-            (false if is_false else true).append(text)
-        parts = [", ".join(true) if true else "none set"]
-        if false:
-            parts.append(f"not set: {', '.join(false)}")
-        rest = raw & ~self._named_bits
-        if rest:
-            bits = [str(bit) for bit in range(self._point.width) if rest >> bit & 1]
-            parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
-        return line("; ".join(parts))
-
-    def _bits(self, raw: int) -> Iterator[Bits]:
-        """What each flag says, and each set bit that the manual does not name."""
-        for low, mask, said in self._flags:
-            yield said[raw >> low & mask][2]
-        rest = raw & ~self._named_bits
-        lowest = self._point.bits[1] if rest and self._point.bits else 0
-        for bit in range(rest.bit_length()):
-            if rest >> bit & 1:
-                yield self._nameless[lowest + bit]
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
         shape = self._point.shape
@@ -193,6 +164,40 @@ class _Scale:
             return Meaning(rounded(number, divisor, self._decimals) + self._unit, exactly)
         said = exactly if is_short(exactly) else amount(Fraction(number, divisor))
         return Meaning(said + self._unit, exactly)
+
+
+class Flags:
+    """The flags of a point; what each of their numbers says is worked out once."""
+
+    def __init__(self, point: Point) -> None:
+        self._lowest, self._width = point.bits[1] if point.bits else 0, point.width
+        self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, self._lowest)) for flag in point.flags]
+        self._nameless = Remembered(_MOST_FLAGS, _nameless_bit)
+        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
+
+    def sentence(self, raw: int) -> str:
+        """All flags in one sentence: those that are true first."""
+        true: list[str] = []
+        false: list[str] = []
+        for low, mask, said in self._flags:
+            is_false, text, _ = said[raw >> low & mask]
+            (false if is_false else true).append(text)
+        parts = [", ".join(true) if true else "none set"]
+        if false:
+            parts.append(f"not set: {', '.join(false)}")
+        if bits := self._others(raw):
+            named = ", ".join(map(str, bits))
+            parts.append(f"also bit{'s' if len(bits) > 1 else ''} {named}, which the manual does not name")
+        return line("; ".join(parts))
+
+    def bits(self, raw: int) -> list[Bits]:
+        """What each flag says, and each set bit that the manual does not name."""
+        named = [said[raw >> low & mask][2] for low, mask, said in self._flags]
+        return named + [self._nameless[self._lowest + bit] for bit in self._others(raw)]
+
+    def _others(self, raw: int) -> list[int]:
+        rest = raw & ~self._named_bits
+        return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
 
 
 def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits]]:

@@ -37,11 +37,19 @@ class Bits:
         return {"bits": [self.high, self.low], **own}
 
 
+class TellsBits(Protocol):
+    """What tells the bits of a word."""
+
+    def bits(self, raw: int) -> list[Bits]:
+        """What each flag says, and each set bit that the manual does not name."""
+
+
 @dataclass(frozen=True, slots=True)
 class Item:
     """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `text` alone tells a person everything; `head` is the same without the flags, where `flags` are told one by one.
+    `text` alone tells a person everything; `head` is the same without the flags, where `flags` are told one by one
+    (by `telling`, when they are asked for: most are never).
     `missing` names the points whose raw numbers are needed to work out the
     value. `findings` say what the device refuses or which address the manual closes; `text` repeats them.
     """
@@ -57,7 +65,12 @@ class Item:
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
     head: str = ""
-    flags: tuple[Bits, ...] = ()
+    telling: TellsBits | None = None
+
+    @property
+    def flags(self) -> list[Bits]:
+        """The flags of a word, one by one."""
+        return [] if self.telling is None or self.raw is None else self.telling.bits(self.raw)
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
