@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.words import Words, pressed
+from fieldscribe.audit.pages import page_lines
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -47,7 +48,8 @@ class Editions:
     """Two editions of one text."""
 
     def __init__(self, old: str, new: str) -> None:
-        self.old, self.new = Words(old), Words(new)
+        self.pages = page_lines(old.splitlines()), page_lines(new.splitlines())
+        self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
         self._part_unlike_rows()

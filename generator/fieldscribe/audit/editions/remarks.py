@@ -7,17 +7,16 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.findings import Remark
+from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
 from fieldscribe.audit.editions.vocabulary import are_respelled
 from fieldscribe.audit.editions.words import Words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from fieldscribe.audit.editions.changes import Editions
-    from fieldscribe.audit.editions.findings import Finding
     from fieldscribe.audit.manual import Manual
 
 KINDS = (
@@ -79,8 +78,20 @@ class Remarks:
             if id(finding) not in kind_of and (kind := self._kind(finding)):
                 kind_of[id(finding)] = kind
         by_kind = {kind: [finding for finding in findings if kind_of.get(id(finding)) == kind] for kind in KINDS}
+        by_kind["heads_and_feet"] += self._pages()
         remarks = [Remark(kind, tuple(group)) for kind, group in by_kind.items() if group]
         return [finding for finding in findings if id(finding) not in kind_of], remarks
+
+    def _pages(self) -> Iterator[Finding]:
+        """The heads and feet that only one of the editions has."""
+        texts = self.editions.old.lines, self.editions.new.lines
+        had, has = ({_plain(text[line - 1]) for line in pages} for text, pages in zip(texts, self.editions.pages))
+        for line in sorted(self.editions.pages[0]):
+            if (shown := _plain(texts[0][line - 1])) not in has:
+                yield Finding("removed", (Place((line, line), None),), (shown,), (), (0,), (), ((shown, ""),), (), ())
+        for line in sorted(self.editions.pages[1]):
+            if (shown := _plain(texts[1][line - 1])) not in had:
+                yield Finding("added", (Place(None, (line, line)),), (), (shown,), (), (0,), (("", shown),), (), ())
 
     def _kind(self, finding: Finding) -> str:
         """The kind of a finding that holds no fact; "" if it may hold one."""
@@ -170,6 +181,10 @@ def _is_wording(finding: Finding) -> bool:
 
 def _written(lines: Iterable[str]) -> list[str]:
     return [line for line in lines if any(map(str.isalnum, line))]
+
+
+def _plain(line: str) -> str:
+    return " ".join(line.split())
 
 
 def _words_of(line: str) -> tuple[str, ...]:
