@@ -63,7 +63,20 @@ def _bare(lines: Sequence[str], counting: dict[int, int]) -> dict[int, int]:
     near = ((place, page) for place, page in near if 1 <= place <= len(lines) and lines[place - 1].strip().isdecimal())
     bare = [(place, page, int(lines[place - 1]) - page) for place, page in near]
     often = Counter(apart for _, _, apart in bare)
-    return {place: page for place, page, apart in bare if often[apart] >= _PAGES}
+    sure = {place: page for place, page, apart in bare if often[apart] >= _PAGES}
+    return sure | _farther(lines, counting, {apart for apart, count in often.items() if count >= _PAGES})
+
+
+def _farther(lines: Sequence[str], counting: dict[int, int], aparts: set[int]) -> dict[int, int]:
+    """Bare numbers of two digits that count with the next page below, where the text lies in disorder."""
+    told: dict[int, int] = {}
+    page = None
+    for number in range(len(lines), 0, -1):
+        page = counting.get(number, page)
+        text = lines[number - 1].strip()
+        if page is not None and len(text) > 1 and text.isdecimal() and int(text) - page in aparts:
+            told[number] = page
+    return told
 
 
 def _beside(
