@@ -92,13 +92,15 @@ class _Comparing:
             self._finding(number, change, (*reasons.get(number, ()), *self.explaining.reasons(number, change)))
             for number, change in enumerate(editions.changes)
         ]
-        outcome.notes = self.notes.stale(zip(editions.changes, findings, strict=True))
+        told = list(zip(editions.changes, findings, strict=True))
         findings = joined(sorted((*findings, *map(self._of_move, editions.moves)), key=self._order))
         findings = list(map(self.explaining.swapped, findings))
         elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
         findings, outcome.void = with_void(findings, self._void())
         outcome.findings, outcome.remarks = Remarks(editions, self.new.manual).sort(findings)
+        passed_over = {place for remark in outcome.remarks if remark.kind != "wording" for place in remark.places}
+        outcome.notes = self.notes.stale((change, one) for change, one in told if one.places[0] not in passed_over)
         outcome.shifted = self._shifted()
         outcome.renumbered = self.citations.all_count_new
 

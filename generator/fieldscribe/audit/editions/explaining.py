@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.editions.findings import Cite, Reason
-from fieldscribe.audit.editions.telling import is_code, is_prose, is_title, turned
+from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_title, turned
 from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.records import replace
@@ -166,6 +166,7 @@ class Explaining:
             if line not in self.new.empty:
                 continue
             fresh = [token for token, words in self._new_tokens(line, change) if not self._is_known(token, words)]
+            fresh = [token for token in fresh if not is_of_edition(self.editions.new.line(line), token.column)]
             has = Counter(token.text for place in change.new for token in self.new.manual.tokens[place - 1])
             if new := [token.text for token in fresh if has[token.text] != was[token.text]]:
                 yield self._list_them(new, line, "number")
@@ -185,7 +186,7 @@ class Explaining:
         if not place:
             return self._unknown(texts, line, what)
         shown = ", ".join(f"`{text}`" for text in dict.fromkeys(texts))
-        said = f"looked_through passes over line {line}, where this changed: {shown}; list it in `numbers` if it is no fact"
+        said = f"looked_through passes over line {line}, where {shown} changed: list it in `numbers` if it is no fact"
         return Reason(what, said, place, words=tuple(texts))
 
     def swapped(self, finding: Finding) -> Finding:
@@ -320,7 +321,7 @@ class Explaining:
         if change.kind == "added" and not subjects and self._is_prose_section(change):
             return
         written = text.line(line)
-        is_label = line in self.headings or self._took_words(change)
+        is_label = line in self.headings or self._took_words(change) or self._has_new_numbers(line, change)
         words = [
             text.texts[word]
             for word in fresh
@@ -331,10 +332,21 @@ class Explaining:
         if unknown:
             yield self._unknown(unknown, line, "word")
 
+    def _has_new_numbers(self, line: int, change: Change) -> bool:
+        """Whether numbers came with the words: each may be one of a fact by chance."""
+        tokens = (token for token, _ in self._new_tokens(line, change))
+        before = self.editions.new.line(line)
+        return any(not _REFERENCE.search(before, 0, token.column - 1) for token in tokens)
+
     def _took_words(self, change: Change) -> bool:
         """Whether words went that a title, a label or another text of the description stood on."""
         gone = {word for old, _ in change.gaps for word in old}
-        pairs = (pair for line in change.old for number in self._of_old.get(line, ()) for pair in self.pairs_of.get(number, ()))
+        pairs = (
+            pair
+            for line in change.old
+            for number in self._of_old.get(line, ())
+            for pair in self.pairs_of.get(number, ())
+        )
         return any(pair.old and not self.old.named.get(pair.old, set()).isdisjoint(gone) for pair in pairs)
 
     def _is_prose_section(self, change: Change) -> bool:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
+from fieldscribe.audit.editions.telling import DATE
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 
@@ -31,12 +32,6 @@ KINDS = (
     "wording",
 )
 _BOTH = 2
-_MONTHS = "jan|feb|m\u00e4r|mar|apr|mai|may|jun|jul|aug|sep|okt|oct|nov|de[zc]"
-_DATE = re.compile(
-    r"\b(?:[0-9]{1,2}[./-][0-9]{1,2}[./-](?:[0-9]{2}){1,2}|(?:19|20)[0-9]{2}-[0-9]{2}(?:-[0-9]{2})?"
-    rf"|[0-9]{{1,2}}/(?:19|20)[0-9]{{2}}|(?:{_MONTHS})[^\W\d]*\.? (?:19|20)[0-9]{{2}})\b",
-    re.IGNORECASE,
-)
 _LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
 """A section's number, its title and its page; sections of sections stand near."""
@@ -99,7 +94,9 @@ class Remarks:
     def _pages(self) -> Iterator[Finding]:
         """The heads and feet that only one of the editions has."""
         texts = self.editions.old.lines, self.editions.new.lines
-        had, has = ({_plain(text[line - 1]) for line in pages} for text, pages in zip(texts, self.editions.pages, strict=True))
+        had, has = (
+            {_plain(text[line - 1]) for line in pages} for text, pages in zip(texts, self.editions.pages, strict=True)
+        )
         for line in sorted(self.editions.pages[0]):
             if (shown := _plain(texts[0][line - 1])) not in has:
                 yield Finding("removed", (Place((line, line), None),), (shown,), (), (0,), (), ((shown, ""),), (), ())
@@ -153,7 +150,7 @@ class Remarks:
         """Whether rows below a heading or a row without numbers have a date each."""
         lines = _written(finding.now or finding.was)
         rows = [line for line in lines if any(map(str.isdigit, line)) and not line.startswith("#")]
-        return finding.kind in ("added", "removed") and bool(rows) and all(map(_DATE.search, rows))
+        return finding.kind in ("added", "removed") and bool(rows) and all(map(DATE.search, rows))
 
     def _is_heading(self, finding: Finding) -> bool:
         """Whether it is a heading over text that was there before."""

@@ -57,6 +57,13 @@ _LABELLED = 3
 _WORD = re.compile(r"[^\W_]+")
 _ENTRY = re.compile(r"\s*(?:[-*\u2022]\s+)?(?:[^\W\d_]+\s\d+|\S*\d\S*\s|\S+(?:\s\S+){0,2}\s*=)")
 """What opens an entry of a list: a code or number, a name with a number, a name and `=`."""
+_MONTHS = "jan|feb|m\u00e4r|mar|apr|mai|may|jun|jul|aug|sep|okt|oct|nov|de[zc]"
+DATE = re.compile(
+    r"\b(?:[0-9]{1,2}[./-][0-9]{1,2}[./-](?:[0-9]{2}){1,2}|(?:19|20)[0-9]{2}-[0-9]{2}(?:-[0-9]{2})?"
+    rf"|[0-9]{{1,2}}/(?:19|20)[0-9]{{2}}|(?:{_MONTHS})[^\W\d]*\.? (?:19|20)[0-9]{{2}})\b",
+    re.IGNORECASE,
+)
+_EDITION = re.compile(r"\b(?:Edition|Ausgabe|Auflage|Stand|issue|revision)\b[^.;:,]{0,12}$|\u00a9[^.]*$", re.IGNORECASE)
 _TITLE = re.compile(r"[0-9]+[^\W\d_]{4,}")
 _CODE = re.compile(r"\w*[0-9]\w*|[A-Z]{2,5}")
 
@@ -79,6 +86,12 @@ def meaning(word: str) -> str:
         return ""
     parts = "half" if "einhalb" in word.casefold() else ""
     return _NAMES[int(match.lastgroup[1:])] + parts
+
+
+def is_of_edition(line: str, column: int) -> bool:
+    """Whether a number is part of a date, or tells the edition."""
+    dates = (match.span() for match in DATE.finditer(line))
+    return _EDITION.search(line, 0, column - 1) is not None or any(first < column <= last for first, last in dates)
 
 
 def is_title(word: str) -> bool:
