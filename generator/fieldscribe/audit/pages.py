@@ -22,6 +22,7 @@ _PAGES = 3
 _APART = 8
 """Half of them stand at least so many lines apart."""
 _LONGEST = 120
+_MOSTLY = 0.8
 _DEEP = 3
 """A head or foot has at most so many lines beside the one that counts."""
 _BOTH = 2
@@ -52,7 +53,10 @@ def _counted(lines: Sequence[str], group: list[int]) -> dict[int, int]:
         return {}
     columns = list(zip(*(map(int, _DIGITS.findall(lines[number - 1])) for number in group), strict=True))
     changing = [column for column in columns if len(set(column)) > 1]
-    if len(changing) != 1 or any(above >= below for above, below in pairwise(changing[0])):
+    if len(changing) != 1 or len(set(changing[0])) < len(group):
+        return {}
+    rising = sum(above < below for above, below in pairwise(changing[0]))
+    if rising < _MOSTLY * (len(group) - 1):  # a section may have moved with its pages
         return {}
     return dict(zip(group, changing[0], strict=True))
 

@@ -79,7 +79,7 @@ class _Comparing:
         self.drafts = Drafts(subject, self.editions, pairs, glossary)
         self.notes = Notes(subject, self.old, self.editions)
         places = {line: _told(passage.place) for passage in self._looked_through for line in passage.lines}
-        self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject), places)
+        self.explaining = Explaining(self.editions, (self.old, self.new), pairs, Vocabulary(subject), places)
 
     def run(self) -> None:
         """All findings, in the order of the new edition."""

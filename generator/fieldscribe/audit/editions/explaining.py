@@ -47,18 +47,18 @@ class Explaining:
     def __init__(
         self,
         editions: Editions,
-        old: Trace,
-        new: Trace,
+        traces: tuple[Trace, Trace],
         pairs: list[Pair],
         words: Vocabulary,
         passed_over: Mapping[int, str],
     ) -> None:
-        self.editions, self.old, self.new, self.words = editions, old, new, words
+        self.old, self.new = traces
+        self.editions, self.words = editions, words
         self.passed_over = passed_over
         self.pairs_of: dict[int, list[Pair]] = {}
         self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
-        self.headings = frozenset(new.manual.headings)
+        self.headings = frozenset(self.new.manual.headings)
         self.place_of: dict[str, str] = {}
         self.failing_at: dict[int, list[Pair]] = {}
         self.elsewhere: list[Pair] = []
@@ -70,7 +70,7 @@ class Explaining:
             if self.fails(pair):
                 self._note_failing(pair, touched)
         self.subjects_at: dict[int, dict[str, None]] = {}
-        for extent, subjects in new.subjects.items():
+        for extent, subjects in self.new.subjects.items():
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
 

@@ -89,7 +89,8 @@ class Notes:
             if any(map(str.isdigit, key)):
                 return sentence.owner in names or key.casefold() not in self.still
             return key not in self.still and key in sentence.marked
-        digits = len(key.removeprefix("#").removeprefix("x"))
+        written = key.removeprefix("#").removeprefix("x")
+        digits = len(written) + any(map(str.isalpha, written))
         if digits >= _TELLING or (digits > 1 and sentence.owner in names):
             return True
         beside = (name for at in sentence.numbers[key] for name in _beside(at, sentence.names))

@@ -52,8 +52,7 @@ def are_respelled(old: str, new: str) -> bool:
 
 def is_one_spelling(old: str, new: str) -> bool:
     """Whether two pieces of text differ in spelling alone: hyphens within words, capitals, accents, doubled letters."""
-    was, now = (_HYPHEN.sub("", _spelled(text)) for text in (old, new))
-    was, now = (_WORD.findall(text) for text in (was, now))
+    was, now = (_WORD.findall(_HYPHEN.sub("", _spelled(text))) for text in (old, new))
     return bool(was) and list(map(_with_single, was)) == list(map(_with_single, now))
 
 
