@@ -54,6 +54,7 @@ if [ "$purpose" = tests ]; then
     need fish fish
     need node nodejs
     need npm npm
+    need soffice libreoffice-calc-nogui
 fi
 
 if [ -n "$missing_packages" ]; then

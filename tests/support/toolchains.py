@@ -33,6 +33,7 @@ _PACKAGES = {
     "zsh": "zsh",
     "fish": "fish",
     "node": "nodejs npm",
+    "soffice": "libreoffice-calc-nogui",
 }
 _LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
 

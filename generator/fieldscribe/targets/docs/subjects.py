@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe import wording
 from fieldscribe.model import Shape
 from fieldscribe.targets.docs.cells import cell
-from fieldscribe.text import csv_cell
 from fieldscribe.wording.exact import fixed_rule
 
 if TYPE_CHECKING:
@@ -21,10 +20,9 @@ _UNNAMED = attrgetter(*(name for name in Shape.__annotations__ if name != "enum"
 
 
 class Limits(NamedTuple):
-    """What rows say of limits: the page range and raw range, the sheet the outermost raw numbers and both ranges."""
+    """What rows of the page say of limits: range and raw range. Points that say the same have the same object."""
 
     page: tuple[str, str]
-    sheet: str
 
 
 class Subject(NamedTuple):
@@ -91,12 +89,7 @@ def limits_of(point: Point, kin: int) -> object:
 
 def _limits(point: Point, by_name: Mapping[str, Point]) -> Limits:
     span, raw = wording.range_text(point, by_name), wording.raw_range_text(point)
-    outer = None if point.info.floating else wording.outer_raw(point)
-    ends = f"{outer[0]},{outer[1]}" if outer else ","
-    return Limits(
-        ("" if point.flags else cell(span), cell(raw) if _has_rule(point) else ""),
-        f"{ends},{csv_cell(raw)},{csv_cell(span)}",
-    )
+    return Limits(("" if point.flags else cell(span), cell(raw) if _has_rule(point) else ""))
 
 
 def _has_rule(point: Point) -> bool:
