@@ -55,6 +55,7 @@ if [ "$purpose" = tests ]; then
     need node nodejs
     need npm npm
     need soffice libreoffice-calc-nogui
+    need chromium-headless-shell chromium-headless-shell
 fi
 
 if [ -n "$missing_packages" ]; then

@@ -245,12 +245,14 @@ def _hostile() -> Device:
     bad = titles(HOSTILE, HOSTILE)
     special = Special(9, 9, "odd", bad, False)
     made = point("bad", 1, title=bad, note=bad, code="@x", specials=(special,), conditions=("+1+2", "b"))
-    return sample_device((made, point("wide", 2, "u64"), point("low", 3, "s16", allowed=allowed((-5, 5)))))
+    return sample_device(
+        (made, point("a_x1_x5_x0041_b", 4), point("wide", 2, "u64"), point("low", 3, "s16", allowed=allowed((-5, 5))))
+    )
 
 
 def test_nothing_is_run() -> None:
     """A formula is text; a number has no apostrophe."""
-    bad, _, low = rows_of(_hostile())
+    bad, _, _, low = rows_of(_hostile())
     assert (bad["title"], bad["code"], bad["conditions"]) == ("'=cmd()|'x' new", "'@x", "'+1+2; b")
     assert (bad["section"], bad["line"]) == ("Gruppe A", "780")
     assert (low["raw_min"], low["min"]) == ("-5", "-5")
@@ -286,7 +288,8 @@ def test_a_workbook_is_typed() -> None:
 def test_a_workbook_has_no_formula_and_no_rounded_number() -> None:
     table = workbook(_hostile())["points"]
     assert {cell.data_type for row in table.iter_rows() for cell in row} <= {"s", "n"}
-    bad, wide, low = cells(table)
+    bad, escape, wide, low = cells(table)
+    assert escape["name"] == "a_x1_x5_x0041_b"
     assert (bad["title"], bad["code"]) == ("=cmd()|'x' new", "@x")
     assert (wide["raw_max"], low["raw_min"]) == ("18446744073709551615", -5)
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
 from fieldscribe.audit.claims import by_line, claims_of
-from fieldscribe.audit.comparison import Asked
 from fieldscribe.audit.editions.tracing import Trace
+from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 from fieldscribe.records import dataclass, replace
 

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.model import Shape
-from fieldscribe.targets.docs.cells import cell
+from fieldscribe.targets.docs.cells import cell, narrow, number_cell
 from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.wording.rules import Called
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
 
@@ -38,6 +39,7 @@ class Scope(NamedTuple):
 
     device: Device
     by_name: Mapping[str, Point]
+    by_code: Called
     subjects: tuple[Subject, ...]
     several: bool
     """Whether facts come from several documents, so that each source names its own."""
@@ -46,7 +48,17 @@ class Scope(NamedTuple):
 def scope_of(device: Device) -> Scope:
     """The points of a device for its rows."""
     by_name = {point.name: point for point in device.points}
-    return Scope(device, by_name, tuple(_subjects(device.points, by_name)), len(device.documents) > 1)
+    by_code = Called(by_name, _codes(device.points))
+    return Scope(device, by_name, by_code, tuple(_subjects(device.points, by_code)), len(device.documents) > 1)
+
+
+def _codes(points: Iterable[Point]) -> dict[str, str]:
+    """The codes by which rules call points: those that belong to one name."""
+    names: dict[str, set[str]] = {}
+    for point in points:
+        if point.code:
+            names.setdefault(point.code, set()).add(point.name)
+    return {next(iter(alike)): code for code, alike in names.items() if len(alike) == 1}
 
 
 def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
@@ -57,7 +69,20 @@ def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
     return tuple(heads)
 
 
-def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator[Subject]:
+def numbers_head(keys: Sequence[str]) -> str:
+    """The head of the column with all numberings: `Modicon / Reference`."""
+    return cell(" / ".join(key.capitalize() for key in keys))
+
+
+def numbers_text(point: Point, keys: Sequence[str]) -> str:
+    """The numbers of a point in these numberings: `4115 / 404115`, with a dash for one that it lacks."""
+    references = point.place.references
+    if not references:
+        return ""
+    return " / ".join([number_cell(references.get(key, "-")) for key in keys])
+
+
+def _subjects(points: Iterable[Point], by_code: Called) -> Iterator[Subject]:
     shapes, kins = dict[int, object](), dict[object, int]()
     known_limits: dict[object, Limits] = {}
     for point in points:
@@ -68,7 +93,7 @@ def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator
         key = limits_of(point, kin)
         limits = known_limits.get(key)
         if limits is None:
-            limits = known_limits[key] = _limits(point, by_name)
+            limits = known_limits[key] = _limits(point, by_code)
         yield Subject(point, kin, limits)
 
 
@@ -87,9 +112,11 @@ def limits_of(point: Point, kin: int) -> object:
     return kin, id(point.allowed)
 
 
-def _limits(point: Point, by_name: Mapping[str, Point]) -> Limits:
-    span, raw = wording.range_text(point, by_name), wording.raw_range_text(point)
-    return Limits(("" if point.flags else cell(span), cell(raw) if _has_rule(point) else ""))
+def _limits(point: Point, by_code: Called) -> Limits:
+    """The range without its unit, and the raw range where it says more; both call other points by their codes."""
+    raw = wording.raw_range_text(point, Called({}, by_code.called) if point.allowed.moves else None)
+    span = wording.range_text(point, by_code, unit=False)
+    return Limits(("" if point.flags else narrow(cell(span)), narrow(cell(raw)) if _has_rule(point) else ""))
 
 
 def _has_rule(point: Point) -> bool:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from fieldscribe.targets.docs.tables import Encode
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
+_ESCAPE = re.compile(r"(?<=_)(?=x[0-9A-Fa-f]{1,4}_)")
+"""Where a text looks like an escaped character (`_x1_`), as LibreOffice and others would read it."""
 _MOST = 1 << 53
 """Workbooks hold floating point: greater whole numbers stay exact as text."""
 _NARROW, _WIDE = 6, 48
@@ -45,10 +47,10 @@ def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
             "created": _WHEN,
         }
     )
-    head = book.add_format(_HEAD)
+    head, plain = book.add_format(_HEAD), book.add_format()
     shown = tuple(tables)
     for table in (*shown, Table("columns", _COLUMNS, lambda encode: _explained(shown, encode))):
-        _write(book.add_worksheet(table.name), table, head)
+        _write(book.add_worksheet(table.name), table, head, plain)
     book.close()
     return contents.getvalue()
 
@@ -59,7 +61,7 @@ def _explained(tables: Iterable[Table], encode: Encode) -> Iterator[tuple[str, .
             yield table.name, column.name, encode(column.says.replace("`", ""))
 
 
-def _write(sheet: Any, table: Table, head: object) -> None:
+def _write(sheet: Any, table: Table, head: object, plain: object) -> None:
     widths = [len(column.name) + 2 for column in table.columns]
     for place, column in enumerate(table.columns):
         sheet.write_string(0, place, column.name, head)
@@ -68,16 +70,25 @@ def _write(sheet: Any, table: Table, head: object) -> None:
         for place, text in enumerate(row):
             if text:
                 widths[place] = max(widths[place], len(text))
-                _write_cell(sheet, last, place, text, is_number=table.columns[place].is_number)
+                if table.columns[place].is_number and _fits(text):
+                    sheet.write_number(last, place, float(text))
+                else:
+                    _write_text(sheet, (last, place), text, plain)
     for place, width in enumerate(widths):
         sheet.set_column(place, place, min(max(width, _NARROW), _WIDE) + 1)
     sheet.freeze_panes(1, _STAYS.get(table.name, 1))
     sheet.autofilter(0, 0, last, len(widths) - 1)
 
 
-def _write_cell(sheet: Any, row: int, place: int, text: str, *, is_number: bool) -> None:
-    """Write a number where it is one, and a text otherwise; never a formula, a link or a date."""
-    if is_number and _NUMBER.fullmatch(text) and ("." in text or abs(int(text)) <= _MOST):
-        sheet.write_number(row, place, float(text))
+def _fits(text: str) -> bool:
+    """Whether a cell for numbers can hold it."""
+    return _NUMBER.fullmatch(text) is not None and ("." in text or abs(int(text)) <= _MOST)
+
+
+def _write_text(sheet: Any, at: tuple[int, int], text: str, plain: object) -> None:
+    """Write a text, never as a formula, a link or a date; in pieces where a reader would take it for an escape."""
+    first, *others = _ESCAPE.split(text)
+    if others:
+        sheet.write_rich_string(*at, first, *(piece for other in others for piece in (plain, other)))
     else:
-        sheet.write_string(row, place, text)
+        sheet.write_string(*at, text)

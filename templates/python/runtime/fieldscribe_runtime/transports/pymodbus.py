@@ -11,7 +11,7 @@ drive = HitachiL200(line, unit=1)
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import LineError
 from ..modbus.frames import TCP
@@ -26,7 +26,36 @@ except ModuleNotFoundError as missing:
 if TYPE_CHECKING:
     from typing import Self
 
-    from pymodbus.client.base import ModbusBaseClient, ModbusBaseSyncClient
+
+class Client(Protocol):
+    """What is needed of a client: any of `pymodbus.client` that blocks has it."""
+
+    def connect(self) -> bool:
+        """Connect, if it is not connected."""
+
+    def execute(self, no_response_expected: bool, request: ModbusPDU) -> Any:
+        """Carry a request."""
+
+    def close(self) -> Any:
+        """Disconnect."""
+
+
+class AsyncClient(Protocol):
+    """The same of a client that is awaited."""
+
+    @property
+    def connected(self) -> bool:
+        """Whether it is connected."""
+
+    async def connect(self) -> bool:
+        """Connect."""
+
+    def execute(self, no_response_expected: bool, request: ModbusPDU) -> Any:
+        """Carry a request."""
+
+    def close(self) -> Any:
+        """Disconnect."""
+
 
 _HEAD = 7
 """Bytes before the function in a frame of Modbus TCP."""
@@ -70,7 +99,7 @@ class PymodbusLine:
     framing = TCP
     """How requests are handed over; what travels is the client's own framing."""
 
-    def __init__(self, client: ModbusBaseSyncClient) -> None:
+    def __init__(self, client: Client) -> None:
         self.client = client
         self._turn = threading.Lock()
 
@@ -79,7 +108,7 @@ class PymodbusLine:
         silent = request[_HEAD - 1] == 0
         with self._turn:
             try:
-                if not self.client.connected and not self.client.connect():
+                if not self.client.connect():
                     raise LineError("the client cannot connect")
                 answer: Any = self.client.execute(silent, _Request(request))
             except (ConnectionException, ModbusIOException) as error:
@@ -98,7 +127,7 @@ class AsyncPymodbusLine:
 
     framing = TCP
 
-    def __init__(self, client: ModbusBaseClient) -> None:
+    def __init__(self, client: AsyncClient) -> None:
         self.client = client
 
     async def exchange(self, request: bytes) -> bytes:
