@@ -100,6 +100,7 @@ def _told(table: str) -> str:
     return "\n".join(("| column | what it says |", "|---|---|", *rows, ""))
 
 
+@pytest.mark.full(seconds=1)
 def test_the_page_is_walked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

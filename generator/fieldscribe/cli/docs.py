@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 HELP = "write the documentation of devices: a workbook, tables as CSV, or a page in Markdown"
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
-  fieldscribe docs hitachi_l200 siemens_mm4 --format csv --out tables
-  fieldscribe docs my_device/device.yaml --format markdown --out manuals
+  fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
+  fieldscribe docs nord_sk5xxe --format markdown --out manuals
   fieldscribe docs hitachi_l200 --format xlsx --out tables --check
 
 a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say

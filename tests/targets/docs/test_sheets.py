@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.model import Fixed, Flag, Place, Source, Special, Text
-from fieldscribe.targets.docs import csv_files, meanings, sheet, tables_of, xlsx_files
+from fieldscribe.targets.docs import csv_files, meanings, sheet, xlsx_files
 from fieldscribe.targets.docs.subjects import scope_of
 from fieldscribe.targets.docs.tables import no_number
 from openpyxl import load_workbook
@@ -295,8 +295,7 @@ def test_a_workbook_has_no_formula_and_no_rounded_number() -> None:
 
 
 def test_a_workbook_has_the_same_bytes_each_time() -> None:
-    first, second = (dict(xlsx_files(scope_of(sample_device()))) for _ in range(2))
+    device = replace(sample_device((point("speed", 1),)), errata=())
+    first, second = (dict(xlsx_files(scope_of(device))) for _ in range(2))
     assert first == second
-    device = replace(sample_device(), errata=())
-    assert [table.name for table in tables_of(scope_of(device))] == ["points", "meanings", "errata"]
     assert workbook(device)["errata"].max_row == 1

@@ -64,7 +64,7 @@ def _is_same(written: str, read: object, *, is_number: bool) -> bool:
     return isinstance(read, int | float) and math.isclose(float(written), read, rel_tol=_DIGITS)
 
 
-@pytest.mark.full(seconds=8)
+@pytest.mark.full(seconds=3)
 def test_libreoffice_finds_typed_cells(folder: Path) -> None:
     out = _opened(folder, "*.csv", _AS_THE_DIALOG_DOES)
     for path in sorted(folder.glob("*.csv")):
@@ -82,7 +82,7 @@ def test_libreoffice_finds_typed_cells(folder: Path) -> None:
         assert wrong == []
 
 
-@pytest.mark.full(seconds=12)
+@pytest.mark.full(seconds=4)
 def test_libreoffice_opens_the_workbooks(folder: Path) -> None:
     """What it saves has the same typed cells and filters (without a window it forgets which heads stay)."""
     out = _opened(folder, "*.xlsx")
