@@ -6,15 +6,14 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.targets.docs.meanings import codes_of, enum_of
+from fieldscribe.targets.docs.quantities import default_of, ends_of, range_of, scale_cells
 from fieldscribe.targets.docs.tables import Column, Table, decimal, original, source_cells
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.wording.exact import hex_text, number_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
-    from fieldscribe.arithmetic.lines import Line
     from fieldscribe.model import Place, Point
     from fieldscribe.targets.docs.subjects import Scope
     from fieldscribe.targets.docs.tables import Encode
@@ -100,7 +99,7 @@ def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
             kin = kins[number] = _kin(scope, point, encode)
         ends = limits_by_id.get(id(limits))
         if ends is None:
-            ends = limits_by_id[id(limits)] = (*_ends(point), encode(_range(point, scope.by_name)))
+            ends = limits_by_id[id(limits)] = (*ends_of(point), encode(range_of(point, scope.by_name)))
         enum = enum_of(point)
         yield (
             encode(point.code or ""),
@@ -118,7 +117,7 @@ def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
             *_references(point.place, encode),
             *kin.meaning,
             *ends,
-            _default(point),
+            default_of(point),
             "" if point.default_raw is None else str(point.default_raw),
             "" if enum is None else encode(enum.name),
             encode(point.item) if point.flags else "",
@@ -145,64 +144,13 @@ def _kin(scope: Scope, point: Point, encode: Encode) -> _Kin:
             point.type if point.untyped is None else "",
             point.access,
             encode(point.unit.symbol),
-            *_scale(scope, point, encode),
+            *scale_cells(point, scope.by_name, encode),
         ),
         behaviour=(_keeps(point, encode), encode("; ".join(point.conditions)), encode(point.changes or "")),
         remarks=remarks,
         remarks_cell=encode("; ".join(remarks)),
         generated=("yes" if point.generated else "no", encode(point.reason or "")),
     )
-
-
-def _scale(scope: Scope, point: Point, encode: Encode) -> tuple[str, str, str]:
-    """Factor and offset, or the rule as text where they cannot say it."""
-    line = _line(point)
-    if line is not None:
-        factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
-        if "/" not in factor + offset:
-            return factor, offset, ""
-    return "", "", encode(wording.scale_text(point, scope.by_name) if point.scale is not None else "")
-
-
-def _line(point: Point) -> Line | None:
-    """The rule from numbers of the type to values, if they are quantities and it needs no other point."""
-    if point.form == "scaled":
-        return fixed_rule(point)
-    return SAME if point.form in ("integer", "float") and (point.generated or point.reserved) else None
-
-
-def _ends(point: Point) -> tuple[str, str, str, str]:
-    """The least and the greatest raw number and value."""
-    if point.info.floating:
-        units = point.allowed.units
-        return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
-    outer, line = wording.outer_raw(point), _line(point)
-    if outer is None or point.text is not None:
-        return "", "", "", ""
-    if line is None:
-        return str(outer[0]), str(outer[1]), "", ""
-    low, high = (exact(raw * line.factor + line.add, line.divisor) for raw in (outer[:: -1 if line.factor < 0 else 1]))
-    return str(outer[0]), str(outer[1]), decimal(low), decimal(high)
-
-
-def _range(point: Point, points: Mapping[str, Point]) -> str:
-    """What least and greatest do not say: other points, gaps, and numbers that are no decimals."""
-    allowed, line = point.allowed, _line(point)
-    parts = allowed.units if point.info.floating else allowed.intervals
-    unsaid = line is not None and bool(parts) and "" in _ends(point)[2:]
-    if len(parts) <= 1 and not allowed.moves and not unsaid:
-        return ""
-    text = wording.range_text(point, points) if line is not None else ""
-    raw = "" if text else wording.raw_range_text(point)
-    return f"only {text}" if text else f"only raw {raw}" if raw else ""
-
-
-def _default(point: Point) -> str:
-    """The factory setting as a value; a special code is none."""
-    raw = point.default_raw
-    if point.default is None or (raw is not None and point.special(raw) is not None):
-        return ""
-    return decimal(number_text(point.default))
 
 
 def _address(place: Place) -> tuple[str, str]:
