@@ -54,6 +54,7 @@ if [ "$purpose" = tests ]; then
     need fish fish
     need node nodejs
     need npm npm
+    need soffice libreoffice-calc-nogui
     need chromium-headless-shell chromium-headless-shell
 fi
 

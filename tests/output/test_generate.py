@@ -21,7 +21,7 @@ from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool
 
 DOCS = [
-    *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_special_codes.csv"),
+    *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_meanings.csv"),
     *("manifest/hitachi_l200.facts.json", "manifest/hitachi_l200.json"),
 ]
 

@@ -56,31 +56,39 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Leave them, or compare; the exit code."""
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError, report_findings, usage_error
-    from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.cli.common import report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
 
     report = Report()
     orders = _orders(arguments, report)
     if report.has_errors:
         report_findings(report, arguments.format)
         return FINDINGS
+    missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
+    return carried_out(orders, missing, arguments.format, check=arguments.check, force=arguments.force)
+
+
+def carried_out(orders: list[Order], missing: tuple[str, str], form: str = "text", *, check: bool, force: bool) -> int:
+    """Leave the files, or compare, and say it; the exit code. `missing` is what to say without the library of an extra.
+
+    Raises StopError.
+    """
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.cli.common import StopError, usage_error
+    from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
+
     try:
         refuse_doubles(orders)
-        if arguments.check:
-            deliveries = [compare(order) for order in orders]
-        else:
-            deliveries = [deliver(order, say_waiting, force=arguments.force) for order in orders]
+        deliveries = [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
-        raise StopError("--wheel needs hatchling", 'pip install "fieldscribe[wheel]"') from error
+        raise StopError(*missing) from error
     except OSError as error:
-        return usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
-    return _say(arguments, deliveries)
+        return usage_error(f"cannot write to {error.filename or orders[0].out}: {error.strerror or error}")
+    return _say(deliveries, form, check=check)
 
 
 def _orders(arguments: Namespace, report: Report) -> list[Order]:
@@ -184,15 +192,15 @@ def _points(said: str | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def _say(arguments: Namespace, deliveries: list[Delivery]) -> int:
+def _say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
 
-    if arguments.format == "json":
+    if form == "json":
         print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
     for delivery in deliveries:
-        if arguments.format == "text":
-            _print(delivery, check=arguments.check)
+        if form == "text":
+            _print(delivery, check=check)
         for path, reason in delivery.refused.items():
             hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
             usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
