@@ -878,17 +878,20 @@ static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver)
 {
     const size_t length = receiver->length;
     size_t whole = 0U;
-    size_t from = 0U;
-    size_t at;
-    while ((whole == 0U) && (from < length)) {
+    size_t from;
+    size_t to = 0U;
+    for (from = 0U; from < length; ++from) {
         whole = fieldscribe_modbus_likely(receiver, &receiver->buffer[from], length - from);
-        from += (whole == 0U) ? 1U : 0U;
+        if (whole != 0U) {
+            break;
+        }
     }
     receiver->done = (whole != 0U) && ((length - from) >= whole);
     receiver->length = receiver->done ? whole : (length - from);
     receiver->dropped += length - receiver->length;
-    for (at = 0U; (from > 0U) && (at < receiver->length); ++at) {
-        receiver->buffer[at] = receiver->buffer[from + at];
+    for (; (to < from) && (from < length); ++from) {
+        receiver->buffer[to] = receiver->buffer[from];
+        ++to;
     }
 }
 
