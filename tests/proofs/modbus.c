@@ -27,6 +27,7 @@ static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
 static fieldscribe_modbus_receiver receiver;
 static fieldscribe_modbus_beginning beginning;
+static fieldscribe_modbus_line line;
 static volatile uint8_t number;
 
 /* A profile that knows any functions; `count` of them, and no room for more. */
@@ -599,5 +600,64 @@ void prove_receive(size_t size, size_t length, size_t count)
         //@ split count;
         has(EXACTLY(size, frame), size, length);
         (void)fieldscribe_modbus_receive(&receiver, EXACTLY(count, long_frame), count);
+    }
+}
+
+/* A line that stays silent; what a receiver makes of bytes is followed above. */
+static void send_nothing(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    (void)bytes;
+    (void)length;
+}
+
+static bool receive_nothing(void *context, uint8_t *byte)
+{
+    (void)context;
+    *byte = number;
+    return false;
+}
+
+static void link(uint8_t *buffer, size_t size)
+{
+    line.profile = &profile;
+    line.buffer = buffer;
+    line.size = size;
+    line.send = &send_nothing;
+    line.receive = &receive_nothing;
+    line.context = NULL;
+    know(KNOWN);
+    ask_any();
+    request.put = &fieldscribe_modbus_put_reading;
+    request.take = &fieldscribe_modbus_take_words;
+}
+
+void prove_exchange(size_t size, size_t length)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_RTU, &request, length);
+        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_TCP, &request, length);
+    }
+}
+
+void prove_ask_rtu(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        into(items, ITEMS);
+        (void)fieldscribe_modbus_ask_rtu(&line, &request, &reply);
+    }
+}
+
+void prove_ask_tcp(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        into(items, ITEMS);
+        (void)fieldscribe_modbus_ask_tcp(&line, &request, &reply);
     }
 }

@@ -30,6 +30,7 @@ static fieldscribe_uss_writing writing;
 static fieldscribe_uss_heard heard;
 static fieldscribe_uss_sent sent;
 static fieldscribe_uss_receiver receiver;
+static fieldscribe_uss_line line;
 static volatile uint8_t number;
 
 /* A profile of any tasks and lengths, so many of both, and no room for more. */
@@ -393,5 +394,46 @@ void prove_parse__words(size_t length, size_t room)
         into(EXACTLY(stored, words), stored);
         (void)fieldscribe_uss_parse(
             &profile, &link, &request, frame, length, &reply);
+    }
+}
+
+/* A line that stays silent; what a receiver makes of bytes is followed above. */
+static void send_nothing(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    (void)bytes;
+    (void)length;
+}
+
+static bool receive_nothing(void *context, uint8_t *byte)
+{
+    (void)context;
+    *byte = number;
+    return false;
+}
+
+void prove_ask(size_t size, size_t pzd_count)
+{
+    if (size <= SHORT && pzd_count <= WORDS) {
+        //@ split size;
+        line.profile = &profile;
+        line.link = &link;
+        line.buffer = EXACTLY(size, frame);
+        line.size = size;
+        line.send = &send_nothing;
+        line.receive = &receive_nothing;
+        line.context = NULL;
+        know(KNOWN);
+        send(words, pzd_count);
+        into(words, WORDS);
+        if (link.pkw == 0U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else if (link.pkw < 3U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else if (link.pkw == 3U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        }
     }
 }

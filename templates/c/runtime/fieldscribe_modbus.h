@@ -330,6 +330,28 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
+/*
+ * A line that requests go over. `send` drops what has come in and sends; `receive` waits for a byte, and says false when
+ * the line stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
+ */
+typedef struct fieldscribe_modbus_line {
+    const fieldscribe_modbus_profile *profile;
+    uint8_t *buffer;
+    size_t size;
+    void (*send)(void *context, const uint8_t *bytes, size_t length);
+    bool (*receive)(void *context, uint8_t *byte);
+    void *context;
+} fieldscribe_modbus_line;
+
+/*
+ * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
+ * came. What goes to all units is OK when it is sent, as nobody answers.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
+
 /* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
 FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
     const fieldscribe_modbus_reply *reply, const fieldscribe_modbus_reading *point);
@@ -812,7 +834,7 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 static fieldscribe_modbus_beginning fieldscribe_modbus_begin(fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, uint8_t function, uint32_t whole)
 {
-    fieldscribe_modbus_beginning beginning = {{0U}, 0U, (uint16_t)(whole & 0xFFFFU)};
+    fieldscribe_modbus_beginning beginning = {{0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U}, 0U, (uint16_t)(whole & 0xFFFFU)};
     uint8_t at = 0U;
     if (framing == FIELDSCRIBE_MODBUS_TCP) {
         fieldscribe_modbus_put(&beginning.head[0], request->transaction);
@@ -905,6 +927,50 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
         fieldscribe_modbus_settle(receiver);
     }
     return taken;
+}
+
+/* Sends the `length` bytes of a request; how many come back as its answer. */
+static size_t fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, size_t length)
+{
+    fieldscribe_modbus_receiver receiver =
+        fieldscribe_modbus_await(line->profile, framing, request, line->buffer, line->size);
+    uint8_t byte = 0U;
+    line->send(line->context, line->buffer, length);
+    while ((!receiver.done) && line->receive(line->context, &byte)) {
+        (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
+    }
+    return receiver.length;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    size_t length;
+    fieldscribe_modbus_status status =
+        fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_RTU, request, length);
+        if (request->unit != line->profile->broadcast) {
+            status = fieldscribe_modbus_parse_rtu(request, line->buffer, length, reply);
+        }
+    }
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    size_t length;
+    fieldscribe_modbus_status status =
+        fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_TCP, request, length);
+        if (request->unit != line->profile->broadcast) {
+            status = fieldscribe_modbus_parse_tcp(request, line->buffer, length, reply);
+        }
+    }
+    return status;
 }
 
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,

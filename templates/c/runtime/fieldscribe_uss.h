@@ -287,6 +287,27 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscri
     fieldscribe_uss_reply *reply);
 
 /*
+ * A line that telegrams go over. `send` drops what has come in and sends; `receive` waits for a byte, and says false
+ * when the line stays silent. Both are yours and get `context`. `buffer` has room for the longest telegram.
+ */
+typedef struct fieldscribe_uss_line {
+    const fieldscribe_uss_profile *profile;
+    const fieldscribe_uss_link *link;
+    uint8_t *buffer;
+    size_t size;
+    void (*send)(void *context, const uint8_t *bytes, size_t length);
+    bool (*receive)(void *context, uint8_t *byte);
+    void *context;
+} fieldscribe_uss_line;
+
+/*
+ * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
+ * WRONG_START and WRONG_LENGTH say that none came.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);
+
+/*
  * The words of the value that an answer brings, the high one first, where `count` are room enough; WRONG_RESPONSE when
  * it has another width.
  */
@@ -711,6 +732,25 @@ size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t
         fieldscribe_uss_settle(receiver);
     }
     return taken;
+}
+
+fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply)
+{
+    size_t length;
+    fieldscribe_uss_status status =
+        fieldscribe_uss_build(line->profile, line->link, request, process, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_USS_OK) {
+        fieldscribe_uss_receiver receiver = fieldscribe_uss_await(line->link, request, line->buffer, line->size);
+        uint8_t byte = 0U;
+        line->send(line->context, line->buffer, length);
+        while ((!receiver.done) && line->receive(line->context, &byte)) {
+            (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
+        }
+        status =
+            fieldscribe_uss_parse(line->profile, line->link, request, line->buffer, receiver.length, reply);
+    }
+    return status;
 }
 
 fieldscribe_uss_status fieldscribe_uss_words_of_reply(
