@@ -195,7 +195,11 @@ def run_here(page: Page, program: str, *, board: bool) -> None:
     source = page.folder / "program.c"
     source.write_text(program, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, "-Wno-unused-function", "-Wno-float-equal", *SANITIZERS["gcc"])
-    folders = (f"-I{page.folder / 'drivers'}", f"-I{page.folder}", f"-I{BOARD}" if board else f"-I{page.folder / 'page'}")
+    folders = (
+        f"-I{page.folder / 'drivers'}",
+        f"-I{page.folder}",
+        f"-I{BOARD}" if board else f"-I{page.folder / 'page'}",
+    )
     assert not succeed([tool("gcc"), *flags, *folders, "-o", page.folder / "program", source])
     succeed([page.folder / "program"])
 
