@@ -26,12 +26,23 @@ class HexError(ValueError):
 
 def parse_hex(text: str) -> bytes:
     """The bytes that a text means. Raises HexError with what is wrong and where."""
-    if len(text) % 2 == 0 and _DIGITS.fullmatch(text):
-        return bytes.fromhex(text)
-    pieces = [piece for piece in _BETWEEN.split(_MARK.sub(" 0x", text).strip()) if piece]
+    if data := _pairs(text):
+        return data
+    spaced = _BETWEEN.sub(" ", _MARK.sub(" 0x", text)).strip()
+    if data := _pairs(spaced):
+        return data
+    pieces = spaced.split()
     if not pieces:
         raise HexError("there are no bytes")
     return b"".join(_piece(piece, place) for place, piece in enumerate(pieces, 1))
+
+
+def _pairs(text: str) -> bytes:
+    """The bytes of pairs of digits with or without blanks, which Python reads by itself; none where there is more."""
+    try:
+        return bytes.fromhex(text)
+    except ValueError:
+        return b""
 
 
 def number_of(text: str) -> int | None:

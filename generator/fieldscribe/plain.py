@@ -191,7 +191,7 @@ class _Enums:
             entries = self._entries.get(id(enum.entries))
             if entries is None:
                 entries = self._entries[id(enum.entries)] = tuple(map(_entry, enum.entries))
-            self._enums[id(enum)] = Enum(enum.name, _title(enum.name), entries, enum.closed)
+            self._enums[id(enum)] = Enum(enum.name, _title(enum.name), entries, enum.closed, enum.was)
         return self._enums[id(enum)]
 
 

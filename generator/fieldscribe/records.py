@@ -148,10 +148,21 @@ def values_of(record: Any, /) -> dict[str, Any]:
 
 
 @cache
+def _places(kind: Any) -> Mapping[str, int]:
+    return {name: place for place, name in enumerate(kind.__fields__)}
+
+
+@cache
 def _getters(kind: Any) -> Callable[[object], tuple[Any, ...]]:
     return _values(tuple(kind.__fields__))
 
 
 def replace(record: T, /, **changes: Any) -> T:
     """As `dataclasses.replace`."""
-    return type(record)(**(values_of(record) | changes))
+    kind: Any = type(record)
+    places, values = _places(kind), list(_getters(kind)(record))
+    if not changes.keys() <= places.keys():
+        raise TypeError(f"{kind.__name__} has no {', '.join(changes.keys() - places.keys())}")
+    for name, value in changes.items():
+        values[places[name]] = value
+    return kind(*values)  # type: ignore[no-any-return]  # it is of the kind of the record

@@ -30,7 +30,7 @@ _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 def line(text: str) -> str:
     """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
-    if text.isascii() and text.isprintable() and "  " not in text and text[:1] != " " and text[-1:] != " ":
+    if text.isprintable() and "  " not in text and text[:1] != " " and text[-1:] != " ":
         return text
     if not _PLAIN.fullmatch(text):
         spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)
@@ -99,6 +99,12 @@ def rust_string(text: str) -> str:
     if not cleaned.isprintable():
         cleaned = "".join([char if char.isprintable() else f"\\u{{{ord(char):x}}}" for char in cleaned])
     return f'"{cleaned}"'
+
+
+def toml_string(text: str) -> str:
+    """A TOML string with its quotes."""
+    cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join([char if char.isprintable() else f"\\U{ord(char):08X}" for char in cleaned]) + '"'
 
 
 @lru_cache(maxsize=4096)

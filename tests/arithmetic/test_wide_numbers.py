@@ -87,7 +87,7 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     program = tmp_path / "program.c"
     program.write_text(
         '#include "meter.h"\n'
-        "int main(void) { const meter_c_with with = {1, 0}; double value; "
+        "int main(void) { const meter_with_exponent_and_first with = {0, 1}; double value; "
         "return (int)meter_c_decode(1, &with, &value); }"
     )
     for switch in ("-O2", "-DFIELDSCRIBE_FLOAT32"):
@@ -241,7 +241,8 @@ def _call(item: str) -> str:
             f"with.{name}_raw = {place}; " for name, place in zip(point.scale_arguments, places, strict=True)
         )
         call = f"kitchen_sink_{item}_decode(({KINDS[point.type]})raw, &with, &value)"
-        return f"{{ kitchen_sink_{item}_with with; {fields}status = (int){call}; }}"
+        struct = f"kitchen_sink_with_{'_and_'.join(sorted(point.scale_arguments))}"
+        return f"{{ {struct} with; {fields}status = (int){call}; }}"
     return f"status = (int)kitchen_sink_{item}_decode(({KINDS[point.type]})raw, {', '.join(places)}, &value)"
 
 

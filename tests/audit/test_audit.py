@@ -552,7 +552,7 @@ COLUMNS_POINTS = """\
         ("\tDrive off\t", "\tDrive out\t", ["0 = Drive off"]),
         ("\n3\t0\tLamp", "\n2\t0\tLamp", ["bit 3"]),
         ("\t1\t\t-", "\t2\t\t-", ["lamp 1"]),
-        ("0\tPump off", "3\tPump off", ["pump 0", "0 = Pump off"]),
+        ("0\tPump off", "3\tPump off", ["0 = Pump off"]),
         ("Pump off\t-\n", "Pump off\t-\tmore\n", []),
     ],
 )

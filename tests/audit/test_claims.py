@@ -42,6 +42,7 @@ def test_a_message_claims_its_numbers_and_both_ends_of_its_bytes() -> None:
         ("layout", "4", ((5, 0),), True),
         ("layout", "6", ((5, 0),), False),
         ("layout", "7", ((5, 0),), False),
+        ("layout", "bytes 0 to 7", ((5, 0),), True),
     ]
 
 

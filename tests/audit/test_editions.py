@@ -192,14 +192,14 @@ CHANGES = [
     ("-40-900", "40-900", "changed", "without a minus sign", "range: -40..900"),
     ("Target temperature | 0011h | R/W", "Target temperature | 0011h | R", "changed", "access", "access: rw"),
     ("0.1 °C |\n| H06", "0.1 K |\n| H06", "changed", "unit °C is not there", "name: hysteresis"),
-    ("1 heating, 2 cooling", "1 cooling, 2 heating", "changed", "1 = ", "1: {name: heating"),
+    ("1 heating, 2 cooling", "1 cooling, 2 heating", "swapped", "1 = ", "1: {name: heating"),
     ("2 cooling |", "2 cooling, 3 defrosting |", "changed", "is `defrosting`", "code: H03"),
     ("0 off, ", "", "changed", "enum", '0: "off"'),
     ("| H05 |", "| H07 |", "changed", "code H05 is not there", "code: H05"),
     ("01 95 18 30", "01 95 18 31", "changed", "bytes", "name: write_target"),
     ("kit 4711", "kit 4712", "changed", "nothing cites line 15: `4712`", ""),
-    ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", "", "removed", "which is gone", "name: hysteresis"),
-    ("Pin 2 plus\n", "", "removed", "looked_through cites line 24, which is gone", "{lines: 24, why"),
+    ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", "", "removed", "cited line 12 is gone", "code: H05"),
+    ("Pin 2 plus\n", "", "removed", "looked_through: cited line 24 is gone", "{lines: 24, why"),
     ("| H06", "| H09 | New | 0019h | R/W | 0-9 | 1 s |\n| H06", "added", "is `0019h`", "name: hysteresis"),
     ("## Wiring", "## Timing\n\nWait for 20 ms.\n\n## Wiring", "added", "nothing cites line 23: `20`", ""),
 ]  # fmt: skip
@@ -232,7 +232,7 @@ def test_a_new_row_is_shown_as_a_point_to_paste(described: Described) -> None:
         "  access: r",
         "  range: 0..100",
         "  scale: value = raw * 0.5",
-        '  unit: "°C"',
+        "  unit: °C",
         "  line: 13",
     ]
     text = described.text
@@ -285,9 +285,10 @@ def test_lines_are_written_anew_and_nothing_else(described: Described) -> None:
     alone = described.audit_alone(new)
     assert (alone["missing"], alone["moved"], alone["errata_not_printed"]) == ([], [], [])
     assert described.audit(new, "--renumber")[1]["written"] == ["renumbered: 0 lines in 0 files"]
-    code, report = described.audit(new, "--accept")
+    code, report = described.audit(new, "--accept", "--file", "new.txt")
     assert (code, report["refused"]) == (0, None)
-    assert described.text == after.replace(sha256(OLD.encode()).hexdigest(), sha256(new.encode()).hexdigest())
+    recorded = after.replace(sha256(OLD.encode()).hexdigest(), sha256(new.encode()).hexdigest())
+    assert described.text == recorded.replace("file: old.txt", "file: new.txt")
     assert described.audit_alone(new)["same_text"] is True
 
 
@@ -359,8 +360,16 @@ def test_the_words_of_a_long_value_may_stand_in_two_rows(described: Described) -
 
 REFUSALS = [
     (OLD.replace("200-550", "200-600"), ("--accept",), 1, "not everything in the new edition is explained"),
-    ("\n" + OLD, ("--accept",), 1, "--renumber comes first"),
-    ("\n" + OLD, ("--renumber", "--accept"), 0, None),
+    (
+        OLD.replace("200-550", "200-600"),
+        ("--renumber", "--accept"),
+        1,
+        "not everything in the new edition is explained",
+    ),
+    ("\n" + OLD, ("--accept", "--file", "new.txt"), 1, "--renumber comes first"),
+    ("\n" + OLD, ("--renumber", "--accept"), 1, "file is `old.txt`, the new text is `new.txt`: say --file new.txt, or"),
+    ("\n" + OLD, ("--renumber", "--accept", "--file", "n", "--edition", "2"), 1, "documents.manual has no `edition`"),
+    ("\n" + OLD, ("--renumber", "--accept", "--file", "old.txt"), 0, None),
 ]
 
 
@@ -372,6 +381,75 @@ def test_accepting(new: str, arguments: tuple[str, ...], code: int, refused: str
     assert (report["refused"] is None) == (refused is None)
     assert refused is None or refused in report["refused"]
     assert (described.text == before) == bool(refused)
+
+
+def test_the_printed_edition_is_asked_for_and_recorded(described: Described) -> None:
+    described.edit("file: old.txt", 'edition: "2024-03", file: old.txt')  # in flow, with a comment behind
+    before = described.text
+    code, report = described.audit("\n" + OLD, "--renumber", "--accept", "--file", "old.txt")
+    assert (code, described.text) == (1, before)
+    assert "edition is `2024-03`: say --edition" in report["refused"]
+    given = ("--file", "new.txt", "--edition", "2025: the second")
+    assert described.audit("\n" + OLD, "--renumber", "--accept", *given)[0] == 0
+    assert 'edition: "2025: the second", file: new.txt, sha256:' in described.text
+    assert described.audit("\n" + OLD, "--accept")[0] == 0  # what is recorded is not asked for again
+
+
+def test_what_the_accepted_text_alone_has_open_is_said(described: Described) -> None:
+    described.edit("numbers: [4711, 40.5]", "numbers: [4711]")
+    _, report = described.audit("\n" + OLD, "--renumber", "--accept", "--file", "old.txt")
+    assert report["refused"] is None
+    assert "the audit without --old has findings: fieldscribe audit" in report["written"][-1]
+
+
+@pytest.mark.parametrize("given", [("--file", "a/b.txt"), ("--edition", " "), ("--edition", "2" * 81)])
+def test_what_cannot_be_recorded_is_refused(given: tuple[str, str], described: Described) -> None:
+    before = described.text
+    files = ["--manual", str(described.folder / "old.txt"), "--old", str(described.folder / "old.txt")]
+    assert main(["audit", str(described.folder / "audited"), *files, "--accept", *given]) == 2
+    assert main(["audit", str(described.folder / "audited"), *files, *given]) == 2
+    assert described.text == before
+
+
+NOTES = [
+    # a sentence of another part, what the manual says now, what is told of it
+    ("bus", "H02 must not pass 550 (raw), nor the range of H05 of 50.", ("200-550", "200-600"), {"550": "line 10"}),
+    ("bus", "From 550 on it is hot.", ("200-550", "200-600"), None),
+    ("bus", "Never above 550 in H05.", ("200-550", "200-600"), None),
+    ("bus", "The kit 4711 is needed.", ("kit 4711", "kit 4712"), {"4711": "line 15"}),
+    ("bus", "It keeps the hysteresis small.", ("Hysteresis", "Dead band"), {"Hysteresis": "line 12"}),
+    ("bus", "See H05 and H06.", ("| H05 |", "| H07 |"), {"H05": "line 12"}),
+    ("mode", "Cooling needs a kit, see line 15; 2 is rare.", ("2 cooling", "3 cooling"), {"2": "line 11"}),
+]
+
+
+@pytest.mark.parametrize(("owner", "note", "change", "said"), NOTES, ids=[note[1][:20] for note in NOTES])
+def test_notes_that_say_what_changed_are_told(
+    owner: str, note: str, change: tuple[str, str], said: dict[str, str] | None, described: Described
+) -> None:
+    if owner == "bus":
+        described.edit("bus: {framings", f"bus: {{note: {{en: '{note}'}}, framings")
+    else:
+        described.edit("note: Cooling needs a kit, see line 15.", f"note: {note}")
+    _, report = described.audit(OLD.replace(*change))
+    told = [stale for stale in report["notes"] if stale["owner"] == owner]
+    assert [stale["said"] for stale in told] == ([said] if said else [])
+    if said:
+        assert told[0]["place"].startswith(f"{described.file}:{described.line_of(note)}:")
+
+
+def test_notes_that_say_what_changed_are_told_with_explained_lines_too(
+    described: Described, capsys: pytest.CaptureFixture[str]
+) -> None:
+    described.edit("note: Cooling needs a kit, see line 15.", "note: The edition of 2024-03 lacks 4711, see line 15.")
+    described.edit("- {lines: [15, 19]", "- {lines: 15, why: The kit.}\n- {lines: [15, 19]")
+    (described.folder / "new.txt").write_text(OLD.replace("kit 4711", "kit 4712"), "utf-8")
+    files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
+    assert main(["audit", str(described.folder / "audited"), *files]) == 0
+    printed = capsys.readouterr().out
+    assert "note: note of mode says `4711` (line 15): does it still hold?" in printed
+    assert main(["audit", str(described.folder / "audited"), *files, "--accept", "--file", "old.txt"]) == 0
+    assert "does it still hold?" in capsys.readouterr().out
 
 
 def test_nothing_is_renumbered_where_a_cited_line_is_gone(
@@ -398,7 +476,7 @@ def test_the_whole_way(described: Described) -> None:
     assert described.audit(new, "--renumber")[0] == 0
     assert described.text.endswith("  line: 15\n")
     assert described.audit_alone(new)["moved"] == []
-    assert described.audit(new, "--accept")[0] == 0
+    assert described.audit(new, "--accept", "--file", "new.txt")[0] == 0
 
 
 def test_what_was_edited_counts_its_old_lines_until_it_is_renumbered(described: Described) -> None:

@@ -26,7 +26,7 @@ def _manuals() -> Path:
 @pytest.mark.full(seconds=60)
 def test_nearly_all_changed_facts_are_reported(manuals: Path) -> None:
     missed = [change for device in DEVICES for change in measure(device, manuals, 7, SAMPLE).missed]
-    assert len(missed) <= 2, missed
+    assert len(missed) <= 1, missed
 
 
 @pytest.mark.full(seconds=5)

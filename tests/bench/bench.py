@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from python_bench import print_python
+from stream_bench import print_streams
 from synthetic import write_dbc, write_device
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
 CANTOOLS = str(Path(sys.executable).with_name("cantools"))
 MANY, FEW = 10_000, 1_000
+STREAMED = 50_000
 CODE = "c,python,rust"
 ALL = "c,python,rust,docs,vectors"
 MOST_MEBIBYTES = 130
@@ -168,6 +170,7 @@ def main() -> None:
         bench.run(arguments.runs)
         print(*bench.table(), sep="\n", flush=True)
     print_python(3 * arguments.runs)
+    print_streams(STREAMED)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
+from fieldscribe.families.spoken import Remembered
 from support.described import shipped
 from support.places import ROOT
 
@@ -37,11 +38,11 @@ class Told(NamedTuple):
 def decode(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Told]:
     """Runs the command in this process, with a text as standard input."""
     monkeypatch.chdir(ROOT)
-    monkeypatch.setattr(pipeline, "load_device", lambda *_: shipped("woodward_mpu2s"))
 
-    def run(*words: str, given: str = "") -> Told:
+    def run(*words: str, given: str = "", device: str = "woodward_mpu2s") -> Told:
+        monkeypatch.setattr(pipeline, "load_device", lambda *_: shipped(device))
         monkeypatch.setattr(sys, "stdin", StringIO(given))
-        return Told(main(["decode", "woodward_mpu2s", *words]), *capsys.readouterr())
+        return Told(main(["decode", device, *words]), *capsys.readouterr())
 
     return run
 
@@ -78,6 +79,49 @@ def test_the_first_answer_is_out_while_the_input_is_open(form: str) -> None:
         assert [frame["multiplexer"] for frame in json.loads(told)["frames"]] == [1, 0]
     if form == "jsonl":
         assert [json.loads(line)["device"] for line in told.splitlines()] == ["woodward_mpu2s"] * 2
+
+
+POLLED = {
+    "woodward_mpu2s": [
+        *("321#DD00051E13880064", "321#DD010302000007D0", "321#DD01FF02000007D0", "321#DD02051E13880064"),
+        *("33F#FF01000200000303", "321#FF01000201F4FD0C", "33F#EE01000201F51E1E", "321#EE01000201F41919", "7FF#00"),
+    ],
+    "hitachi_l200": [
+        *(
+            "01 03 10 13 00 02 31 0E",
+            "01 03 04 00 00 13 88 F7 65",
+            "01 06 10 28 01 F4 0C D5",
+            "01 06 10 28 01 F4 0C D5",
+        ),
+        *("01 03 10 13 00 02 31 0E", "01 83 02 C0 F1", "01 03 10 13 00 02 31 0F"),
+    ],
+    "siemens_mm4": [
+        *("02 0E 01 143A 0000 0000 0000 047F 3333 72", "02 0E 01 243A 0000 4248 0000 FA31 3000 C4"),
+        *("02 0E 01 143A 0000 0000 0000 0000 0000 23", "020E01243A00004248000000000000FF"),
+    ],
+}
+"""Requests, answers, states that later frames change, and what is no frame of the device, by device."""
+
+
+@pytest.mark.parametrize("device", POLLED)
+def test_a_stream_says_what_the_same_frames_say_as_arguments(device: str, decode: Callable[..., Told]) -> None:
+    """In the same order, with the state of the frames before: also when all of it comes again and is remembered."""
+    frames = [*POLLED[device], *POLLED[device]]
+    for form in ("text", "json", "jsonl"):
+        told = decode(*frames, "--format", form, device=device)
+        assert decode("-", "--format", form, given="\n".join(frames), device=device) == told
+    heard = [json.loads(line)["bytes"] for line in told.out.splitlines()]
+    assert heard[: len(heard) // 2] == heard[len(heard) // 2 :]
+    assert len(heard) == len(frames)
+
+
+def test_what_is_remembered_gives_way_and_nothing_else_changes(
+    decode: Callable[..., Told], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = log(200)
+    told = decode("-", given=text)
+    monkeypatch.setattr(Remembered, "__missing__", lambda self, key: self._make(key))
+    assert decode("-", given=text) == told
 
 
 def test_both_notations_of_candump_say_the_same(tmp_path: Path, decode: Callable[..., Told]) -> None:
@@ -130,6 +174,7 @@ def test_a_closed_pipe_ends_quietly() -> None:
 MEASURED = """
 import re, sys, time
 from fieldscribe.cli import main
+from fieldscribe.families.spoken import Remembered
 main(["decode", "woodward_mpu2s", "--log", sys.argv[1]])
 peak = re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())
 print(peak[1], time.process_time(), file=sys.stderr)

@@ -86,6 +86,7 @@ def test_json(diff: Diff) -> None:
         "new": 17,
         "places": {"old": "old/device.yaml:15", "new": "new/device.yaml:15"},
         "symbols": told["changes"][0]["symbols"],
+        "symbols_missing": [],
         "rename": False,
     }
     symbols = told["changes"][0]["symbols"]
@@ -188,6 +189,33 @@ def test_sides_of_every_kind(diff: Diff) -> None:
     change = diff.changes("old.json", "new")[0]
     assert change["places"] == {"old": "old.json", "new": "new/device.yaml:15"}
     assert "MADE_UP_SPEED_ADDRESS" in change["symbols"]["c"]
+
+
+def test_names_in_code_that_an_exported_model_lacks(diff: Diff) -> None:
+    """They are told to be missing where the other side does not have them, and only there."""
+    Path("old.json").write_text(json.dumps(export_model(loaded(Path("old/device.yaml")))), "utf-8")
+    diff.write("new", EDITED.replace("name: ramp", "name: slope") + "- {name: more, at: 40h}\n")
+    missing = {each["point"]: each["symbols_missing"] for each in diff.changes("old.json", "new")}
+    assert missing == {"speed": [], "state": [], "more": [], "slope": ["old"], "slope_set_2": ["old"]}
+    said = "names in code are missing where old.json is an exported model: compare descriptions, or GIT-REVISION:PATH"
+    assert said in diff("old.json", "new").out
+    assert "Names in code are missing" in diff("old.json", "new", "--format", "markdown").out
+    diff.write("new", EDITED)
+    assert "missing" not in diff("old.json", "new").out
+
+
+def test_what_has_another_name_is_told_by_both(diff: Diff) -> None:
+    diff.write("new", POINTS.replace("name: speed", "name: pace").replace("1: run", "1: go"))
+    told = diff("old", "new").out
+    assert "      rust: Speed -> Pace\n" in told
+    assert "      c: MADE_UP_STATE_RUN -> MADE_UP_STATE_GO\n" in told
+
+
+def test_lines_that_sentences_name_are_told_with_other_lines(diff: Diff) -> None:
+    points = "- {name: first, at: 1, line: 1, note: As line 7 says.}\n- {name: second, at: 2, line: 2}\n"
+    diff.write("old", points)
+    diff.write("new", points.replace("line 7", "lines 8 and 9").replace("line: 2", "line: 5"))
+    assert "    2 things: other lines of the manual\n" in diff("old", "new").out
 
 
 def test_a_device_by_its_id(diff: Diff) -> None:
@@ -310,7 +338,7 @@ def _exported(change: Callable[[dict[str, Any]], object]) -> str:
         ('{"format": ' + "9" * 5000 + "}", "it is no JSON"),
         ("NaN", "it is no JSON"),
         ("[]", "it is no exported model"),
-        ('{"format": 3, "device": "a"}', "its format is not 4"),
+        ('{"format": 3, "device": "a"}', "its format is not 5"),
         (lambda model: model.pop("points"), "does not follow the contract"),
         (lambda model: model["points"][0].update(type="u17"), "does not follow the contract at `points.0.type`"),
         (lambda model: model["points"][0].update(address="1"), "does not follow the contract at `points.0.address`"),
@@ -360,7 +388,6 @@ def test_a_rename_keeps_its_old_name(diff: Diff) -> None:
     assert [(each["class"], each["point"], each["fact"]) for each in json.loads(told.out)["changes"]] == [
         ("compatible", "pace", "name"),
         ("compatible", "mode", "name"),
-        ("api", "mode", "name of the enum"),
         ("compatible", "slope", "name"),
         ("compatible", "slope_set_2", "name"),
     ]
@@ -370,7 +397,7 @@ def test_a_rename_keeps_its_old_name(diff: Diff) -> None:
         .replace("what it does\n", "what it does\n  was: [state]\n")
         .replace("name: slope", "name: slope, was: [ramp]")
     ) in Path("new/device.yaml").read_text("utf-8")
-    assert {each["class"] for each in diff.changes("old", "new", "--keep-names")} == {"compatible", "api"}
+    assert {each["class"] for each in diff.changes("old", "new", "--keep-names")} == {"compatible"}
 
 
 @pytest.mark.parametrize(

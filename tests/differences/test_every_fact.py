@@ -36,12 +36,14 @@ SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export
 
 SAYS_NOTHING = {
     "Device.id": "tells the device",
+    "Device.asked": "is no fact",
     "Device.version": "is what differences ask to change",
     "Device.digest": "follows from all facts",
     "Device.blocks": "follow from points, limits and gaps",
     "Device.enums": "are those of the points",
     "Block": "follows from points, limits and gaps",
     "Enum.title": "is its name in words",
+    "Enum.was": "follows from the old names of its point",
     "Erratum.facts": "are `printed` as structure",
     "Factor.exponents": "follow from the range of the point",
     "Named": "is `where`, which is told as text",

@@ -27,7 +27,19 @@ POINT_KEYS = (
     *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
     *("places", "written", "type", "untyped", "words", "access", "bits", "variant", "when", "since", "until", "record"),
     *("set", "repeat", "format", "unit", "unit_name", "quantity", "display", "decimals", "default", "step", "special"),
-    *("special_of", "fixed", "changes", "changes_with", "together", "scale", "raw", "enum", "enum_name", "open"),
+    *(
+        "special_of",
+        "fixed",
+        "changes",
+        "changes_with",
+        "together",
+        "scale",
+        "raw",
+        "enum",
+        "enum_name",
+        "enum_was",
+        "open",
+    ),
     *("flags", "digits", "encoding", "persistence", "conditions", "title", "note", "source", "errata", "was"),
     *("reserved", "generated", "reason"),
 )
@@ -120,6 +132,7 @@ def test_a_scaled_point() -> None:
         "raw": {"ranges": [[0, 4000]], "values": None},
         "enum": None,
         "enum_name": None,
+        "enum_was": [],
         "open": False,
         "flags": [],
         "digits": None,
@@ -194,7 +207,7 @@ def test_no_value_and_a_span_of_special_codes() -> None:
         {"raw": [32768, 32768], "name": "no_value", "title": {"en": "No value"}, "no_value": True, "writable": False},
         {"raw": [65280, 65535], "name": "error", "title": {"en": "Error"}, "no_value": False, "writable": False},
     ]
-    assert exported["format"] == 4
+    assert exported["format"] == 5
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 

@@ -199,7 +199,7 @@ def test_a_real_drive_is_switched_off_by_name(capsys: Any) -> None:
 def test_export_lists_codes() -> None:
     exported: Any = json.loads(json.dumps(export_model(device())))
     points = {one["name"]: one for one in exported["points"]}
-    assert exported["format"] == 4
+    assert exported["format"] == 5
     assert [
         {key: value for key, value in code.items() if key != "title"} for code in points["temperature"]["special"]
     ] == [

@@ -85,7 +85,7 @@ def test_every_field_that_code_knows_counts(name: str) -> None:
     assert device.digest == digest(device) == digest(plain)
     counted = set()
     for owner, path, value in leaves(device):
-        if owner in counted or owner == "Device.digest" or value == ():
+        if owner in counted or owner in ("Device.digest", "Device.asked") or value == ():
             continue
         mutant = changed(device, path, others(value)[0])
         try:

@@ -66,9 +66,8 @@ COUNTS = {
     "vectors": r"(kind|left_out|group)\t",
     "c": r"#define \w+_GROUP_COUNT ",
     "python": r'    """All points of ',
-    "rust": r"//! \[`ALL_FALSE`\]: ",
 }
-"""Lines that count points, list them or show one as an example: they may change when there is one more."""
+"""Lines that count points or list them: they may change when there is one more."""
 
 
 def lines_of(device: Device) -> Lines:
@@ -88,10 +87,12 @@ def lost(old: Lines, new: Lines, also: Lines | None = None) -> list[tuple[str, s
 
 
 @cache
-def made(point: str = "") -> Lines:
-    """The lines with that point in the middle."""
+def made(point: str = "", *, first: bool = False) -> Lines:
+    """The lines with that point in the middle, or in front of all."""
+    line = point and f"{point}\n"
+    points = line + BEFORE + BEHIND if first else BEFORE + line + BEHIND
     with TemporaryDirectory() as folder:
-        return lines_of(loaded_in(Path(folder), described(BEFORE + (point and f"{point}\n") + BEHIND, **SAID)))
+        return lines_of(loaded_in(Path(folder), described(points, **SAID)))
 
 
 def cases(table: dict[str, T], core: str) -> list[ParameterSet]:
@@ -103,6 +104,12 @@ def cases(table: dict[str, T], core: str) -> list[ParameterSet]:
 @pytest.mark.parametrize("point", cases(POINTS, "a list of others"))
 def test_one_more_point_leaves_the_lines_of_others(point: str) -> None:
     assert lost(made(), made(point)) == []
+
+
+@pytest.mark.parametrize("point", cases(POINTS, "flags"))
+def test_examples_stay_with_their_point(point: str) -> None:
+    """What is shown or tried once for many is so at the lowest address, wherever a new point is described."""
+    assert lost(made(), made(point, first=True)) == []
 
 
 @pytest.mark.parametrize("change", cases(CHANGED, "range"))

@@ -17,7 +17,6 @@ from support.places import ROOT
 from support.toolchains import succeed, tool
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
 PAGE = ROOT / "descriptions/using/c.md"
@@ -45,7 +44,7 @@ class Page(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+def page(tmp_path_factory: pytest.TempPathFactory) -> Page:
     folder = tmp_path_factory.mktemp("page")
     text = PAGE.read_text("utf-8")
     before = os.getcwd()
@@ -60,7 +59,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     (folder / "page/board.h").write_text(board, "utf-8")
     (folder / "bus.h").write_text(BUS, "utf-8")
     modbus = firmware.replace("int main(void)", "void firmware(void);\nvoid firmware(void)") + "".join(fragments)
-    yield Page(folder, firmware, modbus, uss, can)
+    return Page(folder, firmware, modbus, uss, can)
 
 
 def crc(text: str) -> str:
@@ -109,9 +108,9 @@ class Machine:
 
     def __init__(self, firmware: Path) -> None:
         options = ("-M", "microbit", "-display", "none", "-monitor", "none", "-serial", "stdio")
-        words = [tool("qemu-system-arm"), *options, "-kernel", firmware]
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-        self._process = subprocess.Popen(words, bufsize=0, **pipes)
+        words = [tool("qemu-system-arm"), *options, "-kernel", str(firmware)]
+        pipe = subprocess.PIPE
+        self._process = subprocess.Popen(words, bufsize=0, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL)
 
     def asks(self, seconds: float = 20.0) -> str:
         """The next eight bytes of the firmware."""

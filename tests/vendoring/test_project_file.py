@@ -108,3 +108,28 @@ def test_vendored_python_needs_no_compiler(project: Path) -> None:
         check=False,
     )
     assert done.stdout.startswith("50.0 "), done.stderr
+
+
+@pytest.mark.full(seconds=3)
+def test_a_wheel_is_the_same_every_time_and_installs(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    order = ["vendor", "python", "hitachi_l200", "--out", "wheels", "--points", "A020", "--wheel"]
+    assert main(order) == 0
+    [wheel] = (project / "wheels").glob("*.whl")
+    assert wheel.name == "hitachi_l200-1.0.0-py3-none-any.whl"
+    assert main([*order, "--check"]) == 0, capsys.readouterr().out
+    install = [sys.executable, "-m", "pip", "install", "-q", "--no-index", "--target", "site", str(wheel)]
+    subprocess.run(install, check=True, capture_output=True)
+    assert not (project / "site/hitachi_l200/pyproject.toml").exists()
+    program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500))"
+    said = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
+    assert subprocess.run(said, capture_output=True, text=True, check=True).stdout == "50.0\n"
+    assert main(["vendor", "c", "hitachi_l200", "--out", "x", "--wheel"]) == 2
+
+
+def test_a_wheel_needs_hatchling(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "hatchling.builders.wheel", None)
+    assert main(["vendor", "python", "hitachi_l200", "--out", "wheels", "--wheel"]) == 2
+    assert 'pip install "fieldscribe[wheel]"' in capsys.readouterr().err
+    assert list(project.iterdir()) == []

@@ -127,6 +127,11 @@ def test_nothing_is_overwritten(kind: str, tmp_path: Path, capsys: pytest.Captur
     assert kind != "folder" or os.listdir(there) == []
 
 
+def _hear_interrupts() -> None:
+    """A shell that starts its jobs in the background has them ignore Ctrl-C; a person at a terminal does not."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Terminal:
     """`init` on a terminal of its own."""
 
@@ -136,7 +141,14 @@ class Terminal:
         command = [sys.executable, "-m", "fieldscribe", "init", *words]
         environment = {**os.environ, "NO_COLOR": "1"}
         self.process = subprocess.Popen(
-            command, cwd=folder, env=environment, stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
+            command,
+            cwd=folder,
+            env=environment,
+            stdin=theirs,
+            stdout=theirs,
+            stderr=theirs,
+            start_new_session=True,
+            preexec_fn=_hear_interrupts,  # noqa: PLW1509 - no thread of ours runs between fork and exec
         )
         os.close(theirs)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from operator import itemgetter
+from struct import unpack_from
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -47,7 +48,8 @@ def joined(words: Iterable[int]) -> int:
 
 def words_in(data: bytes) -> tuple[int, ...]:
     """The words in the data; a single last byte is left out."""
-    return tuple(data[at] << 8 | data[at + 1] for at in range(0, len(data) - 1, 2))
+    count = len(data) >> 1
+    return unpack_from(f">{count}H", data)
 
 
 def split(raw: int, count: int) -> tuple[int, ...]:
@@ -57,18 +59,22 @@ def split(raw: int, count: int) -> tuple[int, ...]:
 
 def raw_of(point: Point, words: Sequence[int]) -> int:
     """The raw number of a point from its words; for a text, all words as one number."""
-    return raw_reader(point)(words)
+    return raw_reader(point, range(len(words)))(words)
 
 
-def raw_reader(point: Point) -> Callable[[Sequence[int]], int]:
-    """What makes the raw number of a point from its words; for a text, all words as one number."""
-    width, signed = point.width, point.info.signed
+def raw_reader(point: Point, places: Sequence[int]) -> Callable[[Sequence[int]], int]:
+    """What makes the raw number of a point from words, of which those at these places are its own, high part first."""
+    first, several, own = places[0], len(places) > 1, itemgetter(*places)
     if point.text is not None:
-        return joined
-    if point.words == 1 and width == 16 and not signed:
-        return itemgetter(0)
-    low, mask = 0 if point.bits is None else point.bits[1], mask_of(width)
-    return lambda words: number_of(joined(words) >> low & mask, width, signed=signed)
+        return lambda words: joined(own(words) if several else (words[first],))
+    width, signed, low = point.width, point.info.signed, 0 if point.bits is None else point.bits[1]
+    if several:
+        mask = mask_of(width)
+        return lambda words: number_of(joined(own(words)) >> low & mask, width, signed=signed)
+    if width == 16 and not signed:
+        return own
+    mask, sign = mask_of(width), 1 << (width - 1) if signed else 0
+    return lambda words: ((words[first] >> low & mask) ^ sign) - sign
 
 
 def words_of(point: Point, raw: int) -> tuple[int, ...]:

@@ -1,11 +1,15 @@
 """Holding a description against the text of its manual: what it cites must stand where it says.
 
 manual.py      the text: its lines, sections, table rows, and the numbers in them
-claims.py      what a description takes from the manual: facts of points (claims_of_points.py) and all others
-               (claims_of_bus.py), each with the lines that it cites (citing.py)
+claims.py      what a description takes from the manual: facts of points (claims_of_points.py), of flags
+               (claims_of_flags.py) and others (claims_of_bus.py), each with the lines that it cites (citing.py)
 printed_errata.py  what errata say that the manual prints
 placement.py   where cited lines stand in a new edition of the manual
-comparison.py  the claims and errata held against the text
+places.py      the places that are cited, as they stand in the text
+errata.py      whether the manual prints what errata say, and what the description took against it
+facts.py       whether facts stand in their places: numbers (passage.py), labels (labels.py)
+columns.py     what nearly all rows print in one column, siblings.py what places print equally often
+comparison.py  all of it, and what is left over
 outcome.py     the findings, as plain data
 report.py      the findings for people, as lines of text or a page
 """

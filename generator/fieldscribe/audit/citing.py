@@ -51,8 +51,12 @@ class Claim:
     """Whether the manual may lack it; where it is printed, its numbers count as used."""
     in_order: tuple[frozenset[Fraction], ...] = ()
     """Numbers that are printed one after the other, such as both ends of a range."""
+    tight: bool = False
+    """Whether nothing but signs may stand between them."""
     or_in_order: tuple[frozenset[Fraction], ...] = ()
-    """The same numbers in the unit, if they may be printed so."""
+    """The same numbers in the unit or the other way round, if they may be printed so."""
+    apart: bool = False
+    """Whether they may also stand each somewhere: the manual has words or codes between them."""
     beside: frozenset[Fraction] = frozenset()
     """The numbers of which one is printed beside `words`."""
     or_beside: frozenset[Fraction] = frozenset()
@@ -69,8 +73,19 @@ class Claim:
     """Whether the number names its row: it stands in the first cell."""
     row: frozenset[Fraction] = frozenset()
     """The number of the bit: where one row of a table opens with it, the fact stands in that row."""
+    alike: str = ""
+    """What a place prints alike for all facts of the subject, or for none: an optional fact is expected there."""
+    opens: bool = False
+    """Whether the number stands alone in the first cell of its row."""
+    behind: tuple[frozenset[Fraction], ...] = ()
+    """Numbers that are printed right before it, in their order, if they are printed so at all."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
+
+    @property
+    def ways(self) -> tuple[tuple[frozenset[Fraction], ...], ...]:
+        """In which orders its numbers may stand."""
+        return (self.in_order, self.or_in_order) if self.or_in_order else (self.in_order,)
 
     @property
     def where(self) -> str:
@@ -114,6 +129,9 @@ class Citing:
         names: tuple[str, ...] = (),
         first: bool = False,
         row: frozenset[Fraction] = frozenset(),
+        alike: str = "",
+        opens: bool = False,
+        behind: tuple[frozenset[Fraction], ...] = (),
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -139,12 +157,25 @@ class Citing:
                 first=first,
                 row=row,
                 unit=unit,
+                alike=alike,
+                opens=opens,
+                behind=behind,
             )
 
-    def in_order(
-        self, fact: str, shown: str, ways: Sequence[Sequence[Fraction]], kind: str = "", *, place: Span
+    def in_order(  # noqa: PLR0913 - one line of a table of facts
+        self,
+        fact: str,
+        shown: str,
+        ways: Sequence[Sequence[Fraction]],
+        kind: str = "",
+        *,
+        apart: bool = False,
+        tight: bool = False,
+        optional: bool = False,
+        alike: str = "",
+        place: Span,
     ) -> Iterator[Claim]:
-        """Numbers that are printed one after the other, in one of two ways: raw, or in the unit."""
+        """Numbers that are printed one after the other, in one of two ways, or also `apart`."""
         cited = self.lines_of_fact.get(kind or fact, self.own_line)
         wanted = [tuple(frozenset((abs(number),)) for number in way) for way in ways]
         if cited and wanted[0]:
@@ -161,6 +192,10 @@ class Citing:
                 about=self.about,
                 in_order=in_order,
                 or_in_order=others[0] if others else (),
+                apart=apart,
+                tight=tight,
+                optional=optional,
+                alike=alike,
             )
 
     def label(  # noqa: PLR0913 - one line of a table of facts

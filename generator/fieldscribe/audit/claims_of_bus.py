@@ -32,6 +32,10 @@ def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim
         for byte in range(first + 1, max(last, default=first)):
             at = layout.key_span(place)
             yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True, place=at)
+    run = [Fraction(byte) for byte in range(max(map(int, numbers_in(list(layout))), default=-1) + 1)]
+    if run:
+        shown = f"bytes 0 to {len(run) - 1}"
+        yield from citing.in_order("layout", shown, [run], "bytes", optional=True, place=layout.span())
     yield from citing.label("title", wordings.label(entry.get("title")), place=entry.span("title"))
 
 

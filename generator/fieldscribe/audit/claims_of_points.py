@@ -7,6 +7,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.audit.citing import OWN_PRINTED, Citing, numbers_in
+from fieldscribe.audit.claims_of_flags import claims_of_flags
+from fieldscribe.audit.wordings import joined
 from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
@@ -14,12 +16,12 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.wordings import Wordings
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Flag, Point
+    from fieldscribe.model import Point
     from fieldscribe.resolve.drafts import Draft
 
 _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
+_NUMBERS = re.compile(r"\b0x[0-9A-Fa-f]+\b|\b[0-9][0-9A-Fa-f]*h\b")
 _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 """The keys of `printed` whose place `lines` names by another key."""
 
@@ -37,7 +39,9 @@ def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordin
     yield from _access(citing, draft, wordings)
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums, wordings)
-    yield from _flags(citing, point, draft, wordings)
+    yield from _special_codes(citing, draft, wordings)
+    yield from _default(citing, point, draft)
+    yield from claims_of_flags(citing, point, draft, wordings)
     yield from _printed(citing, draft, wordings)
 
 
@@ -90,14 +94,9 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
             f"{min(place.addresses):04X}h",
             (Fraction(min(place.addresses)), *references, *rule),
             anchor=place is point.place,
-            words=tuple(word for name, number in place.references.items() for word in _joined(name, number)),
+            words=tuple(word for name, number in place.references.items() for word in joined(name, number)),
             place=draft.span("at"),
         )
-
-
-def _joined(numbering: str, number: object) -> tuple[str, ...]:
-    """How a manual writes a number that is part of a name: `PZD2`, `Bit13`."""
-    return tuple(f"{name}{number}" for name in (numbering, numbering.capitalize(), numbering.upper()))
 
 
 def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
@@ -106,7 +105,11 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
             for shown, numbers in _runs_of(draft.get(key)):
                 ways = _in_both_units(point, numbers, in_units=key == "range_in_units")
-                yield from citing.in_order("range", shown, ways, place=draft.span(key))
+                if _prints_units(draft):  # which is another claim
+                    del ways[1:]
+                yield from citing.in_order(
+                    "range", shown, ways, apart=_is_parted(draft.get(key)), place=draft.span(key)
+                )
     yield from _bits_of(citing, point, draft, wordings)
     if point.text is not None and _says_itself(draft, "characters"):
         characters = point.text.characters
@@ -116,6 +119,12 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
     if _says_itself(draft, "scale"):
         for number in _scale_numbers(draft.get("scale")):
             yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
+
+
+def _prints_units(draft: Draft) -> bool:
+    """Whether the description says that the limits are printed in the unit, too."""
+    printed = draft.get("printed")
+    return isinstance(printed, Map) and "range_in_units" in printed and draft.layer("range") is not None
 
 
 def _in_both_units(point: Point, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
@@ -150,11 +159,16 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
                 names=names,
                 place=draft.span("bits"),
             )
+        if point.bits[0] - point.bits[1] > 1:
+            run = [Fraction(place) for place in range(point.bits[0], point.bits[1] - 1, -1)]
+            shown = f"{point.bits[0]} to {point.bits[1]}"
+            yield from citing.in_order("bits", shown, [run], optional=True, place=draft.span("bits"))
     fixed: Any = draft.get("fixed") if _says_itself(draft, "fixed") else None
     for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
         place_of_bits = fixed.key_span(bits)
-        for bit in numbers_in(bits):
-            numbers = (bit, Fraction(1 << int(bit)))
+        ends = numbers_in(bits)
+        for bit in ends:
+            numbers = (bit, Fraction(1 << int(bit))) if len(ends) == 1 else (bit,)
             yield from citing.numbers("fixed bits", str(bit), numbers, "bits", place=place_of_bits)
         for number in numbers_in(constant):
             yield from citing.numbers(
@@ -163,8 +177,14 @@ def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
                 (number,),
                 "bits",
                 words=tuple(wordings.number(number)),
+                behind=tuple(frozenset((bit,)) for bit in numbers_in(bits)),
                 place=place_of_bits,
             )
+
+
+def _is_parted(raw: Any) -> bool:
+    """Whether codes, factors or other intervals stand between the numbers of a range."""
+    return any(char.isalpha() or char in "*|" for char in _NUMBERS.sub("", str(raw)))
 
 
 def _runs_of(raw: Any) -> Iterator[tuple[str, list[Fraction]]]:
@@ -186,6 +206,9 @@ def _enum_of(
         return
     said = said["enum"] if point.digits else said
     entries: Map = enums[said] if isinstance(said, str) else said
+    numbers = [numbers_in(number)[0] for number in entries]
+    shown = ", ".join(map(str, numbers))
+    yield from citing.in_order("enum", shown, [numbers], optional=True, place=draft.span(key))
     for position, (number, entry) in enumerate(entries.items()):
         if isinstance(entry, Map) and "line" in entry and entries is not said:
             continue
@@ -200,101 +223,21 @@ def _enum_of(
             yield from citing.numbers("enum", str(number), numbers, place=place)
 
 
-def _flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
-    above = point.bits[1] if point.bits else 0
-    always = point.fixed.bits if point.fixed is not None else 0
-    alike = "values" in citing.lines_of_fact  # printed once for all flags
-    kind = "values" if alike else "flags"
-    for position, flag in enumerate(point.flags):
-        place, node = _node_of_flag(draft, flag)
-        label = wordings.label(node.get("title")) if isinstance(node, Map) else ()
-        values = [_label_of_value(node, entry.raw, wordings) for entry in flag.values]
-        by_value = any(values)  # the labels of the values stand beside numbers, the title is one of them or none
-        printed = node.get("printed", {}) if isinstance(node, Map) else {}
-        named = wordings.bits(flag.low + flag.width - 1, flag.low)
-        beside: list[Fraction] = []
-        for bit in dict.fromkeys((flag.low + flag.width - 1, flag.low)):
-            numbers = (
-                Fraction(bit + above),
-                Fraction(1 << bit),
-                Fraction(1 << bit + above),
-                Fraction(1 << bit | always),
-            )
-            beside += numbers_in(printed["bit"]) if "bit" in printed else numbers
-            run = _ends_of_run(point, bit)
-            between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
-            words = (*named, *_joined("bit", bit + above))
-            if not label or named or (by_value and not alike):
-                in_list = (position, -1) if by_value and not named and bit == flag.low else None
-                yield from citing.numbers(
-                    "flag values" if in_list else "flags",
-                    f"bit {bit + above}",
-                    numbers,
-                    "flags",
-                    between=between,
-                    words=() if in_list else words,
-                    entry=in_list,
-                    place=place,
-                )
-        at_bit = () if named or (by_value and not alike) else beside
-        if not any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values):
-            yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
-        if label and flag.width > 1 and not named:
-            high, low = Fraction(flag.low + flag.width - 1 + above), Fraction(flag.low + above)
-            yield from citing.in_order("flags", f"bits {high} and {low}", [(high, low)], place=place)
-        for key in ("mask", "active"):
-            for number in numbers_in(printed.get(key)):
-                in_list = (position, 1) if at_bit and key == "mask" else None
-                yield from citing.numbers(
-                    "flags" if in_list else f"printed {key}",
-                    f"{key} {number}",
-                    (number,),
-                    "flags",
-                    entry=in_list,
-                    place=place,
-                )
-        for part, (entry, words) in enumerate(zip(flag.values, values, strict=True)):
-            at = (0 if alike else position, part)
-            bits = () if alike else beside
-            number = Fraction(entry.raw)
-            yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
-            row = frozenset((Fraction(flag.low + above),)) if flag.width == 1 else frozenset()
-            if row or not words:
-                shown, optional = f"{flag.name} {entry.raw}", bool(words)
-                yield from citing.numbers(
-                    "flag values", shown, (number,), "flags", optional=optional, row=row, place=place
-                )
+def _special_codes(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """The raw numbers that are no quantity, each with its name."""
+    codes: Any = draft.get("special") if _says_itself(draft, "special") else None
+    for position, (number, entry) in enumerate(codes.items() if isinstance(codes, Map) else ()):
+        label = wordings.label(entry) if isinstance(entry, Map) else ()
+        place, numbers = codes.key_span(number), numbers_in(number)
+        yield from citing.label("special", label, beside=numbers, entry=(position, 0), place=place)
 
 
-def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
-    if not isinstance(node, Map):
-        return ()
-    values = {int(number): entry for key, entry in node.get("values", {}).items() for number in numbers_in(key)}
-    values |= {number: node[key] for number, key in enumerate(("zero", "one")) if key in node}
-    entry = values.get(raw)
-    titles = entry.get("title", entry) if isinstance(entry, Map) else None
-    return wordings.label(titles) if isinstance(titles, Map) else ()
-
-
-def _node_of_flag(draft: Draft, flag: Flag) -> tuple[Span, Any]:
-    """Where the description names the bits of a flag, and what it says of them."""
-    flags = draft.get("flags")
-    if isinstance(flags, Map):
-        ends = {flag.low, flag.low + flag.width - 1}
-        key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
-        return (flags.span(), None) if key is None else (flags.key_span(key), flags[key])
-    return draft.span("flags"), None
-
-
-def _ends_of_run(point: Point, bit: int) -> tuple[int, int]:
-    """The ends of the run of named bits around a bit."""
-    named = {place for flag in point.flags for place in range(flag.low, flag.low + flag.width)}
-    low = high = bit
-    while low - 1 in named:
-        low -= 1
-    while high + 1 in named:
-        high += 1
-    return low, high
+def _default(citing: Citing, point: Point, draft: Draft) -> Iterator[Claim]:
+    """The factory setting, where `lines` says that the manual prints it."""
+    if "default" in citing.lines_of_fact and point.default_raw is not None:
+        numbers = [Fraction(point.default_raw), *([] if point.default is None else [point.default])]
+        span = draft.span("default" if draft.layer("default") is not None else "default_in_units")
+        yield from citing.numbers("default", str(draft.get("default")), numbers, place=span)
 
 
 def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
@@ -304,18 +247,19 @@ def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim
         place = printed.span(key)
         if key in ("range", "range_in_units"):
             for shown, numbers in _runs_of(value):
-                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, place=place)
+                apart = _is_parted(value)
+                yield from citing.in_order(f"printed {key}", shown, [numbers], kind, apart=apart, place=place)
             continue
         if key == "pairs":
             for raw, number in value.items():
                 pair = [*numbers_in(raw), *numbers_in(number)]
-                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair], kind, place=place)
+                yield from citing.in_order("printed pairs", f"{raw} = {number}", [pair, pair[::-1]], kind, place=place)
             continue
         unit = "".join(re.findall("[^0-9., ]+", str(value))) if key == "resolution" else ""
         numbers = numbers_in(value)
         names = (*(key, key.capitalize(), key.upper()), *wordings.code(key)) if kind == "address" else ()
         for number in dict.fromkeys(numbers):
-            words = _joined(key, number) if kind == "address" else ()
+            words = joined(key, number) if kind == "address" else ()
             unsaid = key == "resolution" and number == 1  # "resolution: A" means one ampere: no 1 is printed
             yield from citing.numbers(
                 f"printed {key}",

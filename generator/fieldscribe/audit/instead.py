@@ -26,9 +26,11 @@ def instead(claim: Claim, passages: Sequence[Passage], unused: Sequence[Unused])
         return next((words for words in beside if words), None)
     if claim.fact == "code":
         return next((code for passage in passages for code in _codes_like(claim, passage.text)), None)
-    if not unused or not claim.numbers:
+    said = set(re.split(r"\.\.|[^\w.,]+", claim.shown))
+    others = [number for number in unused if number.number not in said]  # its own numbers stand in no other's place
+    if not others or not claim.numbers:
         return None
-    return min(unused, key=lambda number: (-_likeness(claim.shown, number.number), number.line, number.column)).number
+    return min(others, key=lambda number: (-_likeness(claim.shown, number.number), number.line, number.column)).number
 
 
 def _codes_like(claim: Claim, text: str) -> list[str]:

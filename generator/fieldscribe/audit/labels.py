@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import Counter
-from itertools import product
+from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
@@ -38,6 +38,8 @@ class Standing:
 
 def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     """As many labels as stand beside their numbers, all on the same side of them, in one order and one column."""
+    if len(claims) == 1 and not claims[0].beside and claims[0].words:
+        return list(islice(_candidates(claims[0], passage, False, False, False), 1))
     anywhere = _standing(claims, passage)
     columns = {with_words: _column(anywhere, passage, with_words=with_words) for with_words in (False, True)}
     strays = {label.claim for label in anywhere if _strays(label, passage, columns)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.records import dataclass
@@ -73,6 +73,7 @@ class Manual:
 
     def __init__(self, text: str, names: Sequence[str] = ()) -> None:
         self.lines = text.splitlines()
+        self._heads: dict[int, str] = {}
         self._names = re.compile("|".join(map(_name, names))) if names else None
 
     def __len__(self) -> int:
@@ -112,10 +113,15 @@ class Manual:
     @cached_property
     def tokens(self) -> list[list[Token]]:
         """The numbers of each line."""
-        return [self.tokens_in(text, number) for number, text in enumerate(self.lines, 1)]
+        return [self._tokens_in(text, number, 0) for number, text in enumerate(self.lines, 1)]
 
     def tokens_in(self, text: str, number: int, column: int = 0) -> list[Token]:
         """The numbers in a piece of a line that begins behind a column, but for those in names."""
+        if column == 0 and 1 <= number <= len(self.lines) and text == self.lines[number - 1]:
+            return self.tokens[number - 1]
+        return self._tokens_in(text, number, column)
+
+    def _tokens_in(self, text: str, number: int, column: int) -> list[Token]:
         names = [match.span() for match in self._names.finditer(text)] if self._names else []
         tokens = tokens_of(text, number, column)
         if not names:
@@ -168,6 +174,23 @@ class Manual:
             place for other, place in self.numbered.items() if place > start and not other.startswith(f"{number}.")
         )
         return min(following, default=len(self.lines) + 1) - 1
+
+    def column(self, number: int, place: int) -> int | None:
+        """The column of a table in which a place of a line lies (from 0); None outside of tables."""
+        text = self.line(number)
+        gap = "|" if text.startswith("|") else "\t"
+        return text.count(gap, 0, place) if gap in text else None
+
+    def head(self, number: int) -> str:
+        """The letters of a table's first row, for any of its rows."""
+        if number not in self._heads:
+            gap = "|" if self.line(number).startswith("|") else "\t"
+            first = number
+            while gap in self.line(first - 1) and first - 1 not in self._heads:
+                first -= 1
+            head = self._heads.get(first - 1) if gap in self.line(first - 1) else self.line(first)
+            self._heads |= dict.fromkeys(range(first, number + 1), "".join(filter(str.isalnum, head or "")))
+        return self._heads[number]
 
     def is_merged(self, number: int) -> bool:
         """Whether the first cell of a table's row is empty: merged with the one above it."""
@@ -230,7 +253,7 @@ def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
             for part in re.finditer("[0-9]+", match[0]):
                 tokens += tokens_of(part[0], number, column + match.start() + part.start())
         elif match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start()):
-            tokens.append(Token(match[0], number, column + match.start() + 1, frozenset(_readings(match))))
+            tokens.append(Token(match[0], number, column + match.start() + 1, _readings_of(match[0])))
     return tokens
 
 
@@ -243,6 +266,13 @@ def _name(name: str) -> str:
 def _chapter(text: str) -> tuple[str, str] | None:
     match = _CHAPTER.fullmatch(text)
     return None if match is None else (match[1], match[2])
+
+
+@lru_cache(10_000)
+def _readings_of(number: str) -> frozenset[Fraction]:
+    """All that a number can mean: the same few are printed again and again."""
+    match = _NUMBER.fullmatch(number)
+    return frozenset(_readings(match) if match else ())
 
 
 def _readings(match: re.Match[str]) -> set[Fraction]:

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 
+_LISTED = 4
+"""So many numbers make a list that is known though another one stands in place of one of them."""
+
 
 def letters_of(text: str) -> str:
     """Letters and digits alone, in small letters: blanks, hyphens and line breaks are layout."""
@@ -40,6 +43,11 @@ class Passage:
             texts.append(text)
             length += len(text) + 1
         self.text = "\n".join(texts)
+
+    @cached_property
+    def folded(self) -> str:
+        """The text in small letters."""
+        return self.text.casefold()
 
     @cached_property
     def _letters(self) -> tuple[str, list[int]]:
@@ -79,9 +87,7 @@ class Passage:
         start = 0
         for line, column, text in self.pieces:
             if place <= start + len(text):
-                whole = self.manual.line(line)
-                gap = "|" if whole.startswith("|") else "\t"
-                return whole.count(gap, 0, column + place - start) if gap in whole else None
+                return self.manual.column(line, column + place - start)
             start += len(text) + 1
         return None
 
@@ -94,6 +100,11 @@ class Passage:
         for token in self.in_first_cell:
             alone[token.line] = None if token.line in alone else token
         return alone
+
+    @property
+    def opening_rows(self) -> list[Token]:
+        """The numbers that stand alone in the first cell of a row."""
+        return [token for token in self._openings.values() if token is not None]
 
     def behind(self, opening: frozenset[Fraction]) -> list[Token]:
         """The numbers in the row that such a number alone opens; none if not exactly one row begins so."""
@@ -139,6 +150,24 @@ class Passage:
         """The numbers that stand in a part of the text."""
         return self.tokens[bisect_left(self.starts, first) : bisect_left(self.starts, end)]
 
+    def start_of(self, token: Token) -> int:
+        """Where a number begins in the text."""
+        return self.starts[self.tokens.index(token)]
+
+    def end_of(self, token: Token) -> int:
+        """The place behind a number in the text."""
+        return self.ends[self.tokens.index(token)]
+
+    def has_signs_alone(self, first: Token, last: Token) -> bool:
+        """Whether no letters stand between two numbers."""
+        return not any(map(str.isalpha, self.text[self.end_of(first) : self.start_of(last)]))
+
+    def follows_as_entry(self, token: Token, end: int) -> bool:
+        """Whether a number follows in the same cell as a place, with signs and a word behind it."""
+        between = self.text[end : self.start_of(token)]
+        in_cell = not any(char.isalpha() or char in "|\t\n" for char in between)
+        return in_cell and re.match(r"[\s.=:-]*[^\W\d]", self.text[self.end_of(token) :]) is not None
+
     def before(self, place: int) -> Token | None:
         """The last number that ends before a place."""
         at = bisect_right(self.ends, place)
@@ -178,8 +207,16 @@ class Passage:
 
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""
-        at = next(end for other, end in zip(self.tokens, self.ends, strict=True) if other is token)
+        at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
+
+    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[Token]:
+        """Each number that stands in place of one of a list, which are enough to be known without it."""
+        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
+            run = self.tokens[at : at + len(numbers)]
+            others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]
+            if len(others) == 1:
+                yield others[0]
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
         """Each run of numbers that follow each other as these do, with no other number between them."""

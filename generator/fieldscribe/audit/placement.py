@@ -37,8 +37,8 @@ _LONGEST = 40
 """A place ends after at most so many lines, where the next cited line is farther away."""
 _MERGED = 10
 """The text of a merged cell stands at most so many rows above."""
-_HOPELESS = 120.0
-"""A sequence of shifts that costs so much more than the best is given up."""
+_HOPELESS = 3 * _CHANGE
+"""A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
 _COMMON, _NEAREST = 12, 3
 """How many of the most frequent shifts are tried for every line, and how many of its own for each anchor."""
 
@@ -134,6 +134,7 @@ class _Search:
     def cheapest(self, states: list[dict[int, None]]) -> list[int]:
         """One shift for each cited line, of those that are tried for it."""
         costs: dict[int, float] = {0: 0.0}
+        worst = self.cost_of_staying
         steps: list[dict[int, int]] = []
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
@@ -144,8 +145,8 @@ class _Search:
                 stays = costs.get(shift)
                 step[shift] = shift if stays is not None and stays <= changed else best
                 now[shift] = (changed if step[shift] != shift else costs[shift]) + self._cost(index, shift)
-            least = min(now.values())
-            costs = {shift: cost for shift, cost in now.items() if cost <= least + _HOPELESS}
+            bound = min(worst, min(now.values()) + _HOPELESS)
+            costs = {shift: cost for shift, cost in now.items() if cost <= bound}
             steps.append(step)
         shift = min(costs, key=lambda shift: (costs[shift], abs(shift), shift), default=0)
         result = []

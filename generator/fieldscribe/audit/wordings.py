@@ -44,3 +44,8 @@ class Wordings:
         if text is None or not any(map(str.isalpha, str(text))):
             return ()
         return tuple(self._words.get(str(text), (str(text),)))
+
+
+def joined(numbering: str, number: object) -> tuple[str, ...]:
+    """How a manual writes a number that is part of a name: `PZD2`, `Bit13`."""
+    return tuple(f"{name}{number}" for name in (numbering, numbering.capitalize(), numbering.upper()))

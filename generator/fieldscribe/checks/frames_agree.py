@@ -137,9 +137,9 @@ def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: by
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
-    """The raw number of a point from its words, the high part first; None if a word is missing."""
+    """The raw number of a point from its words, the high part first; None if a word is missing, or all are."""
     known = [word for word in words if word is not None]
-    return raw_of(point, known) if len(known) == len(words) else None
+    return raw_of(point, known) if known and len(known) == len(words) else None
 
 
 def hex_of(data: bytes) -> str:

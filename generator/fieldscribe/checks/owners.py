@@ -35,6 +35,7 @@ class _EnumFound(NamedTuple):
     """An enum with the place where it is written: under `enums`, or in its point."""
 
     name: str
+    was: tuple[str, ...]
     thing: Thing
     entries: Map
 
@@ -47,7 +48,8 @@ def given_names(subject: Subject) -> Iterator[tuple[str, str, Callable[[], Thing
     for resolved in subject.resolved:
         yield from _names_of_point(subject, resolved)
     for enum in _enums(subject):
-        yield "the enums of generated code", enum.name, partial(Thing, *enum.thing)
+        for name in (enum.name, *enum.was):
+            yield "the enums of generated code", name, partial(Thing, *enum.thing)
 
 
 def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
@@ -98,7 +100,7 @@ def _enums(subject: Subject) -> Iterator[_EnumFound]:
         if isinstance(enum_as_written, str):
             section = next(file["enums"] for file in subject.scope.files if enum_as_written in file.get("enums", {}))
             thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
-        yield _EnumFound(enum.name, thing, entries)
+        yield _EnumFound(enum.name, enum.was, thing, entries)
 
 
 class Owners:

@@ -51,6 +51,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
     )
+    for key in ("file", "edition"):
+        parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: what `{key}` of the document says then")
     parser.add_argument(
         "--all", action="store_true", help="in text, list everything: also what nothing cites or what is explained"
     )
@@ -63,6 +65,8 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli.common import StopError, print_json
     from fieldscribe.cli.terminal import print_lines
 
+    if not arguments.accept and (arguments.file is not None or arguments.edition is not None):
+        raise StopError("--file and --edition say what --accept records", "give them with --accept")
     if arguments.old is not None:
         from fieldscribe.cli.audit_editions import run as run_editions
 

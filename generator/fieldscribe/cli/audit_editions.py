@@ -21,12 +21,14 @@ def run(arguments: Namespace) -> int:
         raise StopError("the report of two editions has no HTML form", "use --report text or json")
     outcome, citations, subject, document = _compared(arguments)
     written: list[str] = []
-    if arguments.renumber:
+    refused = _refusal(arguments, outcome, subject, document) if arguments.accept else None
+    if arguments.renumber and refused is None:
         written.append(_renumber(subject, document, citations))
         outcome, citations, subject, document = _compared(arguments)
-    refused = _refusal(outcome, citations, subject, document) if arguments.accept else None
     if arguments.accept and refused is None:
-        written.append(_accept(subject, document, _sha256(arguments)))
+        refused = _left(citations, subject, document)
+    if arguments.accept and refused is None:
+        written += [_accept(arguments, subject, document), *_not_clean(arguments, subject)]
     _report(arguments, outcome, written, refused)
     return FINE if outcome.explained and refused is None else FINDINGS
 
@@ -39,7 +41,24 @@ def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Doc
     path, document = manual_of(subject, arguments.manual)
     old_path, _ = manual_of(subject, arguments.old)
     old, new = (_edition(*text_of(place), document) for place in (old_path, path))
-    return *compare(subject, old, new), subject, document
+    return *compare(subject, old, new, _glossary(subject)), subject, document
+
+
+def _glossary(subject: Subject) -> dict[str, str]:
+    """English by the manual's words: the glossary beside the description's folder, or else the shipped one."""
+    from pathlib import Path
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.language.load import load
+    from fieldscribe.language.source import read_source
+    from fieldscribe.resources import descriptions_dir
+
+    own = Path(subject.scope.header.file.name).resolve().parent.parent / "glossary.yaml"
+    source = read_source(own if own.is_file() else descriptions_dir() / "glossary.yaml", Report())
+    file = next(iter(load(source, Report())), None) if source is not None else None
+    terms = file.get("terms") if file is not None else None
+    said = {word: [texts] if isinstance(texts, str) else texts for word, texts in (terms or {}).items()}
+    return {word.casefold(): str(texts[0])[:1].upper() + str(texts[0])[1:] for word, texts in said.items() if texts}
 
 
 def _edition(name: str, text: str, digest: str, document: Document) -> Edition:
@@ -48,10 +67,11 @@ def _edition(name: str, text: str, digest: str, document: Document) -> Edition:
     return Edition(name, text, None if document.sha256 is None else digest == document.sha256)
 
 
-def _sha256(arguments: Namespace) -> str:
-    from fieldscribe.cli.audit import manual_of, opened, text_of
+def _name_and_digest(arguments: Namespace, subject: Subject) -> tuple[str, str]:
+    from fieldscribe.cli.audit import manual_of, text_of
 
-    return text_of(manual_of(opened(arguments), arguments.manual)[0])[2]
+    name, _, digest = text_of(manual_of(subject, arguments.manual)[0])
+    return name, digest
 
 
 def _renumber(subject: Subject, document: Document, citations: Citations) -> str:
@@ -71,35 +91,70 @@ def _renumber(subject: Subject, document: Document, citations: Citations) -> str
     return f"renumbered: {_counted(result.count, 'line')} in {_counted(len(result.texts), 'file')}{by_hand}"
 
 
-def _refusal(outcome: Comparison, citations: Citations, subject: Subject, document: Document) -> str | None:
-    """Why the new edition cannot be accepted; None if it can."""
-    from fieldscribe.audit.editions import renumber
+def _refusal(arguments: Namespace, outcome: Comparison, subject: Subject, document: Document) -> str | None:
+    """Why the new edition cannot be accepted, known before anything is written; None if it can."""
+    from fieldscribe.audit.editions.accepting import unrecordable
 
     if not outcome.explained:
         return "not everything in the new edition is explained"
+    said = subject.scope.header["documents"][document.id]
+    given = _given(arguments)
+    return "; ".join(unrecordable(document.id, said, given, *_name_and_digest(arguments, subject))) or None
+
+
+def _left(citations: Citations, subject: Subject, document: Document) -> str | None:
+    """Whether lines still count the old edition."""
+    from fieldscribe.audit.editions import renumber
+
     left = renumber(subject.scope.files, document.id, citations)
     if left.count or left.hindrances:
         return f"{_counted(left.count, 'cited line')} count the old edition: --renumber comes first"
-    if document.sha256 is None:
-        return f"documents.{document.id} records no text: add `sha256: <checksum>` there"
     return None
 
 
-def _accept(subject: Subject, document: Document, digest: str) -> str:
-    """Record the digest of the new edition; what was done. Raises StopError."""
+def _given(arguments: Namespace) -> dict[str, str]:
+    """What shall be recorded beside the checksum. Raises StopError."""
+    from fieldscribe.audit.editions.accepting import LONGEST
+    from fieldscribe.cli.common import StopError
+
+    given = {key: str(value) for key in LONGEST if (value := getattr(arguments, key)) is not None}
+    for key, value in given.items():
+        if not value.strip() or not value.isprintable() or len(value) > LONGEST[key]:
+            raise StopError(f"--{key}: give a text of 1 to {LONGEST[key]} printable characters")
+    if "/" in given.get("file", "") or "\\" in given.get("file", ""):
+        raise StopError("--file: give the name alone, without folders", "nothing was changed")
+    return given
+
+
+def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
+    """Record the new edition; what was done. Raises StopError."""
+    from fieldscribe.audit.editions.accepting import with_recorded
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError
     from fieldscribe.cli.rewriting import rewrite
 
-    source = subject.scope.header.file
     said = subject.scope.header["documents"][document.id]
-    at = source.offset(said.span("sha256").at)
-    old = str(said["sha256"])
-    start = source.text.index(old, at)
-    rewrite({source.name: (source.text, source.text[:start] + digest + source.text[start + len(old) :])})
-    return f"accepted: {source.name}:{said.span('sha256').line} records the new edition"
+    _, digest = _name_and_digest(arguments, subject)
+    text = with_recorded(said, {"sha256": digest, **_given(arguments)})
+    if text is None:
+        raise StopError(f"not accepted: documents.{document.id} has an alias: write it out", code=FINDINGS)
+    rewrite({said.file.name: (said.file.text, text)})
+    return f"accepted: {said.file.name}:{said.span('sha256').line} records the new edition"
+
+
+def _not_clean(arguments: Namespace, subject: Subject) -> list[str]:
+    """Whether the new text alone has more to look at: what a removed erratum said, say, though its line is the same."""
+    from fieldscribe.audit import audit
+    from fieldscribe.cli.audit import manual_of, text_of
+
+    name, text, _ = text_of(manual_of(subject, arguments.manual)[0])
+    if audit(subject, str(subject.scope.header["device"]), name, text, same_text=True).clean:
+        return []
+    return [f"the audit without --old has findings: fieldscribe audit {arguments.device} --manual {arguments.manual}"]
 
 
 def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
-    from fieldscribe.audit.editions.report import as_lines, figures
+    from fieldscribe.audit.editions.report import as_lines, figures, stale_notes
     from fieldscribe.cli.common import print_json
     from fieldscribe.cli.terminal import print_lines
     from fieldscribe.report import visible
@@ -108,6 +163,8 @@ def _report(arguments: Namespace, outcome: Comparison, written: list[str], refus
         print_json({**outcome.as_data(), "written": written, "refused": refused})
         return
     taken_over = written and refused is None and outcome.explained
+    if taken_over:
+        print_lines(stale_notes(outcome))
     print_lines(figures(outcome) if taken_over else as_lines(outcome, everything=arguments.all))
     print_lines([[("", visible(line))] for note in written for line in note.splitlines()])
     if refused is not None:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from fieldscribe.reading import Inputs
     from fieldscribe.report import ReadLines
 
-LOCAL = Path("descriptions")
-"""Where descriptions are looked for first."""
+HERE, LOCAL = Path(), Path("descriptions")
+"""Where the device of an id is looked for first: what is beside the user is never passed over for what is shipped."""
 
 
 class StopError(Exception):
@@ -97,7 +97,7 @@ def add_descriptions(parser: ArgumentParser) -> None:
         "--descriptions",
         type=Path,
         metavar="DIR",
-        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
+        help=f"where ids are looked for (default: this folder, {LOCAL}, then what comes with fieldscribe)",
     )
 
 
@@ -117,7 +117,7 @@ def description_paths(paths: list[Path]) -> list[Path]:
     from fieldscribe.resources import descriptions_dir
 
     if paths:
-        return [path if path.exists() else _known_folder(path) for path in paths]
+        return list(map(_meant_folder, paths))
     if Path(DEVICE_FILE).is_file():
         return [Path(DEVICE_FILE)]
     if LOCAL.is_dir():
@@ -126,16 +126,31 @@ def description_paths(paths: list[Path]) -> list[Path]:
     return [descriptions_dir()]
 
 
-def _known_folder(name: Path) -> Path:
-    """The folder of a device id, in ./descriptions or among the shipped descriptions."""
-    from fieldscribe.pipeline import DEVICE_FILE
+def _meant_folder(path: Path) -> Path:
+    """A path, or the folder of a device id: one that is here without a description hides no device."""
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.pipeline import DEVICE_FILE, find_devices
+
+    if path.exists() and (not _is_id(str(path)) or find_devices([path], Report())):
+        return path
+    known = known_devices(roots())
+    if str(path) in known:
+        return known[str(path)].parent
+    if path.exists():
+        return path
+    hint = _near(str(path), list(known)) or f"name a folder with {DEVICE_FILE}, or a device: {', '.join(known)}"
+    raise StopError(f"there is no such file or folder, and no device, as `{path}`", hint)
+
+
+def _is_id(asked: str) -> bool:
+    return asked.replace("_", "").isalnum()
+
+
+def roots() -> list[Path]:
+    """Where the devices of ids are looked for, the first one that has it wins."""
     from fieldscribe.resources import descriptions_dir
 
-    known = {named: file.parent for named, file in known_devices((LOCAL, descriptions_dir())).items()}
-    if str(name) not in known:
-        hint = _near(str(name), sorted(known)) or f"name a folder with {DEVICE_FILE}, or a device: {', '.join(known)}"
-        raise StopError(f"there is no such file or folder, and no device, as `{name}`", hint)
-    return known[str(name)]
+    return [HERE, LOCAL, descriptions_dir()]
 
 
 def known_devices(roots: Iterable[Path]) -> dict[str, Path]:
@@ -151,7 +166,7 @@ def known_devices(roots: Iterable[Path]) -> dict[str, Path]:
 
 def devices_asked(arguments: Namespace) -> dict[str, Path]:
     """The devices that are known without being named, by their id. Raises StopError."""
-    return known_devices(_roots(arguments))
+    return known_devices(_roots_asked(arguments))
 
 
 def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
@@ -204,15 +219,15 @@ def device_file(arguments: Namespace) -> Path:
     from fieldscribe.pipeline import DEVICE_FILE, find_devices
 
     asked: str = arguments.device
-    roots = _roots(arguments)
-    if asked.replace("_", "").isalnum():
-        for root in roots:
+    asked_roots = _roots_asked(arguments)
+    if _is_id(asked):
+        for root in asked_roots:
             if (root / asked / DEVICE_FILE).is_file():
                 return root / asked / DEVICE_FILE
     path = Path(asked)
     if not path.exists():
-        known = list(known_devices(roots))
-        where = " and ".join(dict.fromkeys(map(str, roots)))
+        known = list(known_devices(asked_roots))
+        where = " and ".join(dict.fromkeys(map(str, asked_roots[-2:])))
         raise StopError(
             f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"
         )
@@ -225,15 +240,13 @@ def device_file(arguments: Namespace) -> Path:
     return devices[0]
 
 
-def _roots(arguments: Namespace) -> list[Path]:
+def _roots_asked(arguments: Namespace) -> list[Path]:
     folder: Path | None = arguments.descriptions
-    if folder is not None:
-        if not folder.is_dir():
-            raise StopError(f"there is no folder `{folder}`")
-        return [folder]
-    from fieldscribe.resources import descriptions_dir
-
-    return [LOCAL, descriptions_dir()]
+    if folder is None:
+        return roots()
+    if not folder.is_dir():
+        raise StopError(f"there is no folder `{folder}`")
+    return [folder]
 
 
 def _near(name: str, known: list[str]) -> str:

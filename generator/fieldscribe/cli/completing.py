@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli import COMMANDS, command_of
-from fieldscribe.cli.common import LOCAL, known_devices
-from fieldscribe.resources import descriptions_dir
+from fieldscribe.cli.common import known_devices, roots
 
 if TYPE_CHECKING:
     from argparse import Action
@@ -85,7 +84,7 @@ class _Line:
         return [f"{name}=" for name in self._points()] if metavar.startswith("POINT=") else []
 
     def _devices(self) -> dict[str, Path]:
-        return known_devices([LOCAL, descriptions_dir()] if self._folder is None else [self._folder])
+        return known_devices(roots() if self._folder is None else [self._folder])
 
     def _points(self) -> Iterable[str]:
         """The names and codes of the points of the device that is named before."""

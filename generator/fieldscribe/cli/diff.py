@@ -77,7 +77,7 @@ def _known(argument: str) -> str:
 
     if not argument:
         raise StopError("the path is empty")
-    if ":" in argument or Path(argument).exists():
+    if ":" in argument:
         return argument
     return str(description_paths([Path(argument)])[0])
 

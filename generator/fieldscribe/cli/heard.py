@@ -15,8 +15,6 @@ from fieldscribe.report import visible
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from fieldscribe.families.answers import Heard
     from fieldscribe.model import Device
 
@@ -49,7 +47,7 @@ class _Text:
         self._between = ""
 
     def frame(self, heard: Heard) -> None:
-        heading = visible(heard.shown) or spaced(heard.data)
+        heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.shown)
         rows = [(label, visible(text)) for label, text in _rows(heard)]
         if self._coloured:
             sys.stdout.write(self._between)
@@ -63,16 +61,12 @@ class _Text:
             print_lines([[("", "no frame of that unit")]])
 
 
-def _rows(heard: Heard) -> Iterator[tuple[str, str]]:
-    yield "Frame", heard.summary
-    for item in heard.items:
-        yield "Says", item.text
+def _rows(heard: Heard) -> list[tuple[str, str]]:
+    rows = [("Frame", heard.summary), *[("Says", item.text) for item in heard.items]]
     if heard.checks:
-        yield "Header" if heard.framing == "tcp" else "Checksum", heard.checks
-    for fault in (*heard.faults, *heard.findings):
-        yield "Wrong", fault
-    for note in heard.notes:
-        yield "Note", note
+        rows.append(("Header" if heard.framing == "tcp" else "Checksum", heard.checks))
+    rows += [("Wrong", fault) for fault in (*heard.faults, *heard.findings)]
+    return rows + [("Note", note) for note in heard.notes]
 
 
 class _JsonLines:

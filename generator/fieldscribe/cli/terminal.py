@@ -54,8 +54,9 @@ def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) 
 
 def rows_text(heading: str, rows: Sequence[Row]) -> str:
     """A heading and rows of label and text below it, where nothing is coloured or wrapped."""
-    width = max((len(label) for label, _ in rows), default=0)
-    lines = [f"  {label:<{width}}  {text}".rstrip() for label, text in rows]
+    width = max([len(label) for label, _ in rows], default=0)
+    margins = {label: f"  {label:<{width}}  " for label, _ in rows}
+    lines = [(margins[label] + text).rstrip() for label, text in rows]
     return "\n".join([heading, *lines, ""])
 
 

@@ -45,6 +45,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     parser.add_argument("--single-file", action="store_true", help="c: all in one header")
+    parser.add_argument("--wheel", action="store_true", help="python: one wheel with the device and the runtime")
     parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
     parser.add_argument(
         "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
@@ -80,6 +81,8 @@ def run(arguments: Namespace) -> int:
             _keep_up(arguments, deliveries, inputs)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
+    except ModuleNotFoundError as error:
+        raise StopError("--wheel needs hatchling", 'pip install "fieldscribe[wheel]"') from error
     except OSError as error:
         return usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
     if arguments.list_outputs:
@@ -178,13 +181,14 @@ def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
     if language not in LANGUAGES:
         hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
         raise StopError(f"`{language}` is no language to take a device in", hint)
-    for option in ("single_file", "no_frames"):
-        if getattr(arguments, option) and language != "c":
-            raise StopError(f"--{option.replace('_', '-')} is for c")
+    for option, of_language in (("single_file", "c"), ("no_frames", "c"), ("wheel", "python")):
+        if getattr(arguments, option) and language != of_language:
+            raise StopError(f"--{option.replace('_', '-')} is for {of_language}")
     points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
-    return Wish(language, points, arguments.name, frames=not arguments.no_frames, single_file=arguments.single_file)
+    frames, single = not arguments.no_frames, arguments.single_file
+    return Wish(language, points, arguments.name, frames=frames, single_file=single, wheel=arguments.wheel)
 
 
 def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:

@@ -31,8 +31,8 @@ class Hearing:
     words: dict[int, int] = field(default_factory=dict)
     waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
     """Points whose meaning needs others, by item, with their raw numbers."""
-    fresh: bool = False
-    """Whether some setting has changed since the waiting points were last tried."""
+    fresh: set[str] = field(default_factory=set)
+    """The settings that have changed since the waiting points were last tried."""
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
         """Keep the values of points that the device reported."""
@@ -40,13 +40,12 @@ class Hearing:
             before = self.settings.get(name)
             # a special code equals the plain number, and is no quantity
             if name not in self.by_person and (before != setting or type(before) is not type(setting)):
-                self.settings[name], self.fresh = setting, True
+                self.settings[name] = setting
+                self.fresh.add(name)
 
-    def beside(self, raws: Iterable[tuple[Point, int]]) -> Hearing:
-        """The same for one frame whose points are settings for each other, without keeping them."""
-        inside = replace(self, settings=dict(self.settings))
-        inside.learn(raws)
-        return inside
+    def beside(self) -> Hearing:
+        """The same for one frame whose points are settings for each other: what it learns is not kept."""
+        return replace(self, settings=dict(self.settings), fresh=set())
 
     def forget(self, address: int) -> None:
         """Forget the values that the device derives from a parameter, once the parameter was written."""

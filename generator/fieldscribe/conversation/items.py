@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.meanings import meaning_of, raw_text
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 Base = tuple[str, int, int]
 """Space, address, and count of an item."""
+
+Saying = Callable[[Sequence[int], "Settings"], Item]
+"""What says an item, from the words of a frame and the known raw numbers of other points."""
 
 Numbers = tuple[int, "Settings"]
 """The raw number of a point, and the known raw numbers of other points."""
@@ -45,6 +49,11 @@ def named_item(point: Point, base: Base, said: str = "", *, odd: str = "") -> It
     """A point that a frame names without a raw number; `said` replaces the title, `odd` is a finding."""
     text = f"{label(point)}: {said or title_of(point)}" + (f"; {odd}" if odd else "")
     return Item(*base, line(text), point.item, point.code, findings=(odd,) if odd else ())
+
+
+def always(item: Item) -> Saying:
+    """What says the same whatever a frame carries."""
+    return lambda _words, _settings: item
 
 
 def value_with_raw(device: Device, point: Point, numbers: Numbers) -> str:

@@ -11,6 +11,7 @@ from fieldscribe.conversation.requests import part_of
 from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
 from fieldscribe.conversation.told import Told
+from fieldscribe.families.answers import Item
 from fieldscribe.families.directory import Directory
 from fieldscribe.families.spoken import Course, Cut, Element, Masks, Piece, ProcessData, Recent, Span, Word
 
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.families.answers import Heard, Item
-    from fieldscribe.families.spoken import Carried, Speech
+    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.spoken import Speech
     from fieldscribe.model import Device
 
 _SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
@@ -30,7 +31,9 @@ _SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
     ProcessData: process_items,
     Masks: mask_items,
     Piece: piece_items,
+    Item: lambda _hearing, item: (item,),
 }
+"""What a frame carries, and what puts it into items."""
 
 
 def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
@@ -54,7 +57,7 @@ class Listener:
         self._speech = speech
         self._directory = Directory(device)
         self._oddities = Oddities(device, self._directory)
-        self._told = Told(device)
+        self._told = Told(device, self._directory)
         self._course = Course()
         self._parties: Recent[int | None, Hearing] = Recent()
 
@@ -76,18 +79,13 @@ class Listener:
         """The meaning of the next frame; any bytes are safe."""
         spoken = self._speech.hear(frame, self._course, self._directory, expecting=expecting)
         hearing = self._parties.of(spoken.party, self._unheard)
-        items = tuple([item for carried in spoken.carried for item in _says(hearing, carried)])
+        items = tuple([item for carried in spoken.carried for item in _SAYS[type(carried)](hearing, carried)])
         self._course.follow(spoken, expecting=expecting)
         notes = self._oddities.notes(spoken)
         if isinstance(frame, Cut):
             notes = (*notes, frame.said)
-        return spoken.heard.saying(items, self._oddities.findings(spoken), notes)
+        return spoken.saying(items, self._oddities.findings(spoken), notes)
 
     def expect_reply_to(self, frame: Any) -> Heard:
         """Treat a frame as the request that the following frames answer."""
         return self.hear(frame, expecting=True)
-
-
-def _says(hearing: Hearing, carried: Carried) -> Iterable[Item]:
-    says = _SAYS.get(type(carried))
-    return (carried,) if says is None else says(hearing, carried)  # type: ignore[return-value]  # others are items

@@ -11,12 +11,13 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.floats import float_of, pattern_of
 from fieldscribe.arithmetic.lines import Line
-from fieldscribe.arithmetic.words import words_of
-from fieldscribe.conversation.refusals import amount_with_unit, failure
+from fieldscribe.arithmetic.words import mask_of, words_of
+from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, number_text, rounded
+from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,10 +50,11 @@ class Meanings:
         self._device = device
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
-        self._flags = [_Flag(flag) for flag in point.flags]
-        self._named_bits = sum(flag.mask << flag.low for flag in self._flags)
+        self._flags = [(flag.low, mask_of(flag.width), _flag_texts(flag)) for flag in point.flags]
+        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
         self._needs = point.scale_arguments
-        self._rules: dict[tuple[object, ...], Line | Meaning] = {}
+        self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
+        self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a raw number, where other points hold these settings."""
@@ -86,8 +88,9 @@ class Meanings:
     def _flags_text(self, raw: int) -> str:
         true: list[str] = []
         false: list[str] = []
-        for flag in self._flags:
-            (false if flag.is_false(raw) else true).append(flag.text(raw))
+        for low, mask, said in self._flags:
+            is_false, text = said[raw >> low & mask]
+            (false if is_false else true).append(text)
         parts = [", ".join(true) if true else "none set"]
         if false:
             parts.append(f"not set: {', '.join(false)}")
@@ -98,23 +101,18 @@ class Meanings:
         return line("; ".join(parts))
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
-        point, shape = self._point, self._point.shape
+        shape = self._point.shape
         if shape.info.floating or (shape.most_raw is not None and abs(raw) > shape.most_raw):
             return self._computed(raw, settings)
         rule = self._rule(settings)
-        if isinstance(rule, Meaning):
-            return rule
-        value = Fraction(raw * rule.factor + rule.add, rule.divisor)
-        if shape.display is None:
-            return Meaning(amount_with_unit(point, value), number_text(value))
-        shown_value = rounded(value.numerator, value.denominator, shape.display)
-        return Meaning(wording.with_unit(shown_value, point), number_text(value))
+        return rule if isinstance(rule, Meaning) else rule.meaning(raw)
 
-    def _rule(self, settings: Settings) -> Line | Meaning:
+    def _rule(self, settings: Settings) -> _Scale | Meaning:
         """The scale in force, or why there is none: neither depends on the raw number."""
-        # a special code equals the plain number, and is no quantity
-        held = [settings.get(name) for name in self._needs]
-        key = (*held, *map(type, held)) if held else ()
+        key: tuple[object, ...] = ()
+        if self._needs:  # a special code equals the plain number, and is no quantity: so the types
+            held = [settings.get(name) for name in self._needs]
+            key = (*held, *map(type, held))
         rule = self._rules.get(key)
         if rule is None:
             if len(self._rules) >= _MOST_RULES:
@@ -122,7 +120,7 @@ class Meanings:
             rule = self._rules[key] = self._found_rule(settings)
         return rule
 
-    def _found_rule(self, settings: Settings) -> Line | Meaning:
+    def _found_rule(self, settings: Settings) -> _Scale | Meaning:
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))
@@ -131,7 +129,7 @@ class Meanings:
         except CodecError as error:
             return self._unknown(error)
         factor, add = offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator
-        return Line.reduced(factor, add, offset.denominator * ratio.numerator)
+        return _Scale(point, Line.reduced(factor, add, offset.denominator * ratio.numerator))
 
     def _computed(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a bit pattern, and of a number that the scale cannot compute with."""
@@ -149,31 +147,37 @@ class Meanings:
         return Meaning(wording.with_unit(said, point), number_text(value))
 
     def _unknown(self, error: CodecError) -> Meaning:
-        message, hint = failure(self._device, self._point, error)
+        why = error.status, error.missing
+        if why not in self._failures:  # as many as there are ways to fail
+            self._failures[why] = failure(self._device, self._point, error)
+        message, hint = self._failures[why]
         return Meaning(f"not known: {message}", None, error.missing, hint)
 
 
-class _Flag:
-    """A flag, and what each of its numbers is called."""
+class _Scale:
+    """The values of a point under a rule that is settled, as text; what does not depend on the number is worked out."""
 
-    def __init__(self, flag: Flag) -> None:
-        self.low, self.mask = flag.low, (1 << flag.width) - 1
-        self._flag = flag
-        self._texts: dict[int, str] = {}
+    def __init__(self, point: Point, rule: Line) -> None:
+        self._rule, self._decimals = rule, point.display
+        self._unit = wording.with_unit(" ", point)[1:]
+        self._places = decimal_places(rule.divisor)
+        self._parts = 0 if self._places is None else 10**self._places // rule.divisor
 
-    def is_false(self, raw: int) -> bool:
-        """Whether it is a single bit whose name is not true."""
-        return self.mask == 1 and raw >> self.low & 1 != self._flag.active
+    def meaning(self, raw: int) -> Meaning:
+        """The meaning of a raw number."""
+        factor, add, divisor = self._rule
+        number = raw * factor + add
+        exactly = exact(number, divisor) if self._places is None else shortest(number * self._parts, self._places)
+        if self._decimals is not None:
+            return Meaning(rounded(number, divisor, self._decimals) + self._unit, exactly)
+        said = exactly if is_short(exactly) else amount(Fraction(number, divisor))
+        return Meaning(said + self._unit, exactly)
 
-    def text(self, raw: int) -> str:
-        """The flag with its number."""
-        number = raw >> self.low & self.mask
-        text = self._texts.get(number)
-        if text is None:
-            text = _flag_text(self._flag, number)
-            if self.mask <= _MOST_RULES:
-                self._texts[number] = text
-        return text
+
+def _flag_texts(flag: Flag) -> Remembered[int, tuple[bool, str]]:
+    """By the number of a flag: whether it is a single bit whose name is not true, and what it is called."""
+    is_bit = flag.width == 1
+    return Remembered(_MOST_RULES, lambda number: (is_bit and number != flag.active, _flag_text(flag, number)))
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
@@ -193,7 +197,8 @@ def raw_form(point: Point) -> Callable[[int], str]:
     if point.text is not None:
         return lambda raw: f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
     digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
-    return lambda raw: f"raw {raw} = {hex_text(raw & mask, digits)}"
+    form = f"raw {{}} = {{:0{digits}X}}h".format
+    return lambda raw: form(raw, raw & mask)
 
 
 def _shortest(point: Point, raw: int) -> str:

@@ -37,7 +37,7 @@ class Oddities:
     def notes(self, spoken: Spoken) -> tuple[str, ...]:
         """Notes on what looks like a mistake."""
         asked = [carried for carried in spoken.carried if isinstance(carried, Span)] if spoken.asks else ()
-        misprint = self._misprints.get(spoken.heard.data)
+        misprint = self._misprints.get(spoken.own.data if spoken.own else spoken.heard.data)
         if not asked and misprint is None:
             return ()
         said = [] if misprint is None else [_misprint_text(misprint)]

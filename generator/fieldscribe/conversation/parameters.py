@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, split
 from fieldscribe.conversation.hearing import odd_item
-from fieldscribe.conversation.items import named_item, without_variants
+from fieldscribe.conversation.items import named_item
 from fieldscribe.conversation.selection import absence
+from fieldscribe.conversation.told import PARAMETER
 from fieldscribe.families.answers import Item
 from fieldscribe.records import replace
 from fieldscribe.wording import address_text, fixed_text
@@ -21,16 +22,14 @@ if TYPE_CHECKING:
     from fieldscribe.families.spoken import Element, Word
     from fieldscribe.model import Point
 
-_SPACE = "parameter"
-
 
 def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
     """What a frame says about one element of a parameter."""
-    points = hearing.directory.at(_SPACE, element.parameter, element.index)
-    base = (_SPACE, element.parameter, max(1, element.width))
+    points = hearing.directory.at(PARAMETER, element.parameter, element.index)
+    base = (PARAMETER, element.parameter, max(1, element.width))
     carried = f"carries {words_text(element.words)}"
     if element.refused:
-        yield from (named_item(point, (_SPACE, element.parameter, point.words)) for point in points)
+        yield from (named_item(point, (PARAMETER, element.parameter, point.words)) for point in points)
     elif not points:
         text = element_text(element.parameter, element.index, alone=True)
         carried_text = f" ({carried})" if element.width or not element.asked else ""
@@ -39,7 +38,7 @@ def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
         said = f"{element.value} elements" if element.counts else carried
         yield from (named_item(point, base, said) for point in points)
     else:
-        shown = without_variants(points, limits=element.asked)
+        shown = hearing.told.elements[element.parameter, element.index, element.asked]
         yield from (_element(hearing, element, point, base, carried) for point in shown)
 
 
@@ -65,18 +64,18 @@ def _width_finding(point: Point, element: Element) -> str:
 
 def word_items(hearing: Hearing, word: Word) -> Iterator[Item]:
     """What a frame says about one word of a parameter."""
-    points = hearing.directory.at(_SPACE, word.address)
+    points = hearing.directory.at(PARAMETER, word.address)
     if word.learned and word.raw is not None and points:
         hearing.words[word.address] = word.raw
     if word.stale:
         hearing.forget(word.address)
     if word.learned:
         hearing.learn((point, _heard(hearing, point)) for point in points if _whole(hearing, point))
-    for point in without_variants(points, limits=word.asked):
+    for point in hearing.told.elements[word.address, 0, word.asked]:
         yield _word(hearing, word, point)
     if not points:
         brings = "" if word.raw is None else f" ({words_text((word.raw,))})"
-        yield Item(_SPACE, word.address, 1, f"{address_text(word.address)}: no point is described here{brings}")
+        yield Item(PARAMETER, word.address, 1, f"{address_text(word.address)}: no point is described here{brings}")
 
 
 def _whole(hearing: Hearing, point: Point) -> bool:
@@ -88,7 +87,7 @@ def _heard(hearing: Hearing, point: Point) -> int:
 
 
 def _word(hearing: Hearing, word: Word, point: Point) -> Item:
-    base = (_SPACE, word.address, 1)
+    base = (PARAMETER, word.address, 1)
     if word.raw is None:
         return named_item(point, base, odd=absence(hearing.device, point))
     if len(point.addresses) == 1:

@@ -90,9 +90,12 @@ def _name(point: Point) -> str:
 def amount(number: Fraction) -> str:
     """A number for people: exact if that is short, else rounded and marked as rounded."""
     exactly = number_text(number)
-    if "/" in exactly or (len(exactly) > _MOST_DIGITS + (exactly[0] == "-") and "." in exactly):
-        return f"about {float(number):.9g}" if abs(number) < 10**300 else exactly
-    return exactly
+    return exactly if is_short(exactly) or abs(number) >= 10**300 else f"about {float(number):.9g}"
+
+
+def is_short(exactly: str) -> bool:
+    """Whether the text of an exact number ends, and soon."""
+    return "/" not in exactly and (len(exactly) <= _MOST_DIGITS + (exactly[0] == "-") or "." not in exactly)
 
 
 def amount_with_unit(point: Point, number: Fraction) -> str:

@@ -11,35 +11,60 @@ from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.items import Base, Saying
+    from fieldscribe.conversation.told import Told
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
 
 
-def _names(hearing: Hearing, direction: str) -> list[str]:
-    return [telegram.name for telegram in hearing.device.telegrams if telegram.direction == direction]
+def _names(device: Device, direction: str) -> list[str]:
+    return [telegram.name for telegram in device.telegrams if telegram.direction == direction]
 
 
-def process_items(hearing: Hearing, data: ProcessData) -> Iterator[Item]:
+def process_items(hearing: Hearing, data: ProcessData) -> list[Item]:
     """The items of process data."""
-    names, words = _names(hearing, data.direction), data.words
-    for place, word in enumerate(words):
-        points = [point for name in names for point in hearing.directory.at(name, place)]
+    sayings = hearing.told.process_data[data.direction, len(data.words)]
+    return [say(data.words, hearing.settings) for say in sayings]
+
+
+def process_sayings(told: Told, key: tuple[str, int]) -> list[Saying]:
+    """What says the items of so many words of process data of a direction."""
+    direction, count = key
+    names = _names(told.device, direction)
+    result = []
+    for place in range(count):
+        points = [point for name in names for point in told.directory.at(name, place)]
         base = (names[0] if names else "telegram", place, 1)
-        for point in points:
-            if point.addresses[0] != place or place + point.words > len(words):
-                continue
-            raw = raw_of(point, words[place : place + point.words])
-            if point.generated or point.scale is not None:
-                item = hearing.value(point, base, raw, written=data.direction == "request")
-                # a master that has nothing to say sends words of zero
-                yield item if raw else replace(item, findings=())
-            else:
-                yield named_item(point, base, f"carries {word:04X}h; {point.reason or 'its meaning is open'}")
-        if not points:
-            yield Item(*base, f"word {place + 1} of process data = {word:04X}h: no point is described here")
+        whole = [point for point in points if point.addresses[0] == place and place + point.words <= count]
+        result += [_process_saying(told, point, base, written=direction == "request") for point in whole]
+        result += [] if points else [_undescribed(base)]
+    return result
+
+
+def _process_saying(told: Told, point: Point, base: Base, *, written: bool) -> Saying:
+    """What says a point of process data."""
+    place = base[1]
+    if not point.generated and point.scale is None:
+        why = point.reason or "its meaning is open"
+        return lambda words, _: named_item(point, base, f"carries {words[place]:04X}h; {why}")
+    read, voice = raw_reader(point, range(place, place + point.words)), told.voice(point, base, written=written)
+
+    def say(words: Sequence[int], settings: Settings) -> Item:
+        raw = read(words)
+        item = voice.item(raw, settings)
+        # a master that has nothing to say sends words of zero
+        return item if raw or not item.findings else replace(item, findings=())
+
+    return say
+
+
+def _undescribed(base: Base) -> Saying:
+    head = f"word {base[1] + 1} of process data"
+    return lambda words, _: Item(*base, f"{head} = {words[base[1]]:04X}h: no point is described here")
 
 
 def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
@@ -54,7 +79,7 @@ def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
 
 def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item:
     """The item of one mask: which bits of a control word are valid."""
-    names = _names(hearing, "request")
+    names = _names(hearing.device, "request")
     point = next((point for name in names for point in hearing.directory.at(name, place)), None)
     about = point.code or point.name if point is not None else f"word {place + 1}"
     text = f"mask {words_text(words)}"
@@ -68,64 +93,80 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
     return Item("mask", at, len(words), f"{text}: only these bits of {about} count{said}")
 
 
+class _Part:
+    """A point that has words of a stretch, and what makes its raw number: from the stretch, or from several."""
+
+    def __init__(self, told: Told, telegram: str, positions: range, point: Point) -> None:
+        self.point, self.name, self.addresses = point, point.item, point.addresses
+        self.base = telegram, min(point.addresses), len(point.addresses)
+        self.voice = told.voice(point, self.base)
+        self.teaches = told.directory.teaches(point)
+        self.start = min(at for at in point.addresses if at in positions)
+        inside = [at - positions.start for at in point.addresses if at in positions]
+        self.whole = len(inside) == len(point.addresses)
+        self._read = raw_reader(point, inside if self.whole else range(len(point.addresses)))
+
+    def raw(self, piece: Piece) -> int | None:
+        """The raw number; None while words that other frames bring are not known."""
+        if self.whole:
+            return self._read(piece.words)
+        status, words = piece.pieces.words(self.addresses)
+        return self._read(words) if status == "ok" else None
+
+
 class Stretch:
-    """Neighbouring words of a telegram: the points that have one of them, and which of these begin at each address."""
+    """Neighbouring words of a telegram: the points that have one of them, in order, and the words that no point has."""
 
-    def __init__(self, hearing: Hearing, telegram: str, positions: range) -> None:
-        directory = hearing.directory
-        self.points = tuple({point.item: point for at in positions for point in directory.at(telegram, at)}.values())
-        self.bases = [(telegram, min(point.addresses), len(point.addresses)) for point in self.points]
-        self.voices = [hearing.told.voice(*placed) for placed in zip(self.points, self.bases, strict=True)]
-        self.places = [(point.addresses, raw_reader(point)) for point in self.points]
-        self.teaching = [number for number, point in enumerate(self.points) if directory.teaches(point)]
-        starts = [min(set(point.addresses) & set(positions)) for point in self.points]
-        numbers = [(at, [number for number, start in enumerate(starts) if start == at]) for at in positions]
-        self.begin = [(at, here, bool(directory.at(telegram, at))) for at, here in numbers]
-        """Each address, the numbers of the points that begin there, and whether any point has it."""
-
-
-def _stretch(hearing: Hearing, piece: Piece) -> Stretch:
-    key = piece.telegram.name, piece.positions
-    known = hearing.told.stretches.get(key)
-    if known is None:
-        known = hearing.told.stretches[key] = Stretch(hearing, *key)
-    return known
+    def __init__(self, told: Told, key: tuple[str, range]) -> None:
+        telegram, positions = key
+        at = {place: told.directory.at(telegram, place) for place in positions}
+        points = {point.item: point for here in at.values() for point in here}.values()
+        parts = [_Part(told, telegram, positions, point) for point in points]
+        self.parts = sorted(parts, key=lambda part: part.start)
+        self.teaching = [number for number, part in enumerate(self.parts) if part.teaches]
+        self.comes: dict[tuple[str, ...], str] = {}
+        """Where points come that others need, by their names."""
+        self.alone = [place for place, here in at.items() if not here]
 
 
-def piece_items(hearing: Hearing, piece: Piece) -> Iterator[Item]:
+def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
-    stretch, come = _stretch(hearing, piece), piece.pieces.words
-    raws = [read(words[1]) if (words := come(at))[0] == "ok" else None for at, read in stretch.places]
-    known = ((stretch.points[number], raws[number]) for number in stretch.teaching)
-    hearing.learn((point, raw) for point, raw in known if raw is not None)
-    lacking: dict[str, tuple[Point, int]] = {}
-    for at, here, described in stretch.begin:
-        for number in here:
-            point, raw = stretch.points[number], raws[number]
-            if raw is None:
-                yield named_item(point, stretch.bases[number], _incomplete_text(hearing, piece, point))
-                continue
-            item = stretch.voices[number].item(raw, hearing.settings)
-            if item.missing:
-                lacking[point.item] = point, raw
-                item = _with_multiplexers(hearing, piece, item)
-            yield item
-        if not described:
-            yield Item(
-                piece.telegram.name, at, 1, f"word {at}: no point is described here ({words_text(come((at,))[1])})"
-            )
+    stretch = hearing.told.stretches[piece.telegram.name, piece.positions]
+    raws = [part.raw(piece) for part in stretch.parts]
+    if stretch.teaching:
+        known = [(stretch.parts[number].point, raws[number]) for number in stretch.teaching]
+        hearing.learn((point, raw) for point, raw in known if raw is not None)
+    items, lacking = [], {}
+    for part, raw in zip(stretch.parts, raws, strict=True):
+        if raw is None:
+            items.append(named_item(part.point, part.base, _incomplete_text(hearing, piece, part.point)))
+            continue
+        if hearing.waiting:
+            hearing.waiting.pop(part.name, None)
+        item = part.voice.item(raw, hearing.settings)
+        if item.missing:
+            lacking[part.name] = part.point, raw
+            item = _with_multiplexers(hearing, piece, stretch, item)
+        items.append(item)
+    for at in stretch.alone:
+        said = words_text((piece.words[at - piece.positions.start],))
+        alone = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({said})")
+        items.insert(sum(part.start < at for part in stretch.parts) + stretch.alone.index(at), alone)
     if hearing.waiting:
-        now = {point.item for point, raw in zip(stretch.points, raws, strict=True) if raw is not None}
-        yield from _completed_points(hearing, piece.telegram.name, now)
+        items += _completed_points(hearing, piece.telegram.name)
     hearing.waiting.update(lacking)
+    return items
 
 
-def _with_multiplexers(hearing: Hearing, piece: Piece, item: Item) -> Item:
+def _with_multiplexers(hearing: Hearing, piece: Piece, stretch: Stretch, item: Item) -> Item:
     """The item of a point that waits for others, with where they come."""
-    firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
-    slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
-    comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
-    return replace(item, text=item.text + comes)
+    comes = stretch.comes.get(item.missing)
+    if comes is None:  # as many as there are ways to miss something
+        firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
+        slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
+        comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
+        stretch.comes[item.missing] = comes
+    return replace(item, text=item.text + comes) if comes else item
 
 
 def _incomplete_text(hearing: Hearing, piece: Piece, point: Point) -> str:
@@ -149,14 +190,14 @@ def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) 
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _completed_points(hearing: Hearing, telegram: str, now: set[str]) -> Iterator[Item]:
-    """Points of earlier frames whose missing values came with this frame; this frame itself tells of those `now`."""
-    for name in now & hearing.waiting.keys():
-        del hearing.waiting[name]
+def _completed_points(hearing: Hearing, telegram: str) -> Iterator[Item]:
+    """Points of earlier frames whose missing values came with this frame."""
     for name, (point, raw) in list(hearing.waiting.items()) if hearing.fresh else ():
+        if hearing.fresh.isdisjoint(point.scale_arguments):
+            continue
         voice = hearing.told.voice(point, (telegram, min(point.addresses), len(point.addresses)))
         if not voice.lacks(hearing.settings):
             del hearing.waiting[name]
             item = voice.item(raw, hearing.settings)
             yield replace(item, text=f"from a frame before: {item.text}")
-    hearing.fresh = False
+    hearing.fresh.clear()

@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.conversation.items import title_of
+from fieldscribe.conversation.items import title_of, without_variants
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.selection import absence
-from fieldscribe.conversation.writing import range_remark, unchecked_remark
+from fieldscribe.conversation.spans import SpanLayout
+from fieldscribe.conversation.telegrams import Stretch, process_sayings
+from fieldscribe.conversation.writing import written_remarks
 from fieldscribe.families.answers import Item
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.text import line
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.items import Base
-    from fieldscribe.conversation.telegrams import Stretch
+    from fieldscribe.conversation.items import Base, Saying
+    from fieldscribe.conversation.spans import SpanKey
+    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
 
 MOST = 64
 """How many numbers of one point are remembered: a stream may last for days."""
+PARAMETER = "parameter"
+"""The space of parameters."""
+_MOST_SPANS = 2048
+"""How many different spans of addresses are remembered."""
 
 
 class Voice:
@@ -29,8 +38,9 @@ class Voice:
         self._device, self._point, self._base, self._written = device, point, base, written
         self._needs = point.arguments if written else point.scale_arguments
         self._head, self._title = f"{label(point)} = ", title_of(point)
-        self._point_item, self._is_text = point.item, point.text is not None
+        self._name, self._is_text = point.item, point.text is not None
         self._raw_text = raw_form(point)
+        self._absent = absence(device, point) if written else ""
         self._meanings = Meanings(device, point)
         self._items: dict[Any, Item] = {}
 
@@ -57,29 +67,35 @@ class Voice:
         text = f"{self._head}{meaning.text} ({self._raw_text(raw)}): {self._title}"
         odd = ""
         if self._written:
-            odd = absence(self._device, point) or range_remark(self._device, point, raw, settings)
-            remark = odd or unchecked_remark(self._device, point, raw, settings)
+            odd, unchecked = (self._absent, "") if self._absent else written_remarks(self._device, point, raw, settings)
+            remark = odd or unchecked
             text += f"; {remark}" if remark else ""
         text += f"; {meaning.hint}" if meaning.hint else ""
         shown, findings = None if self._is_text else raw, (odd,) if odd else ()
-        return Item(
-            *self._base, line(text), self._point_item, point.code, shown, meaning.value, meaning.missing, findings
-        )
+        return Item(*self._base, line(text), self._name, point.code, shown, meaning.value, meaning.missing, findings)
 
 
 class Told:
     """What the points of a device mean; each meaning is put into words once as long as it is remembered."""
 
-    def __init__(self, device: Device) -> None:
-        self._device = device
+    def __init__(self, device: Device, directory: Directory) -> None:
+        self.device, self.directory = device, directory
         self._voices: dict[tuple[str, Base, bool], Voice] = {}
-        self.stretches: dict[tuple[str, range], Stretch] = {}
-        """Parts of telegrams that have come, worked out once."""
+        self.spans: Remembered[SpanKey, SpanLayout] = Remembered(_MOST_SPANS, partial(SpanLayout, self))
+        self.stretches: Remembered[tuple[str, range], Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
+        """Parts of telegrams that have come."""
+        self.process_data: Remembered[tuple[str, int], list[Saying]] = Remembered(64, partial(process_sayings, self))
+        self.elements: Remembered[tuple[int, int, bool], list[Point]] = Remembered(_MOST_SPANS, self._element)
+        """The points of a parameter's element, as frames show them; variants that are written may differ in limits."""
+
+    def _element(self, key: tuple[int, int, bool]) -> list[Point]:
+        parameter, index, written = key
+        return without_variants(self.directory.at(PARAMETER, parameter, index), limits=written)
 
     def voice(self, point: Point, base: Base, *, written: bool = False) -> Voice:
         """What speaks for a point at this place."""
         key = point.item, base, written
         voice = self._voices.get(key)
         if voice is None:
-            voice = self._voices[key] = Voice(self._device, point, base, written=written)
+            voice = self._voices[key] = Voice(self.device, point, base, written=written)
         return voice

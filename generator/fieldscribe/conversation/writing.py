@@ -34,30 +34,19 @@ def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings
         yield f"here the device keeps only raw numbers divisible by {coarse}; expect {back} back"
 
 
-def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """Why the device refuses a raw number that a frame writes; empty if it accepts it."""
+def written_remarks(device: Device, point: Point, raw: int, settings: Settings) -> tuple[str, str]:
+    """Why the device refuses a raw number that a frame writes, and why it was not checked; empty where it is not so."""
     if not point.writable:
-        return f"it is {wording.access_text(point.access)}"
+        return f"it is {wording.access_text(point.access)}", ""
     try:
         codec.check(point, raw, settings)
     except CodecError as error:
-        if error.status == "missing":
-            return ""
-        return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why
-    return ""
-
-
-def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
-    """The remark that a written number was not checked, for its limits depend on unknown points; else empty."""
-    if not point.writable:
-        return ""
-    try:
-        codec.check(point, raw, settings)
-    except CodecError as error:
-        if error.status == "missing":
-            switches = " ".join(f"--with {name}=VALUE" for name in error.missing)
-            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {switches}"
-    return ""
+        if error.status != "missing":
+            return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why, ""
+        switches = " ".join(f"--with {name}=VALUE" for name in error.missing)
+        names = names_text(device, error.missing)
+        return "", f"not held against its limits, which depend on {names}: give {switches}"
+    return "", ""
 
 
 def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:

@@ -47,18 +47,38 @@ class Comparison:
             "new": None if self.new is None else self._place(self.new, difference, old=False),
         }
 
-    def symbols(self, difference: Difference) -> Mapping[str, list[str]]:
-        """The names in generated code, those of the old side first; an exported model alone tells none."""
-        symbols: dict[str, list[str]] = {}
-        if difference.weight == DOCS:
-            return symbols
-        for side, listed in ((self.old, self._old_symbols), (self.new, self._new_symbols)):
-            names = _names(difference, old=side is self.old)
-            if side is None or side.described is None or listed is None or names is None:
+    def symbols(self, difference: Difference) -> dict[str, list[str]]:
+        """The names in generated code, those of the old side first."""
+        sides = self.symbols_of_sides(difference)
+        return {language: list(dict.fromkeys((*old, *new))) for language, (old, new) in sides.items()}
+
+    def symbols_of_sides(self, difference: Difference) -> Mapping[str, tuple[list[str], list[str]]]:
+        """The names in generated code by language, on each side; an exported model does not know them."""
+        symbols: dict[str, tuple[list[str], list[str]]] = {}
+        for number, side in enumerate((self.old, self.new)):
+            names = _names(difference, old=number == 0)
+            if side is None or side.described is None or names is None or difference.weight == DOCS:
                 continue
-            for language, more in listed.of(side.described.owners(names, difference.fact)).items():
-                symbols[language] = list(dict.fromkeys([*symbols.get(language, ()), *more]))
+            listed = self._old_symbols if number == 0 else self._new_symbols
+            owners = side.described.owners(names, difference.fact)
+            for language, more in ({} if listed is None else listed.of(owners)).items():
+                symbols.setdefault(language, ([], []))[number].extend(dict.fromkeys(more))
         return symbols
+
+    @property
+    def is_nameless(self) -> bool:
+        """Whether names in code are missing in what is told."""
+        return any(self.nameless(difference) for difference in self.told)
+
+    def nameless(self, difference: Difference) -> list[str]:
+        """The sides whose names in code are not known: exported models, where the other side has not the same ones."""
+        if difference.weight == DOCS or not difference.things:
+            return []
+        names = {"old": _names(difference, old=True), "new": _names(difference, old=False)}
+        sides = {"old": self.old, "new": self.new}
+        known = [names[which] for which, side in sides.items() if side is not None and side.described is not None]
+        exported = [which for which, side in sides.items() if side is not None and side.described is None]
+        return [which for which in exported if names[which] is not None and names[which] not in known]
 
     def _place(self, side: Side, difference: Difference, *, old: bool) -> str | None:
         """Where a fact stands; of a part that this side does not have the thing that it would be a part of."""
@@ -133,6 +153,7 @@ def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:
         "new": difference.new,
         "places": comparison.places(difference),
         "symbols": comparison.symbols(difference),
+        "symbols_missing": comparison.nameless(difference),
         "rename": difference.is_rename,
     }
 

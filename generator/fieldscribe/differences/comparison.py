@@ -66,14 +66,16 @@ class _Comparison:
     def __init__(self) -> None:
         self.told: list[Difference] = []
         self._renames: dict[str, dict[str, str]] = {}
+        self._alone: dict[str, frozenset[str]] = {}
+        """The names of things that came or went, by kind."""
 
     def table(self, table: Table, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:
         """Tell what differs in a thing that both sides have."""
         matches = {key: _matched(entry, old, new) for key, entry in table.items() if isinstance(entry, Parts)}
         if not things:
-            self._renames = {
-                entry.kind: matches[key].renames for key, entry in table.items() if isinstance(entry, Parts)
-            }
+            kinds = {key: entry.kind for key, entry in table.items() if isinstance(entry, Parts)}
+            self._renames = {kind: matches[key].renames for key, kind in kinds.items()}
+            self._alone = {kind: matches[key].alone for key, kind in kinds.items()}
         differing: set[str] = set()
         for key, entry in table.items():
             before = len(self.told)
@@ -87,9 +89,18 @@ class _Comparison:
 
     def _fact(self, key: str, fact: Fact, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:
         before, after = fact.value(old), fact.value(new)
-        if before == after or (fact.refers and renamed(before, self._renames.get(fact.refers, {})) == after):
+        if before == after or (fact.refers and self._names_the_same(fact.refers, before, after)):
             return
         self.told.append(Difference(_weighed(fact.weight, before, after), things, key, before, after))
+
+    def _names_the_same(self, kind: str, before: Any, after: Any) -> bool:
+        """Whether two values differ in nothing but the names of things, and in lists in those that came or went."""
+        before, alone = renamed(before, self._renames.get(kind, {})), self._alone.get(kind, frozenset())
+        if isinstance(before, list) and isinstance(after, list) and alone:
+            before, after = (
+                [item for item in items if not isinstance(item, str) or item not in alone] for items in (before, after)
+            )
+        return bool(before == after)
 
     def _parts(self, key: str, parts: Parts, matched: _Matched, things: tuple[Thing, ...]) -> bool:
         """Tell what differs in parts; whether all of them came or went, told as one difference."""
@@ -102,14 +113,12 @@ class _Comparison:
             if old != new:
                 self._pair(parts, old, new, things)
         for part in added:
-            self._alone(parts.added, None, part, (*things, Thing(parts.kind, None, part["name"])))
+            inner = (*things, Thing(parts.kind, None, part["name"]))
+            self.told.append(Difference(_weighed(parts.added, None, part), inner, "", None, parts.shown(part)))
         for part in removed:
-            self._alone(parts.removed, part, None, (*things, Thing(parts.kind, part["name"], None)))
+            inner = (*things, Thing(parts.kind, part["name"], None))
+            self.told.append(Difference(_weighed(parts.removed, part, None), inner, "", parts.shown(part), None))
         return False
-
-    def _alone(self, weight: Weight, old: Exported | None, new: Exported | None, things: tuple[Thing, ...]) -> None:
-        """Tell a part that one side has."""
-        self.told.append(Difference(_weighed(weight, old, new), things, "", things[-1].old, things[-1].new))
 
     def _pair(self, parts: Parts, old: Exported, new: Exported, things: tuple[Thing, ...]) -> None:
         """Tell what differs in a part that both sides have, its name first."""
@@ -120,12 +129,19 @@ class _Comparison:
             weight = COMPATIBLE if kept else _weighed(parts.renamed, old, new)
             self.told.append(Difference(weight, inner, "", name, new["name"]))
             new = {**new, **_following(old, new)}
+        before = len(self.told)
         self.table(parts.facts, old, new, inner)
+        for number, difference in enumerate(self.told[before:], before):
+            fact = difference.fact if difference.things == inner else ""
+            self.told[number] = difference._replace(weight=parts.in_code(old, new, fact, difference.weight))
 
 
 def _following(old: Exported, new: Exported) -> Exported:
-    """What only follows from another name: the old name as an alias, and a title that is the name in words."""
+    """What only follows from another name: its old names, that of its enum, and a title that is the name in words."""
     following: dict[str, Any] = {}
+    enums = old.get("enum_name"), new.get("enum_name")
+    if enums[0] in new.get("enum_was", ()) or enums == (old["name"], new["name"]):
+        following["enum_name"] = old["enum_name"]
     if old["name"] in new.get("was", ()):
         following["was"] = [other for other in new["was"] if other != old["name"]]
     before, after = (part.get("title", {}).get("en", "") for part in (old, new))
@@ -156,6 +172,11 @@ class _Matched(NamedTuple):
         """The new names by old name."""
         return {old["name"]: new["name"] for old, new in self.pairs if old["name"] != new["name"]}
 
+    @property
+    def alone(self) -> frozenset[str]:
+        """The names of those that went or came."""
+        return frozenset(part["name"] for part in (*self.removed, *self.added))
+
 
 def _matched(parts: Parts, old: Exported, new: Exported) -> _Matched:
     """Which parts are the same: those of one name, then those alike in what tells them without it."""
@@ -176,7 +197,8 @@ def _matched(parts: Parts, old: Exported, new: Exported) -> _Matched:
 
 def _renamed(parts: Parts, gone: list[Exported], come: list[Exported]) -> dict[str, Exported]:
     """The old part of each new one that alone is alike."""
-    values = [fact.value for key in parts.alike if isinstance(fact := parts.facts[key], Fact)]
+    facts = [parts.facts[key] if isinstance(key, str) else key for key in parts.alike]
+    values = [fact.value for fact in facts if isinstance(fact, Fact)]
     old, new = _alone(values, gone), _alone(values, come)
     return {new[key]["name"]: old[key] for key in new if key in old}
 

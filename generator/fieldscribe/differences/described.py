@@ -38,15 +38,15 @@ _KEYS = {
     "meaning": ("says", "with"),
     "reason": ("why",),
     "points": ("point", "points"),
-    "most": ("functions",),
+    "max": ("functions",),
     "entry": ("enum",),
     "flag": ("flags",),
     "code": ("special", "code"),
 }
 """The keys of a description that say a fact, where they are called otherwise than the fact."""
 
-_OF_ENUM = ("enum", "open", "name of the enum")
-"""The facts of a point that are those of its enum."""
+_OF_ENUM = ("", "enum", "open", "name of the enum")
+"""The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "responses"}
@@ -91,9 +91,11 @@ class Described:
         owner = self.owner(names)
         if owner is None:
             return
-        if fact in _OF_ENUM and owner.kind == "point" and (enum := self._enum_of(owner.name)):
-            yield Owner("enum", enum)
-        yield owner
+        if fact == "old names":
+            yield from (Owner("old name", old, owner) for old in self.points[owner.name].was)
+        enum = self._enum_of(owner.name) if fact in _OF_ENUM and owner.kind == "point" else ""
+        owners = [Owner("enum", enum), owner] if enum and (fact or enum == owner.name) else [owner]
+        yield from owners if fact else reversed(owners)
 
     def owner(self, names: tuple[tuple[str, str], ...]) -> Owner | None:
         """A thing as targets know it that give it names; None for the device as a whole."""

@@ -7,9 +7,10 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.differences.classes import API, BEHAVIOUR, DOCS, WIRE
-from fieldscribe.differences.points import ALIKE, NOTE, POINT, SOURCE, TITLE, grown, items
+from fieldscribe.differences.points import ALIKE, NOTE, POINT, SOURCE, TITLE, grown, in_code, items
 from fieldscribe.differences.table import Exported, Fact, Parts, said
 from fieldscribe.families import family
+from fieldscribe.wording.lines import without_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +32,30 @@ def _codes(section: str, device: Exported) -> Iterator[Exported]:
     most = device["limits"]["most"] if section == "functions" else {}
     for number, code in device["codes"][section].items():
         yield {**code, "number": int(number), "most": most.get(number)}
+
+
+def _groups(device: Exported) -> Iterator[Exported]:
+    """The groups, each with the names of its points."""
+    members: dict[str, list[str]] = {}
+    for point in items(device):
+        members.setdefault(point["group"], []).append(point["name"])
+    return ({**group, "points": members.get(group["name"], [])} for group in device["groups"])
+
+
+def _errata(device: Exported) -> Iterator[Exported]:
+    """The errata by their ids, each with the list of its points."""
+    for erratum in device["errata"]:
+        points = erratum["point"]
+        yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
+
+
+def _erratum_in_short(erratum: Exported) -> Exported:
+    return {"points": erratum["point"], **{key: erratum[key] for key in ("where", "printed", "taken") if erratum[key]}}
+
+
+def _sentence(old: str, new: str) -> str:
+    """The class of a sentence: the lines of the manual that it names are for people."""
+    return DOCS if without_lines(old) == without_lines(new) else BEHAVIOUR
 
 
 def _limit(key: str, weight: Weight) -> Fact:
@@ -72,7 +97,7 @@ _FRAME: Table = {
 }
 _CODE: Table = {
     "number": said("number", WIRE),
-    "most": Fact(BEHAVIOUR, itemgetter("most"), ("most",)),
+    "max": Fact(BEHAVIOUR, itemgetter("most"), ("most",)),
     "broadcast": said("broadcast", BEHAVIOUR),
     "answers": said("answers", WIRE),
     "refusals": said("refusals", BEHAVIOUR),
@@ -80,8 +105,8 @@ _CODE: Table = {
 }
 _ERRATUM: Table = {
     "points": said("point", BEHAVIOUR, refers="point"),
-    "printed": said("printed", BEHAVIOUR),
-    "taken": said("taken", BEHAVIOUR),
+    "printed": said("printed", _sentence),
+    "taken": said("taken", _sentence),
     "certainty": said("certainty", BEHAVIOUR),
     "where": said("where", DOCS),
     "reason": said("reason", DOCS),
@@ -113,14 +138,12 @@ _OF_ALL: Table = {
     "timing": _limit("timing", DOCS),
     "note of the bus": _limit("note", DOCS),
     "serial": Fact(DOCS, lambda device: device["codes"]["serial"], ("codes.serial",)),
-    "group": _kind("group", "groups", _SECTION),
-    "point": Parts("point", items, POINT, ("points",), ALIKE),
+    "group": Parts("group", _groups, _SECTION, ("groups",), (Fact(API, itemgetter("points"), ()),)),
+    "point": Parts("point", items, POINT, ("points",), ALIKE, in_code=in_code),
     "command": _kind("command", "commands", _COMMAND, "space", "address", "function", "value"),
     "message": _kind("message", "messages", _MESSAGE, "identifier", "direction", "layout"),
     "telegram": _kind("telegram", "telegrams", _TELEGRAM, "direction", "words", "message"),
-    "erratum": _alike_in_class(
-        Parts("erratum", partial(_listed, "errata", name="id"), _ERRATUM, ("errata",)), BEHAVIOUR
-    ),
+    "erratum": _alike_in_class(Parts("erratum", _errata, _ERRATUM, ("errata",), shown=_erratum_in_short), BEHAVIOUR),
     "document": _alike_in_class(
         Parts("document", partial(_listed, "documents", name="id"), _DOCUMENT, ("documents",)), DOCS
     ),

@@ -33,8 +33,38 @@ def grown(old: Any, new: Any) -> str:
     return API if set(old) - set(new) else COMPATIBLE
 
 
+def _access(old: str, new: str) -> str:
+    """Code reads and writes as before where there is only more that it may do."""
+    kept = old == "none" or set(old) <= set(new)
+    return COMPATIBLE if kept else API
+
+
+def _settled(old: Any, _: Any) -> str:
+    """The class of a fact that nobody can have relied on while it was open."""
+    return COMPATIBLE if old is None else WIRE
+
+
+def _type(old: str | None, _: str | None) -> str:
+    """A point that gets its type is no longer among those that are reached raw alone."""
+    return API if old is None else WIRE
+
+
 def _generated(old: bool, _: bool) -> str:
     return API if old else COMPATIBLE
+
+
+_OF_RAW = frozenset(
+    {"group", "space", "telegram", "address", "order of words", "write address", "index", "variant", "type", "length"}
+    | {"access", "generated", "reserved", "old names"}
+)
+"""Facts that code knows also of a point that is documented only."""
+
+
+def in_code(old: Exported, new: Exported, fact: str, weight: str) -> str:
+    """The class of a fact: what is documented only on the old side is no fact of code that exists."""
+    if old["generated"] or fact in _OF_RAW or weight == DOCS:
+        return weight
+    return COMPATIBLE if new["generated"] else DOCS
 
 
 def _address(point: Exported) -> object:
@@ -75,7 +105,7 @@ def _range(point: Exported) -> object:
     """The intervals that may be written; None for all that the bits hold."""
     ranges, wire_type = point["raw"]["ranges"], point["type"]
     if wire_type is None:
-        return ranges
+        return None if ranges == [[0, (1 << 16 * point["words"]) - 1]] else ranges
     info, bits = TYPES[wire_type], point["bits"]
     width = info.bits if bits is None else abs(bits[0] - bits[1]) + 1
     least, greatest = (-(1 << (width - 1)), (1 << (width - 1)) - 1) if info.signed else (0, (1 << width) - 1)
@@ -117,7 +147,7 @@ POINT: Table = {
     "group": said("group", API, refers="group"),
     "space": said("space", WIRE),
     "telegram": said("telegram", WIRE, refers="telegram"),
-    "address": Fact(WIRE, _address, ("address", "addresses")),
+    "address": Fact(_settled, _address, ("address", "addresses")),
     "order of words": Fact(WIRE, _word_order, ("addresses",)),
     "base": Fact(WIRE, _base, ("references",)),
     "write address": Fact(WIRE, _written, ("written",)),
@@ -126,11 +156,11 @@ POINT: Table = {
     "set": said("set", API),
     "record": said("record", DOCS),
     "bits": said("bits", WIRE),
-    "type": said("type", WIRE),
+    "type": said("type", _type),
     "untyped": said("untyped", DOCS, "type"),
     "length": Fact(WIRE, _length, ("words",), ("type",)),
     "encoding": said("encoding", WIRE, "type"),
-    "access": said("access", API),
+    "access": said("access", _access),
     "unit": said("unit", WIRE),
     "name of the unit": said("unit_name", DOCS, "unit"),
     "quantity": said("quantity", DOCS, "unit"),
@@ -166,6 +196,7 @@ POINT: Table = {
 }
 
 POINT_FOLLOWS = {
+    "enum_was": "follows from the old names",
     "name": "tells the point",
     "direction": "is a fact of the telegram",
     "places": "repeats the address; the functions follow from type and access",

@@ -6,10 +6,11 @@ from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.differences.changes import fact_of, subject_of
-from fieldscribe.differences.classes import CLASSES, is_taken, next_version
+from fieldscribe.differences.classes import CLASSES, DOCS, is_taken, next_version
 from fieldscribe.differences.shown import shown
 from fieldscribe.report import visible
 from fieldscribe.text import markdown
+from fieldscribe.wording.lines import without_lines
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -51,6 +52,8 @@ def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
             yield [("", "  "), ("error" if weight in ("wire", "api") else "warning", CLASSES[weight])]
             for alike in groups:
                 yield from _text_of(comparison, alike)
+        if comparison.is_nameless:
+            yield [("hint", f"  {visible(_nameless(comparison))}")]
         yield [("hint", f"  {visible(_advice(comparison))}")]
         yield []
     told = sum(len(comparison.told) for comparison in comparisons)
@@ -68,6 +71,8 @@ def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
             yield from (f"### {CLASSES[weight].capitalize()}", "")
             yield from (_item(comparison, alike) for alike in groups)
             yield ""
+        if comparison.is_nameless:
+            yield from (f"{markdown(_nameless(comparison)).capitalize()}.", "")
 
 
 def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
@@ -84,11 +89,13 @@ def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
 
 
 def _is_moved(difference: Difference) -> bool:
-    """Whether the same stands at another line of the manual: a new edition moves most of them."""
+    """Whether the same stands at another line of the manual, or names one: a new edition moves most of them."""
     old, new = difference.old, difference.new
-    if difference.fact != "source" or not isinstance(old, dict) or not isinstance(new, dict):
+    if difference.weight != DOCS or not difference.fact:
         return False
-    return {**old, "line": None} == {**new, "line": None}
+    if difference.fact == "source":
+        return bool({**(old or {}), "line": None} == {**(new or {}), "line": None})
+    return bool(without_lines(old) == without_lines(new))
 
 
 def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
@@ -99,19 +106,14 @@ def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
     places = comparison.places(alike.first)
     where = [place for place in dict.fromkeys(places.values()) if place]
     yield [("", "      "), ("place", visible(" -> ".join(where)))]
-    for language, names in comparison.symbols(alike.first).items():
-        if names:
-            yield [("", visible(f"      {language}: {_few(names)}"))]
+    for language, names in _symbols(comparison, alike.first):
+        yield [("", visible(f"      {language}: {names}"))]
 
 
 def _item(comparison: Comparison, alike: _Alike) -> str:
     if alike.moved:
         return f"- {alike.moved}: {_OTHER_LINES}"
-    symbols = "; ".join(
-        f"{language} {', '.join(map(_code, names[:_MOST_SYMBOLS]))}{_more(len(names) - _MOST_SYMBOLS)}"
-        for language, names in comparison.symbols(alike.first).items()
-        if names
-    )
+    symbols = "; ".join(f"{language} {names}" for language, names in _symbols(comparison, alike.first, _code))
     sentence = markdown(_sentence(alike.first, _ARROW)).lstrip()
     subject = _subject(alike, _code)
     joint = "" if not subject or sentence.startswith(":") else " "
@@ -129,7 +131,8 @@ def _subject(alike: _Alike, quoted: Callable[[str], str] = str) -> str:
     if not subjects:
         return ""
     if alike.first.is_rename and len(alike.first.things) == 1:
-        return quoted(alike.first.things[0].old or "")
+        thing = alike.first.things[0]
+        return quoted(thing.old or "" if thing.kind == "point" else f"{thing.kind}:{thing.old}")
     few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
     return few if len(subjects) == 1 else f"{len(subjects)} {_many(alike.first.things[0].kind)} ({few})"
 
@@ -148,7 +151,9 @@ def _sentence(difference: Difference, arrow: str = "->") -> str:
         return f"{f': {before}' if before else ''} is now {difference.new}{_kept(difference)}"
     if not difference.fact and thing is not None:
         kind = thing.kind if len(difference.things) == 1 else ""
-        return f"{what} is {'gone' if difference.new is None else 'new'}{f' ({kind})' if kind else ''}"
+        told = difference.old if difference.new is None else difference.new
+        more = f": {shown('', told)}" if told != thing.name else ""
+        return f"{what} is {'gone' if difference.new is None else 'new'}{f' ({kind})' if kind else ''}{more}"
     values = [shown(difference.fact, value) for value in (difference.old, difference.new)]
     return f"{what}{' ' if what else ': ' if thing else ''}{difference.fact} {values[0]} {arrow} {values[1]}"
 
@@ -185,8 +190,26 @@ def _advice(comparison: Comparison, arrow: str = "->") -> str:
     return f"the version must take a {step} step: {wanted} or more, it says {new.version}{below}"
 
 
-def _few(names: list[str]) -> str:
-    return ", ".join(islice(names, _MOST_SYMBOLS)) + _more(len(names) - _MOST_SYMBOLS)
+def _symbols(
+    comparison: Comparison, difference: Difference, quoted: Callable[[str], str] = str
+) -> Iterator[tuple[str, str]]:
+    """The first names in each language: what is called otherwise now by its old and its new ones."""
+    for language, sides in comparison.symbols_of_sides(difference).items():
+        if difference.is_rename and all(sides):
+            yield language, " -> ".join(_few(names, quoted) for names in sides)
+        elif any(sides):
+            yield language, _few(list(dict.fromkeys((*sides[0], *sides[1]))), quoted)
+
+
+def _nameless(comparison: Comparison) -> str:
+    """Why names in code are missing, and what has them."""
+    files = [side.name_of(side.file) for side in (comparison.old, comparison.new) if side and side.described is None]
+    is_one = f"{' and '.join(files)} {'is' if len(files) == 1 else 'are each'} an exported model"
+    return f"names in code are missing where {is_one}: compare descriptions, or GIT-REVISION:PATH, to see them"
+
+
+def _few(names: list[str], quoted: Callable[[str], str]) -> str:
+    return ", ".join(map(quoted, islice(names, _MOST_SYMBOLS))) + _more(len(names) - _MOST_SYMBOLS)
 
 
 def _more(number: int) -> str:

@@ -12,10 +12,13 @@ if TYPE_CHECKING:
 _ADDRESSES = frozenset({"address", "number", "identifier"})
 
 
+_NOTHING = {"order of words": "as usual", "range": "all that the type holds"}
+
+
 def shown(fact: str, value: Any) -> str:
-    """A value in one line; `none` where there is nothing."""
+    """A value in one line; mostly `none` where there is nothing."""
     if value is None or value in ([], {}, ""):
-        return "none"
+        return _NOTHING.get(fact, "none")
     return _WORDS.get(fact, _plain)(value)
 
 
@@ -37,12 +40,16 @@ def _ranges(ranges: Any) -> str:
     return " | ".join(f"{low}..{high}" if low != high else str(low) for low, high in ranges)
 
 
+def _interval(ends: Any) -> str:
+    return _ranges([ends])
+
+
 def _bits(bits: Any) -> str:
     return str(bits[0]) if bits[0] == bits[1] else f"{bits[0]}..{bits[1]}"
 
 
 def _raw(value: Any) -> str:
-    return str(value) if isinstance(value, int) else _ranges([value])
+    return str(value) if isinstance(value, int) else _interval(value)
 
 
 def _titles(titles: Any) -> str:
@@ -94,6 +101,7 @@ _WORDS: Mapping[str, Callable[[Any], str]] = {
     **dict.fromkeys(_ADDRESSES, _number),
     "range": _ranges,
     "gaps": lambda gaps: "; ".join(f"{space} {_ranges(spans)}" for space, spans in gaps.items()),
+    "units": _interval,
     "bits": _bits,
     "raw": _raw,
     "serial": _settings,

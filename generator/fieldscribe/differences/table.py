@@ -27,7 +27,7 @@ class Fact(NamedTuple):
     """A fact: its class, its value in the exported thing, and the keys of the contract that say it.
 
     A difference in it is not told where one of the facts that it `follows` differs, too. `refers` is the kind of things
-    that its value names: things that only have another name now are no difference.
+    that its value names: things that have another name now are no difference, and in lists those that came or went.
     """
 
     weight: Weight
@@ -40,18 +40,22 @@ class Fact(NamedTuple):
 class Parts(NamedTuple):
     """Named parts of a thing. Two are the same by name, or where they alone have equal facts of `alike`.
 
-    `whole` is the class where all parts come or go at once; empty where each of them is told then, too.
+    `whole` is the class where all parts come or go at once; empty where each of them is told then, too. `shown` is what
+    is told of a part that came or went, if not its name; `in_code` is the class of a fact of a part that both sides
+    have, given the part on both sides, the fact (empty for parts of it) and its usual class.
     """
 
     kind: str
     listed: Callable[[Exported], Iterable[Exported]]
     facts: Mapping[str, Fact | Parts]
     keys: tuple[str, ...]
-    alike: tuple[str, ...] = ()
+    alike: tuple[str | Fact, ...] = ()
     added: Weight = COMPATIBLE
     removed: Weight = API
     renamed: Weight = API
     whole: str = ""
+    shown: Callable[[Exported], Any] = itemgetter("name")
+    in_code: Callable[[Exported, Exported, str, str], str] = lambda _old, _new, _fact, weight: weight
 
 
 Table: TypeAlias = Mapping[str, Fact | Parts]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Group, Message, Point, Telegram
 
-FORMAT = 4
+FORMAT = 5
 """The version of the exported shape."""
 
 

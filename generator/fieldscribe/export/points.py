@@ -68,6 +68,7 @@ def export_point(
         "raw": _raw(point),
         "enum": None if point.enum is None else _names(point.enum),
         "enum_name": None if enum is None else enum.name,
+        "enum_was": [] if enum is None else list(enum.was),
         "open": _is_open(point.enum),
         "flags": [_flag(flag) for flag in point.flags],
         "digits": None if point.digits is None else {"count": point.digits.count, "enum": _names(point.digits.enum)},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.asked import RefusedError
 from fieldscribe.records import dataclass, field
@@ -50,6 +50,18 @@ class Item:
         }
 
 
+class Captured(Protocol):
+    """A frame as it was captured."""
+
+    @property
+    def shown(self) -> str:
+        """The frame in the notation of its users."""
+
+    @property
+    def details(self) -> Mapping[str, object]:
+        """When and where it was captured, for JSON."""
+
+
 @dataclass(frozen=True, slots=True)
 class Heard:
     """One frame in words.
@@ -57,8 +69,8 @@ class Heard:
     `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
     are other remarks.
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
-    `details` are further facts of the family for JSON. `shown` is the frame in the notation of its users, where that
-    is not plain bytes.
+    `details` are further facts of the family for JSON. `captured` is the frame as its users write it, where that is not
+    plain bytes.
     """
 
     data: bytes
@@ -74,7 +86,7 @@ class Heard:
     notes: tuple[str, ...] = ()
     exception: int | None = None
     details: Mapping[str, object] = field(default_factory=dict)
-    shown: str = ""
+    captured: Captured | None = None
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -86,6 +98,7 @@ class Heard:
             "function": self.function,
             "exception": self.exception,
             **self.details,
+            **({} if self.captured is None else self.captured.details),
             "summary": self.summary,
             "items": [item.as_data() for item in self.items],
             "checks": self.checks,
@@ -93,14 +106,6 @@ class Heard:
             "findings": list(self.findings),
             "notes": list(self.notes),
         }
-
-    def saying(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> Heard:
-        """The same frame with what it says about points, and with more findings and notes."""
-        return Heard(
-            self.data, self.framing, self.kind, self.unit, self.function, self.summary,
-            items, self.checks, self.faults, self.findings + findings, self.notes + notes,
-            self.exception, self.details, self.shown,
-        )  # fmt: skip
 
     @property
     def wrong(self) -> bool:

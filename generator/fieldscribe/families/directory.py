@@ -25,6 +25,7 @@ class Directory:
 
     def __init__(self, device: Device) -> None:
         self._at: dict[Where, list[Found]] = {}
+        self._points: dict[Where, list[Point]] = {}
         indexed = family(device.family).indexed
         # points that the chosen variants lack come last, so that present points win their places
         for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
@@ -52,7 +53,10 @@ class Directory:
 
     def at(self, where: str, address: int, index: int = 0) -> list[Point]:
         """The points that have a word at this address."""
-        return list({point.item: point for point, _ in self.places(where, address, index)}.values())
+        place = where, address, index
+        if place not in self._points and place in self._at:  # as many as the device has
+            self._points[place] = list({point.item: point for point, _ in self._at[place]}.values())
+        return self._points.get(place, [])
 
     def starting_at(self, where: str, address: int) -> list[Found]:
         """The points whose lowest address is this one, each with its place."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
-from fieldscribe.families.answers import Item
+from fieldscribe.families.answers import Heard, Item
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.answers import Captured
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Telegram
 
@@ -87,10 +87,11 @@ class Pieces(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Some words of a telegram that comes in several frames."""
+    """Some words of a telegram that comes in several frames: their positions, and those received so far."""
 
     telegram: Telegram
     positions: range
+    words: tuple[int, ...]
     pieces: Pieces
 
 
@@ -98,9 +99,19 @@ Carried = Span | Element | Word | ProcessData | Masks | Piece | Item
 
 
 @dataclass(frozen=True, slots=True)
+class Framed:
+    """What a frame has for itself: its bytes, what its checksum says, and how it was captured."""
+
+    data: bytes
+    checks: str = ""
+    captured: Captured | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Spoken:
     """One decoded frame, before its contents are matched with points.
 
+    `heard` may be what its head says, which many frames have alike: what is `own` to this one is apart then.
     `party` is the unit that takes part, `exchange` tells exchanges apart that are open at the same time. `asks` is the
     request, if the frame is one. `silent`: nobody answers it. `answers`: it closes the open request. `binds`: as an
     expected request it stays open for all frames that follow.
@@ -114,6 +125,16 @@ class Spoken:
     silent: bool = False
     answers: bool = False
     binds: bool = False
+    own: Framed | None = None
+
+    def saying(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> Heard:
+        """The frame with what it says about points, and with more findings and notes."""
+        head = self.heard
+        own = self.own or Framed(head.data, head.checks, head.captured)
+        return Heard(
+            own.data, head.framing, head.kind, head.unit, head.function, head.summary, items, own.checks, head.faults,
+            head.findings + findings, head.notes + notes, head.exception, head.details, own.captured,
+        )  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -190,6 +211,21 @@ class Recent(Generic[Key, Kept]):
         self._kept[key] = kept
         if len(self._kept) > _MOST_KEPT:
             del self._kept[next(iter(self._kept))]
+        return kept
+
+
+class Remembered(dict[Key, Kept]):
+    """What was worked out under a key; all of it is forgotten when it becomes too much: a stream may last for days."""
+
+    def __init__(self, most: int, make: Callable[[Key], Kept]) -> None:
+        super().__init__()
+        self._most, self._make = most, make
+
+    def __missing__(self, key: Key) -> Kept:
+        kept = self._make(key)
+        if len(self) >= self._most:
+            self.clear()
+        self[key] = kept
         return kept
 
 

@@ -21,12 +21,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What the caller says: columns by role, the space, and which tables (by number, or lines first..last)."""
+    """What the caller says: columns by role, the space, and which tables (by number, or lines first..last).
+
+    `ranges` says what columns of ranges hold that do not show it: `raw` numbers, or values in `units`.
+    """
 
     columns: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     space: str | None = None
     tables: tuple[int, ...] = ()
     lines: tuple[int, int] | None = None
+    ranges: str | None = None
 
 
 class Seen(NamedTuple):
@@ -62,7 +66,9 @@ def draft(tables: Sequence[Table], wishes: Wishes) -> Drafted:
             shown.setdefault(_range_head(entry.columns), Counter()).update(shows_of_range(rows, entry.columns))
     columns = {head: counts.most_common(1)[0][0] for head, counts in shown.items() if counts}
     language = language_of(head for entry in seen if entry.taken for head in entry.columns.heads)
-    groups = grouped([(*entry, columns.get(_range_head(entry[0].columns))) for entry in read], wishes.space)
+    groups = grouped(
+        [(*entry, columns.get(_range_head(entry[0].columns), wishes.ranges)) for entry in read], wishes.space
+    )
     each_once(groups)
     limits_known(groups)
     groups = [group for group in groups if group.points]

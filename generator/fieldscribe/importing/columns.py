@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _NUMBER = re.compile(r"0x[0-9A-F]+|[0-9A-F]*\d[0-9A-F]*\s?h?", re.IGNORECASE)
 _ADDRESS = re.compile(r"[\s/,;()\[\]-]*(?:(?:0x|[hH]')?[0-9A-Fa-f]{1,6}\s?[hH]?[\s/,;()\[\].-]*){1,4}|[-—–]|h?")
-_CODE = re.compile(r"[A-Za-z]{1,4}[-. ]?\d{1,4}(?:[.-]\d{1,3})*(?:\[-?\d+\])?(?:\s*\(.*\))?")
+_CODE = re.compile(r"[A-Za-z]{1,4}[-. ]?\d{1,4}(?:[.-]\d{1,3})*(?:\s?\[-?\d+\])?(?:\s*\(.*\))?")
 _ACCESS = re.compile(
     r"(?:r|w|r ?/ ?w|rw|r/o|w/o|ro|wo|read(?:[ /-]?only)?|write(?:[ /-]?only)?|read ?/ ?write|[-—–]?)", re.IGNORECASE
 )
@@ -125,6 +125,8 @@ def _by_heads(heads: tuple[str, ...], body: list[tuple[str, ...]]) -> dict[str, 
     if len(names) > 1:  # the first is the name, the others tell more
         places["description"] = [*names[1:], *places.get("description", [])]
         places["name"] = names[:1]
+    elif not names and "code" in places and "description" in places:
+        places["name"] = [places["description"].pop(0)]
     return {role: tuple(at) for role, at in places.items() if at}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing import yaml_text
@@ -9,10 +10,12 @@ from fieldscribe.importing.naming import Names, snake
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from fieldscribe.importing import Drafted
     from fieldscribe.importing.drafts import DraftErratum, DraftGroup, DraftPoint
+
+    Titled = Callable[[str], str]
 
 _MEANINGS = ("range_in_units", "resolution", "choices")
 
@@ -97,7 +100,7 @@ def _group(group: DraftGroup, language: str) -> list[str]:
         lines.append(yaml_text.question("no addresses are printed: which follow from the codes?"))
     lines.append("points:")
     for point in group.points:
-        lines += _point(point, access, group, language)
+        lines += point_lines(point, access, group.section, partial(_titled, language=language))
     errata = [(point, erratum) for point in group.points for erratum in point.errata]
     if errata:
         lines += [yaml_text.question("misprints, as other printed numbers show them: is that so?"), "errata:"]
@@ -117,18 +120,21 @@ def _titled(title: str, language: str) -> str:
     return f"{{en: {words}}}" if language == "en" else f"{{en: {words}, {language}: {words}}}"
 
 
-def _point(point: DraftPoint, access: str | None, group: DraftGroup, language: str) -> list[str]:
-    lines = list(_facts(point, access, group, language))
+def point_lines(point: DraftPoint, access: str | None, section: str, titled: Titled) -> list[str]:
+    """A point of a group that has this access and section; `titled` writes the titles of a text of the table."""
+    lines = list(_facts(point, access, section, titled))
     return [f"- {lines[0]}", *(f"  {line}" for line in lines[1:])]
 
 
-def _facts(point: DraftPoint, access: str | None, group: DraftGroup, language: str) -> Iterator[str]:
+def _facts(point: DraftPoint, access: str | None, section: str, titled: Titled) -> Iterator[str]:
     """The lines of a point, in the order of our descriptions; its questions come last."""
     if point.code:
         yield f"code: {yaml_text.text(point.code)}"
     yield f"name: {point.name}"
-    yield f"title: {_titled(point.title or point.name, language)}"
+    yield f"title: {titled(point.title or point.name)}"
     yield f"at: {point.shown}"
+    if point.index is not None:
+        yield f"index: {point.index}"
     if point.bits:
         yield f"bits: {point.bits}"
     if point.access and point.access != access:
@@ -136,8 +142,8 @@ def _facts(point: DraftPoint, access: str | None, group: DraftGroup, language: s
     if point.reserved:
         yield "reserved: yes"
     else:
-        yield from _meaning(point, language)
-    if point.section and point.section != group.section:
+        yield from _meaning(point, titled)
+    if point.section and point.section != section:
         yield f"section: {yaml_text.text(point.section)}"
     yield f"line: {point.line}"
     if point.lines:
@@ -148,7 +154,7 @@ def _facts(point: DraftPoint, access: str | None, group: DraftGroup, language: s
     yield from map(yaml_text.question, point.questions)
 
 
-def _meaning(point: DraftPoint, language: str) -> Iterator[str]:
+def _meaning(point: DraftPoint, titled: Titled) -> Iterator[str]:
     facts = {
         "type": point.type,
         "length": point.length,
@@ -162,25 +168,25 @@ def _meaning(point: DraftPoint, language: str) -> Iterator[str]:
     }
     yield from (f"{key}: {value}" for key, value in facts.items() if value)
     if point.special:
-        codes = (f"{number}: {_writable(label, language)}" for number, label in point.special.items())
+        codes = (f"{number}: {_writable(label, titled)}" for number, label in point.special.items())
         yield f"special: {{{', '.join(codes)}}}"
     for key, told in (("enum", point.labels), ("flags", point.flags)):
         if told:
             yield f"{key}:"
-            yield from (f"  {line}" for line in _names(told, "title" if key == "flags" else "", language))
+            yield from (f"  {line}" for line in _names(told, "title" if key == "flags" else "", titled))
 
 
-def _names(told: Mapping[int, str] | Mapping[str, str], key: str, language: str) -> Iterator[str]:
+def _names(told: Mapping[int, str] | Mapping[str, str], key: str, titled: Titled) -> Iterator[str]:
     """A line for each number or bit with a name."""
     names = Names()
     for number, label in told.items():
-        name, titles = yaml_text.text(names.give(snake(label, "number"), str(number))), _titled(label, language)
+        name, titles = yaml_text.text(names.give(snake(label, "number"), str(number))), titled(label)
         yield f"{number}: {{name: {name}, {f'{key}: {titles}}}' if key else titles[1:]}"
 
 
-def _writable(label: str, language: str) -> str:
+def _writable(label: str, titled: Titled) -> str:
     """A special code that may be written."""
-    return f"{{name: {yaml_text.text(snake(label, 'code'))}, writable: yes, {_titled(label, language)[1:]}"
+    return f"{{name: {yaml_text.text(snake(label, 'code'))}, writable: yes, {titled(label)[1:]}"
 
 
 def _printed(point: DraftPoint) -> str:

@@ -27,6 +27,7 @@ class DraftPoint:
     section: str = ""
     at: int | None = None
     shown: str = "~"
+    index: int | None = None
     type: str | None = None
     length: int | None = None
     words: str | None = None

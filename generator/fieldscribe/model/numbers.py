@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, field
 
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always present."""
@@ -41,12 +41,16 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Enum:
-    """Names of numbers. `name` is unique in the device; a closed enum allows only its own numbers."""
+    """Names of numbers. `name` is unique in the device; a closed enum allows only its own numbers.
+
+    `was` are the names that it had when the point that it is called after had its old ones; it follows from those.
+    """
 
     name: str
     title: Titles
     entries: tuple[Entry, ...]
     closed: bool
+    was: tuple[str, ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True, slots=True)

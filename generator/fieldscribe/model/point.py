@@ -236,6 +236,20 @@ class Point:
         return item_of(self.name, self.variant)
 
     @property
+    def rank(self) -> tuple[bool, str, int]:
+        """What is shown or tried once for many is so at the point of least rank: by address; none is last.
+
+        New points mostly have addresses behind those of old ones, wherever they stand in the description.
+        """
+        addresses = self.place.addresses
+        return not addresses, self.space, min(addresses, default=0)
+
+    @property
+    def old_items(self) -> tuple[str, ...]:
+        """The old names in generated code."""
+        return tuple([item_of(old, self.variant) for old in self.was])
+
+    @property
     def arguments(self) -> tuple[str, ...]:
         """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))

@@ -30,7 +30,9 @@ def keep_up(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> Non
     Outputs are named as they were asked for, which is how a build knows them.
     """
     made = list(outputs)
-    needed = [Path(os.path.abspath(path)) for path in (*inputs, *compiler_files())]  # builds run elsewhere than we do
+    needed = [
+        Path(os.path.abspath(path)) for path in (*inputs, *map(Path, compiler_files()))
+    ]  # builds run elsewhere than we do
     write_depfile(place, made, needed)
     newest = max(path.stat().st_mtime_ns for path in needed)
     for path in made:

@@ -11,7 +11,6 @@ import json
 import os
 import sys
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
@@ -22,6 +21,7 @@ from fieldscribe.resources import compiler_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
     from fieldscribe.reading import Inputs, State
 

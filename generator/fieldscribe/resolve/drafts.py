@@ -131,6 +131,15 @@ class Draft:
         return f"{row}{self.name.removeprefix(first)}"
 
     @property
+    def old_enum_names(self) -> tuple[str, ...]:
+        """What an enum in this row was called when the row, or the member of its record, had its old names."""
+        head = ""
+        if self.use is not None:
+            head = f"{self.use['name' if self.enum_name.startswith(self.name) else 'record']}_"
+        rest = self.enum_name.removeprefix(f"{head}{self.row['name']}")
+        return tuple(f"{head}{old}{rest}" for old in self.get("was", ()))
+
+    @property
     def row(self) -> Map:
         """The row that the point comes from, also where a further set has facts of its own."""
         return next((layer for layer in self.layers if "name" in layer), self.own)

@@ -30,14 +30,16 @@ def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
     raw = draft.get("enum")
     if raw is None:
         return None
-    name, entries = (raw, scope.named_enums.get(raw)) if isinstance(raw, str) else (draft.enum_name, raw)
+    is_shared = isinstance(raw, str)
+    name, entries = (raw, scope.named_enums.get(raw)) if is_shared else (draft.enum_name, raw)
     if entries is None:
         scope.unknown("enum", name, draft.span("enum"), scope.named_enums)
         draft.failed.add("enum")
         return None
     key = (name, id(entries), closed)
     if key not in scope.enums:
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed)
+        was = () if is_shared else draft.old_enum_names
+        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed, was)
     if entries.broken or len(scope.enums[key].entries) < len(entries):
         draft.failed.add("enum")  # some of its names are not known
     return scope.enums[key]

@@ -113,7 +113,7 @@ class Meanings:
         enum = shape.enum
         if enum is None or enum.name == name or not isinstance(draft.get("enum"), Map):
             return meaning
-        own = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed)
+        own = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed, draft.old_enum_names)
         return meaning._replace(shape=self._interner.shape(replace(shape, enum=own)))
 
 

@@ -60,16 +60,16 @@ def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     if node is None:
         return None
     raw_enum = node["enum"]
-    name, entries = (
-        (raw_enum, scope.named_enums.get(raw_enum)) if isinstance(raw_enum, str) else (draft.enum_name, raw_enum)
-    )
+    is_shared = isinstance(raw_enum, str)
+    name, entries = (raw_enum, scope.named_enums.get(raw_enum)) if is_shared else (draft.enum_name, raw_enum)
     if entries is None:
         scope.unknown("enum", name, node.span("enum"), scope.named_enums)
         draft.failed.add("digits")
         return None
     key = (name, id(entries), True)
     if key not in scope.enums:
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), True)
+        was = () if is_shared else draft.old_enum_names
+        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), True, was)
     enum = scope.enums[key]
     misfit = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
     if misfit is not None:

@@ -13,8 +13,9 @@ class Owner(NamedTuple):
 
     Kinds are `device`, `variant`, `group`, `command`, `message`, `telegram`, `exception`, `function`, `response`,
     `special codes` that many points share, `enum` with its parts (`entry`), and `point` (by item) with its own: `flag`
-    and its `value`, special `code`, `old name`, `numbering`. What a target itself needs has the kind `target`, and its
-    name is a description in words.
+    and its `value`, special `code`, `old name`, `numbering`. What points share without a name in the description (a
+    `struct`, a `rule`, a `table of ranges`) is called by what it holds. What a target itself needs has the kind
+    `target`, and its name is a description in words.
     """
 
     kind: str

@@ -24,7 +24,8 @@ _POINTS_IN_A_HEAD = 60
 class Wish:
     """What a project wants of a device: a language, some points (none: all), and how.
 
-    `name` is what the device is called in code, where that is not its id. `frames` and `single_file` are for C.
+    `name` is what the device is called in code, where that is not its id. `frames` and `single_file` are for C, `wheel`
+    for Python.
     """
 
     language: str
@@ -32,6 +33,7 @@ class Wish:
     name: str | None = None
     frames: bool = True
     single_file: bool = False
+    wheel: bool = False
 
     def command(self, device: str) -> str:
         """The command that makes the files anew."""
@@ -43,17 +45,30 @@ class Wish:
             words += ["--points", points if len(points) <= _POINTS_IN_A_HEAD else "..."]
         words += ["--single-file"] if self.single_file else []
         words += [] if self.frames else ["--no-frames"]
+        words += ["--wheel"] if self.wheel else []
         return " ".join(words)
 
     def as_data(self, device: str) -> dict[str, object]:
         """What a manifest says of it."""
         said: dict[str, object] = {"device": device, "points": list(self.points)}
         said |= {} if self.frames else {"frames": False}
-        return said | ({"single_file": True} if self.single_file else {})
+        return said | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
+
+
+def contents_of(device: Device, wish: Wish) -> Iterator[tuple[str, bytes]]:
+    """The files that the wish asks for. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
+    texts = dict(files_of(device, wish))
+    if wish.wheel:
+        from fieldscribe.vendoring.wheel import wheel_of
+
+        yield wheel_of(texts, wish.name or device.id)
+        texts = {LICENCE: texts[LICENCE]}
+    for path, text in texts.items():
+        yield path, text.encode()
 
 
 def files_of(device: Device, wish: Wish) -> Iterator[tuple[str, str]]:
-    """The files that the wish asks for. Raises UnclearError."""
+    """The texts that the wish is about. Raises UnclearError."""
     from fieldscribe.render import render
     from fieldscribe.resources import templates_dir
     from fieldscribe.targets import target

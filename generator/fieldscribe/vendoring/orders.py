@@ -11,7 +11,7 @@ from fieldscribe.output.manifests import VENDORED, Manifests
 from fieldscribe.output.plan import plan_of
 from fieldscribe.reading import read_regular
 from fieldscribe.records import dataclass, field
-from fieldscribe.vendoring.files import files_of
+from fieldscribe.vendoring.files import contents_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -90,7 +90,7 @@ def compare(order: Order) -> Delivery:
 def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = False) -> Delivery:
     """Write what differs, under the lock of the folder; nothing where a foreign file is in the way.
 
-    Raises UnclearError and OSError.
+    Raises UnclearError, ModuleNotFoundError and OSError.
     """
     from fieldscribe.output.lock import only_run
     from fieldscribe.output.writing import carry_out
@@ -109,7 +109,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
 def _made(order: Order) -> Made:
     from fieldscribe.output.spool import kept
 
-    return {order.wish.language: {path: kept(text.encode()) for path, text in files_of(order.device, order.wish)}}
+    return {order.wish.language: {path: kept(data) for path, data in contents_of(order.device, order.wish)}}
 
 
 def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:

@@ -103,6 +103,7 @@ class _Reader:
                 said.get("as"),
                 frames=said.get("frames", True),
                 single_file=said.get("single_file", False),
+                wheel=said.get("wheel", False),
             )
             yield Wanted(said["device"], self._span(number, "device"), wish, out)
 

@@ -27,7 +27,7 @@ def exact(numerator: int, denominator: int = 1) -> str:
     numerator, denominator = numerator // common, denominator // common
     if denominator == 1:
         return str(numerator)
-    places = _decimal_places(denominator)
+    places = decimal_places(denominator)
     if places is None:
         return f"{numerator}/{denominator}"
     return _decimal(numerator * 10**places // denominator, places)
@@ -36,6 +36,12 @@ def exact(numerator: int, denominator: int = 1) -> str:
 def number_text(number: Fraction) -> str:
     """An exact fraction as text, see `exact`."""
     return exact(number.numerator, number.denominator)
+
+
+def shortest(count: int, places: int) -> str:
+    """A count of 10^-places as a decimal without zeros at its end: `0.5`."""
+    text = _decimal(count, places)
+    return text.rstrip("0").rstrip(".") if places else text
 
 
 def rounded(numerator: int, denominator: int, decimals: int) -> str:
@@ -54,7 +60,7 @@ def times_text(start: str, numerator: int, denominator: int) -> str:
     if numerator == denominator:
         return start
     if numerator == 1:
-        places = _decimal_places(denominator)
+        places = decimal_places(denominator)
         return f"{start} / {denominator}" if places is None or places > _SHORT else f"{start} x {exact(1, denominator)}"
     decimal = exact(numerator, denominator)
     if "/" in decimal or len(decimal.partition(".")[2]) > _SHORT:
@@ -93,7 +99,7 @@ def _decimal(count: int, places: int) -> str:
 
 
 @lru_cache(maxsize=4096)
-def _decimal_places(denominator: int) -> int | None:
+def decimal_places(denominator: int) -> int | None:
     """How many decimals a reduced fraction over `denominator` has; None when they never end."""
     twos = (denominator & -denominator).bit_length() - 1
     rest, fives = denominator >> twos, 0

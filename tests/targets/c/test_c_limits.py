@@ -153,9 +153,10 @@ def tries(made: Device) -> Iterator[str]:
     known = {each.name: each for each in made.points}
     for name, one in POINTS.items():
         given = known[name].limit_arguments
+        struct = f"limits_with_{'_and_'.join(given)}"
         for raws, end in one.ends.items():
             values = ", ".join(f"{raw}U" if raw > 0x7FFF else str(raw) for raw in raws)
-            others = values if len(given) == 1 else f"(&(const limits_{name}_with){{{values}}})"
+            others = values if len(given) == 1 else f"(&(const {struct}){{{values}}})"
             if end is None:
                 yield f"HOLDS(limits_{name}_check({max(one.outermost)}, {others}), FIELDSCRIBE_ZERO_FACTOR)"
                 continue

@@ -488,7 +488,7 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
         sample_device(tuple(replace(one, title=titles(evil), code=quoteless) for one in sample_device().points)),
         title=titles(evil),
         vendor=evil,
-        version=evil,
+        version="1.0.0",  # the language takes no other, nor does pip
     )
     folder = write_package(hostile, tmp_path)
     for package in imported(folder, "sample_drive"):
@@ -666,15 +666,18 @@ def test_help_shows_how_a_device_is_used(folder: Path) -> None:
         drive, awaited = package.SampleDrive, package.SampleDriveAsync
         for text in (package.__doc__, drive.__doc__):
             lines = [line.strip() for line in text.splitlines()]
-            assert lines[2:8] == [
-                "drive = SampleDrive(transport, 1, voltage_class='200V')",
-                "drive.base_frequency.read()",
-                "drive.base_frequency.write(value)",
+            assert lines[2:11] == [
+                "from fieldscribe_runtime.transports.serial import SerialLine",
+                "",
+                "with SerialLine('/dev/ttyUSB0', 9600) as line:",
+                "drive = SampleDrive(line, 1, voltage_class='200V')",
+                "print(drive.acceleration_time.read())",
+                "drive.acceleration_time.write(value)",
                 "drive.read_many('main')",
-                "SampleDrive.base_frequency.decode(raw)",
-                "help(SampleDrive.base_frequency)",
+                "SampleDrive.acceleration_time.decode(raw)",
+                "help(SampleDrive.acceleration_time)",
             ]
-        assert "await drive.base_frequency.read()" in awaited.__doc__
+        assert "await drive.acceleration_time.read()" in awaited.__doc__
         assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
         told = pydoc.plain(pydoc.render_doc(drive))
         assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
 from ..errors import ExceptionReplyError, FrameError, RequestError, WrongTypeError
+from ..receiving import whole
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -182,13 +183,7 @@ def receive(read: Callable[[int], bytes], framing: str = RTU) -> bytes:
 
     Raises TimeoutError then, and FrameError as `reply_size` does.
     """
-    received = b""
-    while (size := reply_size(received, framing)) is None or len(received) < size:
-        more = read(1 if size is None else size - len(received))
-        if not more:
-            raise TimeoutError(f"{len(received)} bytes came and no more")
-        received += more
-    return received
+    return whole(read, lambda received: reply_size(received, framing))
 
 
 _LONGEST = {RTU: 256, TCP: 260}

@@ -1,14 +1,18 @@
 """A manual that changed: what its new edition means for a description, line by line.
 
 words.py        a text as words, in which layout counts for nothing
-matching.py     which words of the old text are which of the new one
-changes.py      lines that were changed, added, removed, moved
+matching.py     which words of the old text are which of the new one (swaps.py: of lines that changed places)
+changes.py      lines that were changed, added, removed, moved (parting.py: rows that went or came, each by itself)
 citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact
 explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words)
-drafts.py       what a new row seems to be, with its YAML
+notes.py        which sentences of the description say what changed
+drafts.py       what new rows seem to be: likeness.py (as the rows beside them are written), new_groups.py
+                (the group of a new table), titles.py (English where it is known)
+joining.py      what is one change for a reader: equal ones, swaps, several lines of one fact
+remarks.py      what holds no fact (furniture.py: heads and feet of pages)
 comparing.py    all of it together; findings.py: as plain data; report.py: as lines
-places.py       where the files cite lines; renumbering.py: writing them anew
+places.py       where the files cite lines; renumbering.py: writing them anew; accepting.py: recording the new edition
 """
 
 from fieldscribe.audit.editions.citations import Citations

@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
+from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.words import Words, pressed
 from fieldscribe.records import dataclass
 
@@ -49,8 +50,11 @@ class Editions:
         self.old, self.new = Words(old), Words(new)
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
+        self._part_unlike_rows()
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
+        self._instead = _in_place(self.changes)
+        self._then_instead = {new: old for old, new in self._instead.items()}
         self._now: dict[int, Lines | None] = {}
         self._then: dict[int, Lines | None] = {}
         self.moves = tuple(self._moves())
@@ -60,13 +64,13 @@ class Editions:
     def now(self, line: int) -> Lines | None:
         """The lines (first, last) of the new edition that have what a line of the old one says; None if it is gone."""
         if line not in self._now:
-            self._now[line] = _there(line, self.old, self.new, self._there)
+            self._now[line] = _there(line, self.old, self.new, self._there) or _one(self._instead.get(line))
         return self._now[line]
 
     def then(self, line: int) -> Lines | None:
         """The same turned round: the lines of the old edition."""
         if line not in self._then:
-            self._then[line] = _there(line, self.new, self.old, self._back)
+            self._then[line] = _there(line, self.new, self.old, self._back) or _one(self._then_instead.get(line))
         return self._then[line]
 
     def is_new(self, word: int) -> bool:
@@ -94,8 +98,24 @@ class Editions:
             self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
         return True
 
+    def _part_unlike_rows(self) -> None:
+        """A row that shares hardly a word with the one in its place is another row."""
+        for group in _grouped([self._with_lines(gap) for gap in self._matching.gaps()]):
+            olds, news = {line for _, old, _ in group for line in old}, {line for _, _, new in group for line in new}
+            if len(olds) == len(news) == 1 and self._are_unlike(old := olds.pop(), new := news.pop()):
+                self._matching.forget(self.old.of_line(old))
+                self._matching.forget_new(self.new.of_line(new))
+
+    def _are_unlike(self, old: int, new: int) -> bool:
+        here = [word for word in self.old.of_line(old) if self.old.texts[word].isalnum()]
+        there = [word for word in self.new.of_line(new) if self.new.texts[word].isalnum()]
+        shared = sum(self._there[word] in there for word in here)
+        texts = [self.old.texts[word] for word in here], [self.new.texts[word] for word in there]
+        return are_unlike(self.old.line(old), self.new.line(new), texts, shared)
+
     def _changes(self, gaps: Iterable[Gap]) -> Iterator[Change]:
-        for group in _grouped([self._with_lines(gap) for gap in gaps]):
+        pieces = [piece for gap in gaps for piece in parted(self.old, self.new, gap)]
+        for group in _grouped([self._with_lines(piece) for piece in pieces]):
             olds = tuple(sorted({line for _, old, _ in group for line in old}))
             news = tuple(sorted({line for _, _, new in group for line in new}))
             words = tuple((range(*gap[:2]), range(*gap[2:])) for gap, _, _ in group)
@@ -123,13 +143,18 @@ class Editions:
         for line in range(1, len(self.old.lines) + 2):
             words = self.old.of_line(line)
             now = self.now(line) if words else None
-            has_moved = now is not None and all(word in self._matching.moved or self.is_gone(word) for word in words)
+            has_moved = now is not None and self._has_moved(words)
             if now is not None and has_moved and (not run or run[-1][1] <= now[0] <= run[-1][1] + _NEAR):
                 run.append((line, now[0]))
             elif words or line > len(self.old.lines):
                 if run:
                     yield Move(run[0][0], run[-1][0], run[0][1])
                 run = [(line, now[0])] if now is not None and has_moved else []
+
+    def _has_moved(self, words: range) -> bool:
+        """Whether all that is left of a line moved."""
+        left = [word for word in words if not self.is_gone(word)]
+        return bool(left) and self._matching.moved.issuperset(left)
 
     def counts(self) -> dict[str, int]:
         """How many lines of each kind there are."""
@@ -138,6 +163,16 @@ class Editions:
             count[change.kind] += len(change.new or change.old)
         count["moved"] = sum(move.last - move.first + 1 for move in self.moves)
         return dict(count)
+
+
+def _in_place(changes: Iterable[Change]) -> dict[int, int]:
+    """Which line of the new edition stands in the place of an old one that was changed, where as many do."""
+    alike = (change for change in changes if len(change.old) == len(change.new))
+    return {old: new for change in alike for old, new in zip(change.old, change.new, strict=True)}
+
+
+def _one(line: int | None) -> Lines | None:
+    return None if line is None else (line, line)
 
 
 def _there(line: int, here: Words, other: Words, counterparts: list[int]) -> Lines | None:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
 from fieldscribe.audit.claims import by_line, claims_of
-from fieldscribe.audit.comparison import Asked
 from fieldscribe.audit.editions.tracing import Trace
+from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
 from fieldscribe.records import dataclass, replace
 
@@ -40,6 +40,8 @@ class LookedThrough:
     place: Span
     spans: tuple[tuple[int, int], ...]
     """The lines (first, last) as they are written."""
+    beside: frozenset[str] = frozenset()
+    """The points of the same group."""
 
 
 @dataclass(slots=True)
@@ -144,10 +146,10 @@ class Citations:
     def is_of_new(self, passage: LookedThrough) -> bool:
         """Whether lines that were looked through are counted as in the new edition.
 
-        They are if all of them are new and have the numbers, and if in the old edition facts or other passages cite
-        all of them.
+        They are if all points of their group do, or if all of them are new and have the numbers, and if in the old
+        edition facts or other passages cite all of them.
         """
-        if self.all_count_new:
+        if self.all_count_new or (passage.beside and passage.beside <= self.counts_new):
             return True
         editions = self.editions
         news = {line for line in passage.lines if editions.new.of_line(line)}
@@ -201,11 +203,12 @@ class Citations:
 def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:
     """What the description says under `looked_through`."""
     for file in files:
+        beside = frozenset(str(point.get("name")) for point in file.get("points", ()))
         for passage in file.get("looked_through", ()):
             spans = list(spans_of(passage["lines"]))
             lines = frozenset(line for first, last in spans for line in range(first, max(first, last) + 1))
             numbers = frozenset(map(str, passage.get("numbers", ())))
-            yield LookedThrough(lines, numbers, passage.span("lines"), tuple(spans))
+            yield LookedThrough(lines, numbers, passage.span("lines"), tuple(spans), beside)
 
 
 def _distance(place: Span, other: Span) -> tuple[bool, int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.citing import Claim
@@ -9,23 +11,28 @@ from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.citations import Citations
 from fieldscribe.audit.editions.drafts import Drafts
 from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
-from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Reason, Void
+from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Place, Reason, Void
+from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere, with_void
+from fieldscribe.audit.editions.notes import Notes
+from fieldscribe.audit.editions.remarks import Remarks
 from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK
 from fieldscribe.audit.manual import Manual
 from fieldscribe.audit.wordings import Wordings
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.audit.editions.changes import Change, Move
+    from fieldscribe.audit.editions.tracing import Trace
+    from fieldscribe.audit.editions.words import Words
+    from fieldscribe.audit.manual import Extent
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.subject import Subject
 
-_LONGEST = 160
-"""Findings show at most so many characters of a line."""
+_NO_WORDS: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +44,10 @@ class Edition:
     is_recorded: bool | None
 
 
-def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, Citations]:
-    """What the new edition means for the description, and what that cites."""
+def compare(
+    subject: Subject, old: Edition, new: Edition, glossary: Mapping[str, str] = _NO_WORDS
+) -> tuple[Comparison, Citations]:
+    """What the new edition means for the description, and what that cites; the glossary gives drafts English titles."""
     editions = Editions(old.text, new.text)
     citations = Citations(subject, editions)
     names = Wordings(subject.scope.header["documents"]).names
@@ -46,12 +55,20 @@ def compare(subject: Subject, old: Edition, new: Edition) -> tuple[Comparison, C
     citations.settle(*manuals, accepted=bool(new.is_recorded))
     device = str(subject.scope.header["device"])
     outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
-    _Comparing(subject, citations, *manuals, outcome).run()
+    _Comparing(subject, citations, manuals, outcome, glossary).run()
     return outcome, citations
 
 
 class _Comparing:
-    def __init__(self, subject: Subject, citations: Citations, old: Manual, new: Manual, outcome: Comparison) -> None:
+    def __init__(
+        self,
+        subject: Subject,
+        citations: Citations,
+        manuals: tuple[Manual, Manual],
+        outcome: Comparison,
+        glossary: Mapping[str, str],
+    ) -> None:
+        old, new = manuals
         self.citations, self.editions, self.outcome = citations, citations.editions, outcome
         in_old, in_new = citations.in_old(), citations.in_new()
         self.old = in_old.trace(old, self.editions.old)
@@ -59,22 +76,27 @@ class _Comparing:
         pairs = list(map(Pair, citations.claims, in_old.claims, in_new.claims))
         self._looked_through = in_new.looked_through
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
-        self.drafts = Drafts(subject, self.new, pairs)
+        self.drafts = Drafts(subject, self.editions, pairs, glossary)
+        self.notes = Notes(subject, self.old, self.editions)
         self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
 
     def run(self) -> None:
         """All findings, in the order of the new edition."""
         outcome, editions = self.outcome, self.editions
+        self._beside = sorted(self._places_by_line().items())
         reasons: dict[int, list[Reason]] = {}
         for number, reason in self._of_gone_lines():
             reasons.setdefault(number, []).append(reason)
-        for number, change in enumerate(editions.changes):
-            all_reasons = (*reasons.get(number, ()), *self.explaining.reasons(number, change))
-            outcome.findings.append(self._finding(number, change, tuple(dict.fromkeys(all_reasons))))
-        moves = [self._of_move(move) for move in editions.moves]
-        outcome.findings = sorted((*outcome.findings, *moves), key=lambda finding: finding.new or (0, 0))
-        outcome.elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
-        outcome.void = list(self._void())
+        findings = [
+            self._finding(number, change, (*reasons.get(number, ()), *self.explaining.reasons(number, change)))
+            for number, change in enumerate(editions.changes)
+        ]
+        outcome.notes = self.notes.stale(zip(editions.changes, findings, strict=True))
+        findings = joined(sorted((*findings, *map(self._of_move, editions.moves)), key=self._order))
+        elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
+        findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
+        findings, outcome.void = with_void(findings, self._void())
+        outcome.findings, outcome.remarks = Remarks(editions, self.new.manual).sort(findings)
         outcome.shifted = self._shifted()
         outcome.renumbered = self.citations.all_count_new
 
@@ -88,39 +110,89 @@ class _Comparing:
 
     def _gone_line(self, name: str, line: int, place: str) -> tuple[int, Reason]:
         changes = (number for number, change in enumerate(self.editions.changes) if line in change.old)
-        return next(changes, -1), Reason(f"{name} cites line {line}, which is gone", place)
+        return next(changes, -1), Reason("gone", f": cited line {line} is gone", place, (name,))
 
     def _named(self, erratum: PrintedErratum) -> tuple[str, str]:
         return f"erratum {erratum.id}", _told(self.citations.place_of_erratum[erratum.id])
 
-    def _finding(self, number: int, change: Change, reasons: tuple[Reason, ...]) -> Finding:
+    def _finding(self, number: int, change: Change, reasons: Iterable[Reason]) -> Finding:
         olds, news = self.editions.old, self.editions.new
-        words = tuple((olds.shown(old), news.shown(new)) for old, new in change.gaps)
+        reasons = said_once(reasons)
         cites = (*self.explaining.cites(number, change), *self._errata_at(change), *self._looked_through_at(change))
         return Finding(
             change.kind,
-            _ends(change.old),
-            _ends(change.new),
+            (Place(_ends(change.old), _ends(change.new)),),
             _shown(olds.lines, change.old),
             _shown(news.lines, change.new),
-            words,
+            _starts(olds, change.old, [old for old, _ in change.gaps]),
+            _starts(news, change.new, [new for _, new in change.gaps]),
+            self._words(change),
             tuple(dict.fromkeys(cites)),
             reasons,
-            tuple(self.drafts.of(line for line in change.new if self._is_new(line))) if reasons else (),
+            tuple(self.drafts.of(change.new)) if reasons else (),
+            "" if cites else self._place_above(change),
         )
 
-    def _is_new(self, line: int) -> bool:
-        words = self.editions.new.of_line(line)
-        return bool(words) and all(map(self.editions.is_new, words))
+    def _words(self, change: Change) -> tuple[tuple[str, str], ...]:
+        """The words that were changed, numbers whole."""
+        olds, news = self.editions.old, self.editions.new
+        pairs: dict[tuple[range, range], None] = {}
+        for old, new in change.gaps:
+            pairs[(olds.whole(old), news.whole(new)) if old and new else (old, new)] = None
+        return tuple((olds.shown(old), news.shown(new)) for old, new in pairs)
+
+    def _places_by_line(self) -> dict[int, str]:
+        """Where the description says what stands on each cited line of the new edition."""
+        places: dict[int, str] = {}
+        for extent, subjects in self.new.subjects.items():
+            for name in subjects:
+                places.setdefault(extent.first, self.explaining.place_of.get(name, ""))
+        return {line: place for line, place in places.items() if place}
+
+    def _place_above(self, change: Change) -> str:
+        """Where the description says what stands above lines that nothing cites; the first place if nothing does."""
+        line = change.new[0] if change.new else self._order_of_old(change.old[0])
+        at = bisect_right(self._beside, line, key=lambda item: item[0])
+        return self._beside[max(0, at - 1)][1] if self._beside else ""
+
+    def _order(self, finding: Finding) -> tuple[int, int]:
+        """Where a finding stands in the new edition; what was removed, below what stood above it."""
+        if finding.new is not None:
+            return finding.new
+        assert finding.old is not None
+        return self._order_of_old(finding.old[0]), len(self.editions.new.lines) + 1
+
+    def _order_of_old(self, line: int) -> int:
+        return next((place[1] for above in range(line - 1, 0, -1) if (place := self.editions.now(above))), 0)
 
     def _errata_at(self, change: Change) -> Iterator[Cite]:
         for erratum, in_old, in_new in self.errata:
-            olds = self.old.extents_of(in_old.cited) if in_old else ()
-            news = self.new.extents_of(in_new.cited) if in_new else ()
+            olds = [self._paragraph(self.old, *span) for span in in_old.cited] if in_old else []
+            news = [self._paragraph(self.new, *span) for span in in_new.cited] if in_new else []
             at = any(line in extent for extent in olds for line in change.old)
-            if at or any(line in extent for extent in news for line in change.new):
+            if at or any(self._is_of(extent, change) for extent in news):
                 name, place = self._named(erratum)
                 yield Cite(name, "", "", place)
+
+    @staticmethod
+    def _paragraph(trace: Trace, first: int, last: int) -> Extent:
+        """What an erratum speaks of: a section if it cites the heading, else the lines up to a blank one."""
+        extent = trace.extent(first, last)
+        if last or extent.kind == "section":
+            return extent
+        lines = range(extent.first, extent.last + 1)
+        blank = next((line for line in lines if not trace.manual.line(line).strip()), extent.last + 1)
+        return replace(extent, last=max(extent.first, blank - 1))
+
+    def _is_of(self, extent: Extent, change: Change) -> bool:
+        """Whether a change is in these lines: what was added is if some of them stand below it, too."""
+        if not any(line in extent for line in change.new):
+            return False
+        below = range(change.new[-1] + 1, extent.last + 1)
+        return change.kind != "added" or any(self._was_there(line) for line in below)
+
+    def _was_there(self, line: int) -> bool:
+        return any(not self.editions.is_new(word) for word in self.editions.new.of_line(line))
 
     def _looked_through_at(self, change: Change) -> Iterator[Cite]:
         lines = set(change.new)
@@ -136,7 +208,7 @@ class _Comparing:
                 cites.update((Cite(name, "", "", self.explaining.place_of.get(name, "")), None) for name in subjects)
         shown = _shown(self.editions.old.lines, (move.first,))
         now = (move.now, move.now + move.last - move.first)
-        return Finding("moved", (move.first, move.last), now, shown, shown, (), tuple(cites), ())
+        return Finding("moved", (Place((move.first, move.last), now),), shown, shown, (0,), (0,), (), tuple(cites), ())
 
     def _void(self) -> Iterator[Void]:
         """Errata that were printed in the old edition and are not in the new one."""
@@ -176,6 +248,15 @@ class _Comparing:
         return sum(place is not None and place[0] != line for line, place in places.items())
 
 
+def _starts(text: Words, lines: tuple[int, ...], gaps: list[range]) -> tuple[int, ...]:
+    """Where in each line, as it is shown, the first of the changed words stands, or what took its place."""
+    first: dict[int, int] = {}
+    for gap in gaps:
+        for word in gap or range(gap.start, min(gap.start + 1, len(text))):
+            first.setdefault(text.line_of[word], text.column_of[word])
+    return tuple(len(" ".join(text.line(line)[: first.get(line, 0)].split())) for line in lines)
+
+
 def _told(span: Span) -> str:
     return f"{span.file}:{span.line}:{span.column}"
 
@@ -185,4 +266,4 @@ def _ends(lines: tuple[int, ...]) -> tuple[int, int] | None:
 
 
 def _shown(text: list[str], lines: tuple[int, ...]) -> tuple[str, ...]:
-    return tuple(" ".join(text[line - 1].split())[:_LONGEST] for line in lines)
+    return tuple(" ".join(text[line - 1].split()) for line in lines)

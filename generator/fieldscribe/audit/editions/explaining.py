@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.editions.findings import Cite, Reason
-from fieldscribe.audit.editions.vocabulary import is_name
+from fieldscribe.audit.editions.vocabulary import is_name, is_respelled
 from fieldscribe.audit.editions.words import Words
 
 if TYPE_CHECKING:
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from fieldscribe.audit.manual import Token
 
 _PARTS = re.compile(r"[.,]")
+_REFERENCE = re.compile(
+    r"\b(?:Seiten?|S\.|pages?|p\.|Kapitel|Kap\.|Abschnitt|chapter|section|Abbildung|Abb\.|Bild|figure|fig\.)\s*$",
+    re.IGNORECASE,
+)
+"""What stands before a number that is no fact: that of a page, a chapter, a picture."""
 _MOST = 8
 """A reason names at most so many numbers or words."""
 
@@ -138,8 +143,7 @@ class Explaining:
                 if pair.new in self.new.missed or not _is_of_numbers(pair.claim) or self._stands_anew(pair, come):
                     continue
                 if self._lost_one(pair, old, new):
-                    text = f"{_told(pair.claim)} was printed as {self.editions.old.shown(old)} here"
-                    yield Reason(text, pair.claim.where)
+                    yield _of_claim("otherwise", pair.claim, f"was printed as {self.editions.old.shown(old)} here")
 
     def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
         """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
@@ -188,6 +192,9 @@ class Explaining:
                 yield token, words
 
     def _is_known(self, token: Token, words: range) -> bool:
+        line = self.editions.new.line(token.line)
+        if _REFERENCE.search(line, 0, token.column - 1):
+            return True
         return self._is_passed_over(words) or (self.new.is_used(token) and self._fits(token, words))
 
     def _fits(self, token: Token, words: range) -> bool:
@@ -214,7 +221,7 @@ class Explaining:
                 bearing = [claim for claim in bearing if claim.fact != "number"]  # of a code: [-01] is no minus one
                 if bearing and all(("-" in claim.shown) != has_sign for claim in bearing):
                     with_or_without = "with" if has_sign else "without"
-                    yield Reason(f"{_told(bearing[0])} is printed {with_or_without} a minus sign", bearing[0].where)
+                    yield _of_claim("sign", bearing[0], f"is printed {with_or_without} a minus sign")
 
     def _names(self, line: int, change: Change) -> Iterator[Reason]:
         """The new words of a line that the description does not have for what cites it."""
@@ -224,18 +231,29 @@ class Explaining:
             return
         in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
         fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
+        fresh = [word for word in fresh if not self._is_respelled(word, change)]
         words = [text.texts[word] for word in fresh if word not in in_numbers and is_name(text.texts[word])]
         unknown = [word for word in words if not self.words.has(word, subjects)]
         if unknown:
             yield self._unknown(unknown, line, "word")
+
+    def _is_respelled(self, word: int, change: Change) -> bool:
+        """Whether a word is the one in whose place it stands, in another spelling or form."""
+        olds, news = self.editions.old, self.editions.new
+        return any(
+            is_respelled(olds.texts[old[new.index(word)]], news.texts[word])
+            for old, new in change.gaps
+            if word in new and len(old) == len(new)
+        )
 
     def _unknown(self, unknown: list[str], line: int, what: str) -> Reason:
         subjects = [*self.subjects_at.get(line, ())]
         shown = ", ".join(f"`{text}`" for text in dict.fromkeys(unknown[:_MOST]))
         more = " and more" if len(unknown) > _MOST else ""
         if not subjects:
-            return Reason(f"nothing cites line {line}: {shown}{more}")
-        return Reason(f"no {what} of what cites line {line} is {shown}{more}", self.place_of.get(subjects[0], ""))
+            return Reason(what, f"nothing cites line {line}: {shown}{more}", words=tuple(unknown))
+        said = f"no {what} of what cites line {line} is {shown}{more}"
+        return Reason(what, said, self.place_of.get(subjects[0], ""), words=tuple(unknown))
 
     def _units(self, number: int, change: Change) -> Iterator[Reason]:
         """Units that no longer stand in the lines."""
@@ -245,7 +263,7 @@ class Explaining:
         for subject in dict.fromkeys(pair.claim.subject for pair in self.pairs_of.get(number, ())):
             unit, place = self.words.unit_of(subject)
             if gone.intersection(set(Words(unit).texts) - stands):
-                yield Reason(f"{subject}: unit {unit} is not there", place)
+                yield Reason("unit", f": unit {unit} is not there", place, (subject,), (unit,))
 
 
 def _is_of_numbers(claim: Claim) -> bool:
@@ -262,11 +280,11 @@ def _whole(token: Token) -> frozenset[Fraction]:
 
 def failing(claim: Claim) -> Reason:
     """The reason that a claim does not hold."""
-    return Reason(f"{_told(claim)} is not there", claim.where)
+    return _of_claim("missing", claim, "is not there")
 
 
-def _told(claim: Claim) -> str:
-    return f"{claim.subject}: {claim.fact} {claim.shown}"
+def _of_claim(kind: str, claim: Claim, said: str) -> Reason:
+    return Reason(kind, f": {claim.fact} {claim.shown} {said}", claim.where, (claim.subject,))
 
 
 def _borne(trace: Trace, claim: Claim | None) -> set[int]:

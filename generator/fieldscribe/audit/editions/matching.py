@@ -11,6 +11,8 @@ from collections import Counter
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.swaps import exchanged
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
@@ -50,6 +52,8 @@ class Matching:
         self._straighten(1)
         self._straighten(-1)
         self._slide()
+        for olds, news in list(exchanged(self)):
+            self._put_in_their_places(olds, news)
 
     def gaps(self) -> Iterator[Gap]:
         """What has no counterpart, as pairs that stand between the same neighbours; a side of a pair may be empty."""
@@ -176,12 +180,33 @@ class Matching:
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
 
+    def _put_in_their_places(self, olds: list[int], news: list[int]) -> None:
+        """Take each of these lines for the one in its place, whatever words they share with others."""
+        for line in olds:
+            self.forget(self.old.of_line(line))
+        for old, new in zip(olds, news, strict=True):
+            here, there = self.old.of_line(old), self.new.of_line(new)
+            self._match_word_by_word(here.start, here.stop, there.start, there.stop)
+
+    def forget(self, words: range) -> None:
+        """Let words of the old text have no counterpart."""
+        for word in words:
+            if self.there[word] >= 0:
+                self.back[self.there[word]] = -1
+            self.there[word] = -1
+        self.moved.difference_update(words)
+
+    def forget_new(self, words: range) -> None:
+        """Let words of the new text have none."""
+        for there in (self.back[word] for word in words if self.back[word] >= 0):
+            self.forget(range(there, there + 1))
+
     def _slide(self) -> None:
-        """What was added or removed whole may begin at several words: at the first of a line, where that is one."""
+        """What was added or removed may begin at several words: at the first of a line, where that is one."""
         for first, last, start, end in list(self.gaps()):
-            if first == last and start < end:
+            if start < end and (first == last or not self.new.is_in_one_line(start, end)):
                 self._slide_one(self.new, start, end, self.back, self.there)
-            elif first < last and start == end:
+            if first < last and (start == end or not self.old.is_in_one_line(first, last)):
                 self._slide_one(self.old, first, last, self.there, self.back)
 
     def _slide_one(self, text: Words, start: int, end: int, here: list[int], other: list[int]) -> None:
@@ -192,7 +217,7 @@ class Matching:
         high = end
         while high < len(here) and here[high] >= 0 and words[high] == words[start + high - end]:
             high += 1
-        for by in sorted(range(-steps, high - end + 1), key=abs):
+        for by in sorted(range(-steps, high - end + 1), key=lambda by: (start + by > 0, abs(by))):
             if text.opens_line(start + by):
                 _shift(here, other, start, end, by)
                 return

@@ -11,6 +11,7 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys.shapes import LINES_OF
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.value_checks import compiled_pattern
+from fieldscribe.wording.lines import LINES_NAMED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -20,9 +21,8 @@ if TYPE_CHECKING:
     from fieldscribe.language.source import SourceFile
 
 _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P<last>[0-9]+))?)""")
-_SENTENCES = ("note", "printed", "taken", "where", "why")
+SENTENCES = ("note", "printed", "taken", "where", "why")
 """The keys whose texts may name lines."""
-_LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
 _COMMENT = re.compile(r"(?:^|\s)#")
 _NUMBER = re.compile(r"(?P<run>to\s+|\.\.\s*)?(?P<line>[0-9]+)")
 
@@ -84,7 +84,7 @@ class _Walk:
             if key == "line" or inner is LINES_OF:
                 if document == self.document:
                     self._lines(value, key, offset)
-            elif key in _SENTENCES and isinstance(item, str):
+            elif key in SENTENCES and isinstance(item, str):
                 if document == self.document:
                     self._sentence(value, key)
             else:
@@ -92,7 +92,7 @@ class _Walk:
 
     def _inside(self, key: str, value: Any, shape: Shape, document: str) -> None:
         if isinstance(value, Map):
-            if key in _SENTENCES:
+            if key in SENTENCES:
                 self._texts_of(value, document)
             else:
                 self.mapping(value, shape, document)
@@ -120,13 +120,13 @@ class _Walk:
 
     def _sentence(self, holder: Map, key: str) -> None:
         source, span = holder.file, holder.span(key)
-        if not _LINES_NAMED.search(source.text):
+        if not LINES_NAMED.search(source.text):
             return
         if source.name not in self._texts:
-            self._texts[source.name] = list(_scalars(source.text))
+            self._texts[source.name] = list(scalars_in(source.text))
         offset = source.offset(span.at)
         start, end = next((ends for ends in self._texts[source.name] if ends[0] <= offset < ends[1]), (0, 0))
-        for named in _LINES_NAMED.finditer(source.text, start, end):
+        for named in LINES_NAMED.finditer(source.text, start, end):
             for number in _NUMBER.finditer(source.text, named.start(), named.end()):
                 line = int(number["line"])
                 first, last = (0, line) if number["run"] else (line, 0)
@@ -136,9 +136,9 @@ class _Walk:
 
 def lines_in_comments(source: SourceFile) -> Iterator[tuple[int, int]]:
     """The numbers of lines that comments name: the line of the file, and the number."""
-    for named in _LINES_NAMED.finditer(source.text):
+    for named in LINES_NAMED.finditer(source.text):
         before = source.text[source.text.rfind("\n", 0, named.start()) + 1 : named.start()]
-        if _COMMENT.search(before) and not any(first <= named.start() < end for first, end in _scalars(source.text)):
+        if _COMMENT.search(before) and not any(first <= named.start() < end for first, end in scalars_in(source.text)):
             for number in _NUMBER.finditer(source.text, named.start(), named.end()):
                 yield source.text.count("\n", 0, named.start()) + 1, int(number["line"])
 
@@ -163,7 +163,8 @@ def _shape_of(key: str, shape: Shape) -> Shape | None:
     return None
 
 
-def _scalars(text: str) -> Iterator[tuple[int, int]]:
+def scalars_in(text: str) -> Iterator[tuple[int, int]]:
+    """Where each scalar of a YAML text begins and ends."""
     import yaml
 
     for token in yaml.scan(text, Loader=yaml.SafeLoader):

@@ -4,75 +4,152 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.remarks import is_spelling
 from fieldscribe.report import visible
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
-    from fieldscribe.audit.editions.findings import Comparison, Draft, Finding
+    from fieldscribe.audit.editions.findings import Cite, Comparison, Draft, Finding, Place, Remark, Void
     from fieldscribe.report import Line
 
-_MOST_CITES, _MOST_LINES = 6, 4
-"""A finding shows at most so many facts that cite it, and lines of each edition."""
+_MOST_CITES, _MOST_LINES, _MOST_PLACES = 6, 4, 6
+"""A finding shows at most so many facts that cite it, lines of each edition, and places."""
+_BEFORE, _LONGEST = 60, 160
+"""Of a long line so many characters are shown before what was changed, and so many in all."""
+_KINDS = {
+    "heads_and_feet": "heads or feet of pages",
+    "front_matter": "text before all that was there",
+    "contents": "the table of contents",
+    "list_of_editions": "the list of editions",
+    "headings": "headings over the same text",
+    "references": "where something is described",
+    "repeated_heads": "heads of tables on other pages",
+    "wording": "the wording of lines that hold no changed fact",
+    "moved": "lines that moved",
+}
 
 
 def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
-    """All changed lines in the order of the new edition, then the figures; `everything` tells all of explained ones."""
+    """All findings in the order of the new edition, remarks, then the figures; `everything` tells all of each."""
     for finding in outcome.findings:
         yield from _of_finding(finding, whole=everything or not finding.explained)
     for reason in outcome.elsewhere:
         yield [*_placed(reason.place), ("error", "missing"), ("", visible(f": {reason.text}"))]
     for void in outcome.void:
-        said = "the manual now prints what was taken: it can go" if void.is_corrected else "it is no longer printed so"
-        yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: line {void.line}: {said}"))]
+        yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: {_of_void(void)}"))]
+    for remark in outcome.remarks:
+        yield from _of_remark(remark, whole=everything)
+    yield from stale_notes(outcome)
     yield from figures(outcome)
 
 
+def stale_notes(outcome: Comparison) -> Iterator[Line]:
+    """Sentences that say what a changed line does not say any more: whether they still hold is for a reader."""
+    for note in outcome.notes:
+        said = ", ".join(f"`{text}` ({where})" for text, where in note.said)
+        told = f": {note.key} of {note.owner} says {said}: does it still hold?"
+        yield [*_placed(note.place), ("hint", "note"), ("", visible(told))]
+
+
+def _of_remark(remark: Remark, *, whole: bool) -> Iterator[Line]:
+    """A kind of changes with its places; of wording the words, too, if they are others and not spelt otherwise."""
+    yield [("hint", "remark"), ("", f": {_KINDS[remark.kind]}: {_places(remark.places)}")]
+    for finding in remark.findings:
+        if whole:
+            yield from ([("", "  "), *line] for line in _of_finding(finding, whole=True))
+        elif remark.kind == "wording" and not is_spelling(finding):
+            place = next((cite.place for cite in finding.cited_by if cite.place), finding.beside)
+            yield [("", "  "), *_placed(place), ("", visible(f"{_where(finding.places[0])}: {_words(finding)}"))]
+
+
+def _of_void(void: Void) -> str:
+    said = "the manual now prints what was taken: it can go" if void.is_corrected else "it is no longer printed so"
+    return f"line {void.line}: {said}"
+
+
 def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
-    places = [cite.place for cite in finding.cited_by if cite.place]
+    places = [cite.place for cite in finding.cited_by if cite.place] or [finding.beside]
     severity = "hint" if finding.explained else "error"
     explained = " (explained)" if finding.explained else ""
-    yield [*_placed(next(iter(places), "")), (severity, finding.kind), ("", visible(f": {_head(finding)}{explained}"))]
+    yield [*_placed(places[0]), (severity, finding.kind), ("", visible(f": {_head(finding)}{explained}"))]
     if not whole:
         yield from _errata_of(finding)
         return
     if finding.kind != "moved":
-        yield from _shown("-", finding.was)
-        yield from _shown("+", finding.now)
+        yield from _shown("-", finding.was, finding.was_at)
+        yield from _shown("+", finding.now, finding.now_at)
     for reason in finding.reasons:
         yield [("", "  "), *_placed(reason.place), ("", visible(reason.text))]
-    said = {reason.place for reason in finding.reasons} | set(places[:1] if not finding.reasons else ())
-    cites = [cite for cite in finding.cited_by if cite.place and cite.place not in said]
-    cites.sort(key=lambda cite: not cite.is_erratum)
-    for cite in cites[:_MOST_CITES]:
-        fact = f": {cite.fact} {cite.shown}" if cite.fact else ""
-        yield [("", "  "), *_placed(cite.place), ("", visible(f"{cite.subject}{fact} cites it"))]
-    if len(cites) > _MOST_CITES:
-        yield [("", f"  and {len(cites) - _MOST_CITES} more cite it")]
+    for void in finding.void:
+        yield [("", "  "), *_placed(void.place), ("", visible(f"erratum {void.erratum}: {_of_void(void)}"))]
+    yield from _cites_of(finding, places)
     for draft in finding.drafts:
         yield from _of_draft(draft)
+
+
+def _cites_of(finding: Finding, places: list[str]) -> Iterator[Line]:
+    """What cites the lines and is not named yet, errata first."""
+    said = {reason.place for reason in finding.reasons} | {void.place for void in finding.void}
+    said |= set(places[:1] if not finding.reasons else ())
+    gone = {subject for reason in finding.reasons if reason.kind == "gone" for subject in reason.subjects}
+    by_place: dict[str, list[Cite]] = {}
+    for cite in sorted(finding.cited_by, key=lambda cite: not cite.is_erratum):
+        if cite.place and cite.place not in said and cite.subject not in gone:
+            by_place.setdefault(cite.place, []).append(cite)
+    for place, cites in list(by_place.items())[:_MOST_CITES]:
+        more = f" and {len(cites) - 1} more" if len(cites) > 1 else ""
+        fact = f": {cites[0].fact} {cites[0].shown}" if cites[0].fact else ""
+        yield [("", "  "), *_placed(place), ("", visible(f"{cites[0].subject}{fact}{more} cites it"))]
+    if len(by_place) > _MOST_CITES:
+        yield [("", f"  and {len(by_place) - _MOST_CITES} more places cite it")]
 
 
 def _errata_of(finding: Finding) -> Iterator[Line]:
     """The errata about a line that is explained: whether they still hold is for a reader, as many are sentences."""
     errata = [cite for cite in finding.cited_by if cite.is_erratum]
-    for cite in errata if finding.kind == "changed" else ():
+    for cite in errata if finding.kind in ("changed", "swapped") else ():
         yield [("", "  "), *_placed(cite.place), ("", visible(f"{cite.subject} cites it: does it still hold?"))]
 
 
 def _head(finding: Finding) -> str:
-    words = ", ".join(f"`{old}` -> `{new}`" for old, new in finding.words) if finding.kind == "changed" else ""
+    words = _words(finding) if finding.kind in ("changed", "swapped") else ""
     if finding.explained and finding.kind in ("added", "removed"):
-        words = f"`{(finding.now or finding.was)[0]}`"
+        words = f"`{_around((finding.now or finding.was)[0], 0)}`"
     subjects = ", ".join(dict.fromkeys(cite.subject for cite in finding.cited_by[:3]))
-    return ": ".join(filter(None, (_where(finding), subjects, words)))
+    if not finding.cited_by and finding.beside:
+        subjects = "nothing cites it; this cites what stands above it"
+    return ": ".join(filter(None, (_places(finding.places), subjects, words)))
 
 
-def _where(finding: Finding) -> str:
-    old, new = _lines(finding.old), _lines(finding.new)
+def _words(finding: Finding) -> str:
+    sign = "<->" if finding.kind == "swapped" else "->"
+    return ", ".join(f"`{old}` {sign} `{new}`" for old, new in finding.words)
+
+
+def _places(places: tuple[Place, ...]) -> str:
+    """The places, or how many there are and the first of them."""
+    if len(places) == 1:
+        return _where(places[0])
+    shown = "; ".join(_where(place) for place in places[:_MOST_PLACES])
+    if not any(place.old for place in places) or not any(place.new for place in places):
+        shown = _in_one_edition(
+            [place.new or place.old or (0, 0) for place in places], "new" if places[0].new else "old"
+        )
+    more = f" and {len(places) - _MOST_PLACES} more" if len(places) > _MOST_PLACES else ""
+    return f"{len(places)} places: {shown}{more}"
+
+
+def _in_one_edition(places: list[tuple[int, int]], edition: str) -> str:
+    shown = [f"{first}" if first == last else f"{first} to {last}" for first, last in places[:_MOST_PLACES]]
+    return f"lines {', '.join(shown)} {'in the new' if edition == 'new' else 'of the old'} edition"
+
+
+def _where(place: Place) -> str:
+    old, new = _lines(place.old), _lines(place.new)
     if not old or not new:
         return f"{new} in the new edition" if new else f"{old} of the old edition"
-    return old if finding.old == finding.new else f"{old}, now {new.removeprefix('line ').removeprefix('lines ')}"
+    return old if place.old == place.new else f"{old}, now {new.removeprefix('line ').removeprefix('lines ')}"
 
 
 def _lines(ends: tuple[int, int] | None) -> str:
@@ -81,17 +158,24 @@ def _lines(ends: tuple[int, int] | None) -> str:
     return f"line {ends[0]}" if ends[0] == ends[1] else f"lines {ends[0]} to {ends[1]}"
 
 
-def _shown(sign: str, lines: Iterable[str]) -> Iterator[Line]:
-    lines = list(lines)
-    for line in lines[:_MOST_LINES]:
-        yield [("", visible(f"  {sign} {line}"))]
+def _shown(sign: str, lines: tuple[str, ...], starts: tuple[int, ...]) -> Iterator[Line]:
+    for line, start in list(zip(lines, starts, strict=True))[:_MOST_LINES]:
+        yield [("", visible(f"  {sign} {_around(line, start)}"))]
     if len(lines) > _MOST_LINES:
         yield [("", f"  {sign} ... ({len(lines)} lines)")]
 
 
+def _around(line: str, start: int) -> str:
+    """A line as far as it fits, around what was changed in it."""
+    if len(line) <= _LONGEST:
+        return line
+    first = max(0, min(start - _BEFORE, len(line) - _LONGEST))
+    last = first + _LONGEST
+    return f"{'... ' if first else ''}{line[first:last]}{' ...' if last < len(line) else ''}"
+
+
 def _of_draft(draft: Draft) -> Iterator[Line]:
-    below = f", to stand below {draft.below}" if draft.below else ""
-    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}{below}:"))]
+    yield [("hint", visible(f"  line {draft.line} seems to be {draft.kind}, to stand {draft.place}:"))]
     for line in draft.yaml.splitlines():
         yield [("", visible(f"    {line}"))]
 
@@ -103,13 +187,15 @@ def _placed(place: str) -> Line:
 def figures(outcome: Comparison) -> Iterator[Line]:
     """How many lines and findings there are, and which edition the description counts."""
     counts = outcome.counts
-    unexplained = sum(not finding.explained for finding in outcome.findings)
-    unexplained += len(outcome.elsewhere) + len(outcome.void)
     yield [("strong", visible(f"{outcome.device}: {outcome.old} against {outcome.new}"))]
     kinds = ", ".join(f"{count} {kind}" for kind, count in counts.items())
     yield [("", f"  lines     {kinds}")]
-    left = "all explained" if outcome.explained else f"{unexplained} not explained"
+    left = "all explained" if outcome.explained else f"{outcome.unexplained} not explained"
     yield [("", f"  findings  {len(outcome.findings)}, {left}")]
+    if outcome.notes:
+        yield [("", f"  notes     {len(outcome.notes)} to read again: they say what changed")]
+    if outcome.remarks:
+        yield [("", f"  remarks   {len(outcome.remarks)}, of what holds no fact: --all lists all of them")]
     if outcome.renumbered:
         yield [("", "  numbers   the description counts the lines of the new edition")]
     elif outcome.shifted:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.comparison import Asked, Comparison
+from fieldscribe.audit.comparison import Comparison
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.manual import places_in
 from fieldscribe.audit.outcome import Audit
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Extent, Manual, Token
+    from fieldscribe.audit.places import Asked
     from fieldscribe.audit.printed_errata import PrintedErratum
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+from unicodedata import combining, normalize
 
 if TYPE_CHECKING:
     from fieldscribe.resolve.subject import Subject
@@ -15,6 +16,8 @@ _SMALL_WORDS = re.compile(
     "eine?[nr]?|ist|im|mit|oder|sind|und|vom|von|wird|zu[mr]?|\u00fcber|f\u00fcr"
 )
 """What says nothing by itself; `not`, `nicht` and `kein` do."""
+_STEM, _ENDING = 4, 2
+"""Forms of a word have so many letters alike at the start, and differ in length by so many at most."""
 _OF_ACCESS = {
     "r": "r ro read only lesen nur lesend",
     "w": "w wo write only schreiben nur schreibend",
@@ -25,6 +28,35 @@ _OF_ACCESS = {
 def is_name(word: str) -> bool:
     """Whether a word or sign says something by itself."""
     return bool(_WORD.fullmatch(word)) and _SMALL_WORDS.fullmatch(word.casefold()) is None
+
+
+def is_respelled(old: str, new: str) -> bool:
+    """Whether two words are one in other spellings or forms: `Anschluß`, `Anschluss`; not `synchron`, `asynchron`."""
+    was, now = _spelled(old), _spelled(new)
+    if was == now:
+        return True
+    if not (was.isalpha() and now.isalpha() and was[:_STEM] == now[:_STEM] and min(len(was), len(now)) > _STEM):
+        return False
+    shorter, longer = sorted((was, now), key=len)
+    return len(longer) - len(shorter) <= _ENDING and _is_within(shorter, longer)
+
+
+def are_respelled(old: str, new: str) -> bool:
+    """Whether the same words stand in two pieces of text, in other spellings, or nothing but signs."""
+    was, now = _WORD.findall(old), _WORD.findall(new)
+    return len(was) == len(now) and all(map(is_respelled, was, now))
+
+
+def _spelled(word: str) -> str:
+    """A word without what spellings differ in: capitals, accents, ß for ss."""
+    return "".join(char for char in normalize("NFKD", word.casefold()) if not combining(char))
+
+
+def _is_within(shorter: str, longer: str) -> bool:
+    """Whether a word is another one with letters left out, or with another ending of two letters."""
+    letters = iter(longer)
+    has_ending = len(shorter) > _STEM + _ENDING and shorter[:-_ENDING] == longer[: len(shorter) - _ENDING]
+    return has_ending or all(letter in letters for letter in shorter)
 
 
 class Vocabulary:

@@ -16,6 +16,7 @@ _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_D
 _BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
 _HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
+_PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 
 
@@ -45,6 +46,10 @@ class Words:
     def __len__(self) -> int:
         return len(self.texts)
 
+    def line(self, number: int) -> str:
+        """A line counted from 1; empty outside the text."""
+        return self.lines[number - 1] if 1 <= number <= len(self.lines) else ""
+
     def of_line(self, line: int) -> range:
         """The words of a line counted from 1; none outside the text."""
         if not 1 <= line <= len(self.lines):
@@ -54,6 +59,10 @@ class Words:
     def opens_line(self, word: int) -> bool:
         """Whether a word is the first of its line; what stands behind the last word is."""
         return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
+
+    def is_in_one_line(self, start: int, end: int) -> bool:
+        """Whether the words from..to stand in one line."""
+        return self.line_of[start] == self.line_of[end - 1]
 
     def at(self, line: int, column: int) -> int:
         """The word at a place, or the first one behind it."""
@@ -66,6 +75,26 @@ class Words:
             return False
         line, column = self.lines[self.line_of[word] - 1], self.column_of[word]
         return self.column_of[word + 1] == column + 1 and not line[column - 2 : column - 1].isalnum()
+
+    def whole(self, words: range) -> range:
+        """Words with the rest of the number that they are the first or last part of."""
+        first, last = words.start, words.stop
+        while first and self._are_one_number(first - 1):
+            first -= 1
+        while last < len(self) and self._are_one_number(last - 1):
+            last += 1
+        while first < words.start and not self.texts[first].isdigit():
+            first += 1
+        while last > words.stop and not self.texts[last - 1].isdigit():
+            last -= 1
+        return range(first, last)
+
+    def _are_one_number(self, word: int) -> bool:
+        """Whether a word and the next one are parts of the same number."""
+        here, behind = self.texts[word], self.texts[word + 1]
+        glued = self.column_of[word] + len(here) == self.column_of[word + 1]
+        has_digits = here.isdigit() != behind.isdigit() and _PARTED_NUMBER.fullmatch(here + behind) is not None
+        return glued and has_digits and self.line_of[word] == self.line_of[word + 1]
 
     def shown(self, words: range) -> str:
         """Words as the text writes them, with a slash between lines."""

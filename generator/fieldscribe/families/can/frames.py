@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 LENGTH = 8
 """How many bytes every message of this family has."""
 _WORD = 0xFFFF
-_STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit", "xor": "wrong_check"}
+_STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
 """What is wrong with a frame whose bytes of this role differ."""
 
 
@@ -121,13 +121,19 @@ def _byte(role: Role, unit: int, address: int, raw: int) -> int:
 
 
 def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Difference, ...]:
-    """The bytes of a frame of the right length that this message of this unit cannot have."""
+    """The bytes of a frame of the right length that this message of this unit cannot have, whatever its checksum."""
     result = []
     for place, (role, here) in enumerate(zip(message.roles, frame.data, strict=True)):
         if role.kind in _STATUSES:
-            due = checksum(frame.data, role.number) if role.kind == "xor" else _byte(role, unit, 0, 0)
+            due = _byte(role, unit, 0, 0)
             result += [Difference(place, role.kind, here, due)] if here != due else []
     return tuple(result)
+
+
+def sums(message: Message, data: bytes) -> tuple[bytes, bytes]:
+    """The checksums in the data of a message, and those that its other bytes give."""
+    masks = {place: message.roles[place].number for place in places(message, "xor")}
+    return bytes([data[place] for place in masks]), bytes([checksum(data, mask) for mask in masks.values()])
 
 
 def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
@@ -143,4 +149,7 @@ def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
     for kind, status in _STATUSES.items():
         if kind in wrong:
             return Parsed(status)
+    here, right = sums(message, frame.data)
+    if here != right:
+        return Parsed("wrong_check")
     return Parsed("ok", carried(message, frame, "address"), carried(message, frame, "raw"))

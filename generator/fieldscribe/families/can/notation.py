@@ -47,15 +47,21 @@ class Pasted:
         """The frame as candump logs it."""
         return " ".join(part for part in (self.stamp, self.bus, frame_text(self.frame, remote=self.remote)) if part)
 
+    @property
+    def details(self) -> dict[str, object]:
+        """When and where the frame was captured, for JSON."""
+        return {"time": self.stamp.strip("()") or None, "interface": self.bus or None}
+
 
 def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
     """A frame as candump and cansend write it."""
     return f"{frame.id:0{3 if frame.id <= 0x7FF else 8}X}#{'R' if remote else frame.data.hex().upper()}"
 
 
-def read_frames(texts: Sequence[str], can_id: str | None) -> list[Pasted]:
-    """The frames in the arguments, one on each line. Raises UnclearError."""
-    known = None if can_id is None else read_identifier(can_id)
+def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
+    """The frames in the arguments, one on each line; `known` is the identifier of bare bytes. Raises UnclearError."""
+    if len(texts) == 1 and texts[0].isprintable() and (match := _LOGGED.fullmatch(texts[0])):
+        return [_matched(match)]
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
     if len(texts) == 1 and len(lines) == 1 and lines[0].count("#") > 1:
         lines = _frames_of_line(lines[0])
@@ -91,16 +97,31 @@ def _lines_of_pieces(words: list[str]) -> Iterator[str]:
 
 def _frame(line: str, known: int | None) -> Pasted:
     match = _LOGGED.fullmatch(line) or _DUMPED.fullmatch(line)
+    if match is not None:
+        return _matched(match)
+    if known is None or "#" in line:
+        raise _unclear(f"`{quoted(line)}` has no identifier" if line else "there are no bytes")
+    return Pasted(CanFrame(known, _bytes(line)))
+
+
+def _matched(match: re.Match[str]) -> Pasted:
+    """The frame in a line of candump. Raises UnclearError."""
+    stamp, bus, digits, data = match.group("stamp", "bus", "id", "data")
+    number = int(digits, 16)
+    if number > MOST_IDENTIFIER:
+        raise _unclear(f"the identifier {number:X} is longer than 29 bits")
+    stamp, bus = (stamp or "").strip(), bus or ""
+    if data[:1] in "rR" and _REMOTE.fullmatch(data):
+        return Pasted(CanFrame(number, b""), stamp, bus, remote=True)
+    return Pasted(CanFrame(number, _bytes(data.replace(".", " ")) if data else b""), stamp, bus)
+
+
+def _bytes(text: str) -> bytes:
     try:
-        if match is None:
-            if known is None or "#" in line:
-                raise HexError(f"`{quoted(line)}` has no identifier" if line else "there are no bytes")
-            return Pasted(CanFrame(known, parse_hex(line)))
-        number, data = int(match["id"], 16), match["data"].strip()
-        remote = _REMOTE.fullmatch(data) is not None
-        if number > MOST_IDENTIFIER:
-            raise HexError(f"the identifier {number:X} is longer than 29 bits")
-        frame = CanFrame(number, b"" if remote or not data else parse_hex(data.replace(".", " ")))
+        return parse_hex(text)
     except HexError as error:
-        raise UnclearError(f"not a frame: {error}", HINT) from error
-    return Pasted(frame, (match["stamp"] or "").strip(), match["bus"] or "", remote)
+        raise _unclear(str(error)) from error
+
+
+def _unclear(why: str) -> UnclearError:
+    return UnclearError(f"not a frame: {why}", HINT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
@@ -35,8 +36,11 @@ class Receiver:
         self._clock = 0
         at = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
         words = dict.fromkeys(number // 2 for number in at)
-        self._bytes = [at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)]
-        self._slots = [_Slot() for _ in range(-(-telegram.words // self.per_frame))]
+        self._own = itemgetter(*[at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)])
+        firsts = range(0, telegram.words, self.per_frame)
+        self.positions = [range(first, min(first + self.per_frame, telegram.words)) for first in firsts]
+        """The words of the telegram that a frame with each multiplexer brings."""
+        self._slots = [_Slot() for _ in firsts]
 
     def take(self, frame: CanFrame) -> bool:
         """Whether the frame belongs to the telegram; if so its words are kept."""
@@ -46,13 +50,14 @@ class Receiver:
         self.keep(place, frame)
         return True
 
-    def keep(self, place: int, frame: CanFrame) -> None:
-        """Keep the words of a sound frame of the telegram, whose multiplexer is `place`."""
+    def keep(self, place: int, frame: CanFrame) -> tuple[int, ...]:
+        """Keep the words of a sound frame of the telegram, whose multiplexer is `place`, and give them."""
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
         data = frame.data + b"\0"  # half a word that no byte of the message carries is 0
-        slot.words, slot.at = words_in(bytes([data[place] for place in self._bytes])), self._clock
+        slot.words, slot.at = words_in(bytes(self._own(data))), self._clock
+        return slot.words
 
     def _place(self, frame: CanFrame) -> int | None:
         """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""

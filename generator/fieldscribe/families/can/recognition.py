@@ -1,25 +1,36 @@
 """Finds the message and the unit of a frame, even if the frame is damaged.
 
-What tells them (identifier, constants, unit, address, multiplexer, checksum) comes again and again on a bus, so what
-follows from these bytes is worked out once and remembered.
+What tells them (identifier, constants, unit, address, multiplexer) comes again and again on a bus, so what follows from
+these bytes is worked out once and remembered.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, Difference, carried, carries, differences, places, unit_of
+from fieldscribe.families.can.frames import (
+    LENGTH,
+    CanFrame,
+    Difference,
+    carried,
+    carries,
+    differences,
+    places,
+    sums,
+    unit_of,
+)
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
+from fieldscribe.wording.buses import check_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from fieldscribe.families.answers import Heard
-    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.model import Device, Message
 
-_MOST = 1024
-"""How many heads of frames are remembered for each identifier and message."""
+_MOST = 2048
+"""How many heads of frames are remembered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +45,13 @@ class Head:
     slot: int
     address: int | None
     differences: tuple[Difference, ...]
+    wrong_sum: bool
     foreign: bool
 
     @property
     def flaws(self) -> int:
         """How much is wrong; a checksum counts once."""
-        wrong = [difference.kind for difference in self.differences]
-        return self.foreign + len(wrong) - max(0, wrong.count("xor") - 1)
+        return self.foreign + self.wrong_sum + len(self.differences)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,51 +62,63 @@ class Asked:
     raw: int | None
 
 
-class Recogniser:
-    """Recognises the frames of a device; `said` puts what the head of a frame tells into words."""
+@dataclass(frozen=True, slots=True)
+class Known:
+    """A recognised frame: its head, what the head says, and what its checksum says."""
 
-    def __init__(self, device: Device, said: Callable[[Head, CanFrame], Heard]) -> None:
+    head: Head
+    heard: Heard
+    checks: str = ""
+
+
+class Recogniser:
+    """Recognises the frames of a device; `said` puts what the head of a frame with this identifier tells into words."""
+
+    def __init__(self, device: Device, said: Callable[[Head, int], Heard]) -> None:
         self._device = device
         self._said = said
         self._candidates: dict[int, list[_Candidate]] = {}
+        self._heads: Remembered[tuple[_Candidate, bool, int], Known] = Remembered(_MOST, self._known)
 
-    def recognise(self, frame: CanFrame) -> tuple[Head, Heard] | None:
+    def recognise(self, frame: CanFrame) -> Known | None:
         """The message with the fewest flaws for this frame, and what it says; None if no message fits."""
         if len(frame.data) != LENGTH:
             return None
         readings = [self._read(candidate, frame) for candidate in self._of(frame) if candidate.is_kind(frame.data)]
-        return min(readings, key=lambda reading: reading[0].flaws) if len(readings) > 1 else next(iter(readings), None)
+        return min(readings, key=lambda known: known.head.flaws) if len(readings) > 1 else next(iter(readings), None)
 
     def _of(self, frame: CanFrame) -> list[_Candidate]:
         known = self._candidates.get(frame.id)
         if known is None:
-            known = [_Candidate(message) for message, _ in senders(self._device, frame)]
+            known = [_Candidate(message, frame.id) for message, _ in senders(self._device, frame)]
             if known:  # identifiers of other devices are without number
                 self._candidates[frame.id] = known
         return known
 
-    def _read(self, candidate: _Candidate, frame: CanFrame) -> tuple[Head, Heard]:
+    def _read(self, candidate: _Candidate, frame: CanFrame) -> Known:
         telling = int.from_bytes(frame.data, "big") & candidate.telling
-        reading = candidate.read.get(telling)
-        if reading is None:
-            if len(candidate.read) >= _MOST:
-                candidate.read.clear()
-            head = _head(self._device, candidate.message, frame)
-            reading = candidate.read[telling] = head, self._said(head, frame)
-        return reading
+        if not candidate.summed:
+            return self._heads[candidate, False, telling]
+        here, right = sums(candidate.message, frame.data)
+        known = self._heads[candidate, here != right, telling]
+        return Known(known.head, known.heard, check_text(here, right))
+
+    def _known(self, key: tuple[_Candidate, bool, int]) -> Known:
+        candidate, wrong_sum, telling = key
+        frame = CanFrame(candidate.identifier, telling.to_bytes(LENGTH, "big"))
+        head = _head(self._device, candidate.message, frame, wrong_sum=wrong_sum)
+        return Known(head, self._said(head, frame.id))
 
 
 class _Candidate:
-    """A message that an identifier may carry, and what the heads of its frames have told so far."""
+    """A message that an identifier may carry, and which bits of its frames make their heads."""
 
-    def __init__(self, message: Message) -> None:
-        self.message = message
-        self.read: dict[int, tuple[Head, Heard]] = {}
+    def __init__(self, message: Message, identifier: int) -> None:
+        self.message, self.identifier = message, identifier
+        self.summed = carries(message, "xor")
         self._first = next(iter(places(message, "constant")), None)
         self._constant = 0 if self._first is None else message.roles[self._first].number
-        told = {place for place, role in enumerate(message.roles) if role.kind not in ("word", "raw")}
-        summed = (role.number for role in message.roles if role.kind == "xor")
-        told |= {place for mask in summed for place in range(LENGTH) if mask >> place & 1}
+        told = [place for place, role in enumerate(message.roles) if role.kind not in ("word", "raw", "xor")]
         self.telling = sum(0xFF << 8 * (LENGTH - 1 - place) for place in told)
 
     def is_kind(self, data: bytes) -> bool:
@@ -112,10 +135,10 @@ def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | No
             yield message, unit_of(message, frame)
 
 
-def _head(device: Device, message: Message, frame: CanFrame) -> Head:
+def _head(device: Device, message: Message, frame: CanFrame, *, wrong_sum: bool) -> Head:
     low, high = device.bus.units
     unit = unit_of(message, frame)
     foreign = unit is not None and message.direction != "request" and not low <= unit <= high
     address = carried(message, frame, "address") if carries(message, "address") else None
     slot = carried(message, frame, "multiplexer")
-    return Head(message, unit, slot, address, differences(message, unit or 0, frame), foreign)
+    return Head(message, unit, slot, address, differences(message, unit or 0, frame), wrong_sum, foreign)

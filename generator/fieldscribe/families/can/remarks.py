@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, carries, checksum, places
+from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
-from fieldscribe.wording.buses import check_text, strange_unit, words_text
+from fieldscribe.wording.buses import strange_unit, words_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from fieldscribe.families.can.frames import CanFrame
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.can.recognition import Asked, Head
     from fieldscribe.model import Bus, Device, Message, Telegram
@@ -21,11 +20,11 @@ if TYPE_CHECKING:
 DAMAGED = "its words are not read, for the frame is damaged"
 
 
-def message_text(recognised: Head, frame: CanFrame, telegram: Telegram | None) -> str:
+def message_text(recognised: Head, identifier: int, telegram: Telegram | None) -> str:
     """A frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
     message = recognised.message
     unit = "" if recognised.unit is None else f", unit {recognised.unit}"
-    head = f"CAN {hex_text(frame.id, 3)}{unit}, {message.name}"
+    head = f"CAN {hex_text(identifier, 3)}{unit}, {message.name}"
     if recognised.address is not None:
         return f"{head}: parameter {address_text(recognised.address)}"
     if telegram is None:
@@ -53,18 +52,10 @@ def faults(recognised: Head, bus: Bus) -> Iterator[str]:
     if recognised.foreign:
         yield strange_unit(bus, recognised.unit or 0)
     for byte in recognised.differences:
-        if byte.kind != "xor":
-            here, due = hex_text(byte.here, 2), hex_text(byte.due, 2)
-            yield f"byte {byte.place} is {here}, in this message it is {due}"
-    if any(byte.kind == "xor" for byte in recognised.differences):
+        here, due = hex_text(byte.here, 2), hex_text(byte.due, 2)
+        yield f"byte {byte.place} is {here}, in this message it is {due}"
+    if recognised.wrong_sum:
         yield "the checksum is wrong"
-
-
-def checks_text(message: Message, data: bytes) -> str:
-    """What the checksum of a frame says; empty where it has none."""
-    sums = places(message, "xor")
-    right = bytes(checksum(data, message.roles[place].number) for place in sums)
-    return check_text(bytes(data[place] for place in sums), right) if sums else ""
 
 
 def multiplexer_finding(message: Message, telegram: Telegram) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE
 from fieldscribe.records import dataclass
@@ -81,6 +83,7 @@ def pack_bits(values: tuple[int, ...], even: bool) -> bytes:
     return sum(bit << place for place, bit in enumerate(values)).to_bytes(size, "little")
 
 
+@lru_cache(maxsize=16)  # asked when pasted bytes are cut into frames, and again when these are read
 def unwrap(framing: str, data: bytes) -> Unwrapped:
     """The bytes out of their frame. Any bytes are safe; the first flaw wins: `short_frame` (fewer than any frame has).
 

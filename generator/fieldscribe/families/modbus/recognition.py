@@ -10,7 +10,7 @@ from fieldscribe.families.spoken import cut_apart
 def recognise(data: bytes, framings: tuple[str, ...], forced: str | None = None) -> Unwrapped:
     """The bytes in the forced framing; else in the one that checksum or header fit, else in that of the device."""
     usual = forced or (framings or FRAMINGS)[0]
-    tried = [unwrap(framing, data) for framing in ((forced,) if forced else FRAMINGS)]
+    tried = (unwrap(framing, data) for framing in ((forced,) if forced else FRAMINGS))
     sound = next((unwrapped for unwrapped in tried if unwrapped.flaw is None), None)
     unwrapped = sound or unwrap(usual, data)
     flaw = unwrapped.flaw

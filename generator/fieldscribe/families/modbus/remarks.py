@@ -102,11 +102,11 @@ def frame_checks(unwrapped: Unwrapped) -> str:
     return f"wrong: it says {flaw.due} bytes follow, {flaw.here} do" if flaw.status == "bad_length" else "none"
 
 
-def summary(unwrapped: Unwrapped, function: int | None, said: str) -> str:
+def summary(framing: str, unit: int | None, function: int | None, said: str) -> str:
     """A frame in one line: `RTU, unit 1, 03h read holding registers: request, ...`."""
-    unit = "no unit" if unwrapped.unit is None else f"unit {unwrapped.unit}"
+    whose = "no unit" if unit is None else f"unit {unit}"
     named = "" if function is None else f", {function_text(function)}"
-    return f"{unwrapped.framing.upper()}, {unit}{named}: {said}"
+    return f"{framing.upper()}, {whose}{named}: {said}"
 
 
 def reply_said(request: Request) -> str:

@@ -11,7 +11,7 @@ from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, 
 from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
-from fieldscribe.families.spoken import Span, Spoken
+from fieldscribe.families.spoken import Framed, Remembered, Span, Spoken
 from fieldscribe.hexadecimal import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
@@ -25,12 +25,17 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 
+_MOST = 8192
+"""How many heads of requests and replies are remembered."""
+
+
 class ModbusSpeech:
     """Decodes the frames of one device."""
 
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
+        self._heads: Remembered[tuple[str, str, int, int, int, int], Heard] = Remembered(_MOST, self._said)
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The frames that people pasted. Raises UnclearError."""
@@ -42,14 +47,16 @@ class ModbusSpeech:
         del directory  # a request tells all that a reply needs
         unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
         asked: Request | None = None if expecting else course.asked()
-        spoken = self._read(replace(unwrapped, flaw=None), asked, fixed=course.fixed and asked is not None)
+        sound = unwrapped if unwrapped.flaw is None else replace(unwrapped, flaw=None)
+        spoken = self._read(sound, asked, fixed=course.fixed and asked is not None)
         heard = spoken.heard
         faults = (*remarks.frame_faults(unwrapped), *heard.faults)
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
             heard = replace(heard, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
-        heard = replace(heard, checks=remarks.frame_checks(unwrapped), faults=faults)
-        return replace(spoken, heard=heard, binds=spoken.asks is not None)
+        checks = remarks.frame_checks(unwrapped)
+        heard = replace(heard, faults=faults) if faults else heard
+        return replace(spoken, heard=heard, own=Framed(unwrapped.data, checks), binds=spoken.asks is not None)
 
     def _read(self, unwrapped: Unwrapped, asked: Request | None, *, fixed: bool) -> Spoken:
         pdu = unwrapped.pdu
@@ -59,21 +66,35 @@ class ModbusSpeech:
         if pdu[0] & 0x80:
             return self._exception(unwrapped, asked, reply.status)
         if asked and reply.status == "ok":
-            return _reply(unwrapped, asked, reply)
+            return self._reply(unwrapped, asked, reply)
         parsed = request_in(unwrapped)
         if isinstance(parsed, Request) and not fixed:
             return self._request(unwrapped, parsed)
         return _unmatched_reply(unwrapped, parsed, asked, reply.status)
 
     def _request(self, unwrapped: Unwrapped, request: Request) -> Spoken:
+        heard = self._heads["request", unwrapped.framing, *_head(request)]
+        silent = request.unit == self._device.bus.broadcast
+        return Spoken(heard, _carried(request, _span(request)), asks=request, silent=silent)
+
+    def _reply(self, unwrapped: Unwrapped, asked: Request, reply: Reply) -> Spoken:
+        heard = self._heads["reply", unwrapped.framing, *_head(asked)]
+        words = reply.values if asked.function in READS else asked.values
+        return Spoken(heard, _carried(asked, _span(asked, words, learned=True)), answers=True)
+
+    def _said(self, key: tuple[str, str, int, int, int, int]) -> Heard:
+        """What a request says, or the reply to it, whatever it carries."""
+        kind, framing, unit, function, address, count = key
+        request = Request(unit, function, address, count)
+        if kind == "reply":
+            return _headed(framing, kind, request.unit, request.function, remarks.reply_said(request))
         silent = request.unit == self._device.bus.broadcast
         echo = request.function in SINGLE and not silent
-        span = _span(request)
         said = f"{'request, or the reply that repeats it' if echo else 'request'}, {remarks.span_said(request)}"
-        heard = _heard(unwrapped, "request_or_reply" if echo else "request", said)
+        kind = "request_or_reply" if echo else "request"
         findings = tuple(remarks.request_findings(self._device, request))
-        heard = replace(heard, findings=findings, notes=(remarks.SILENT,) if silent and not findings else ())
-        return Spoken(heard, _carried(request, span), asks=request, silent=silent)
+        heard = _headed(framing, kind, request.unit, request.function, said)
+        return replace(heard, findings=findings, notes=(remarks.SILENT,) if silent and not findings else ())
 
     def _exception(self, unwrapped: Unwrapped, asked: Request | None, status: str) -> Spoken:
         if len(unwrapped.pdu) != 2:
@@ -94,10 +115,9 @@ def speech_of(device: Device, options: Options) -> ModbusSpeech:
     return ModbusSpeech(device, options.framing)
 
 
-def _reply(unwrapped: Unwrapped, asked: Request, reply: Reply) -> Spoken:
-    reads = asked.function in READS
-    span = replace(_span(asked), words=reply.values if reads else asked.values, learned=True)
-    return Spoken(_heard(unwrapped, "reply", remarks.reply_said(asked)), _carried(asked, span), answers=True)
+def _head(request: Request) -> tuple[int, int, int, int]:
+    """What a request is about, without what it carries."""
+    return request.unit, request.function, request.address, request.count
 
 
 def _unmatched_reply(unwrapped: Unwrapped, parsed: Request | Flaw, asked: Request | None, status: str) -> Spoken:
@@ -124,14 +144,14 @@ def _unmatched_read(unwrapped: Unwrapped, asked: Request | None, faults: tuple[s
         faults = (remarks.data_fault(asked, len(data), due),)
     came = replace(asked, count=min(asked.count, len(values)))
     heard = replace(_heard(unwrapped, "reply", remarks.reply_said(came)), faults=faults)
-    return Spoken(heard, (replace(_span(came), words=values[: came.count]),), answers=True)
+    return Spoken(heard, (_span(came, values[: came.count]),), answers=True)
 
 
-def _span(request: Request) -> Span:
-    """The addresses of a request, with the values that it writes."""
+def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
+    """The addresses of a request, with the values that it writes, or that its reply brings."""
     count = min(request.count, 0x10000 - request.address)
-    written = request.function not in READS
-    return Span(SPACE_OF.get(request.function, ""), request.address, count, request.values or None, written)
+    written, words = request.function not in READS, request.values or None if words is None else words
+    return Span(SPACE_OF.get(request.function, ""), request.address, count, words, written, learned)
 
 
 def _carried(request: Request, span: Span) -> tuple[Span | Item, ...]:
@@ -144,8 +164,11 @@ def _carried(request: Request, span: Span) -> tuple[Span | Item, ...]:
 def _heard(unwrapped: Unwrapped, kind: str, said: str) -> Heard:
     function = unwrapped.pdu[0] if unwrapped.pdu else None
     function = function & 0x7F if function is not None and kind == "exception" else function
-    summary = remarks.summary(unwrapped, function, said)
-    return Heard(unwrapped.data, unwrapped.framing, kind, unwrapped.unit, function, summary)
+    return _headed(unwrapped.framing, kind, unwrapped.unit, function, said)
+
+
+def _headed(framing: str, kind: str, unit: int | None, function: int | None, said: str) -> Heard:
+    return Heard(b"", framing, kind, unit, function, remarks.summary(framing, unit, function, said))
 
 
 def _unreadable(unwrapped: Unwrapped, flaw: Flaw | None) -> Spoken:

@@ -91,7 +91,9 @@ def part_of(words: Sequence[int]) -> Part | None:
     if len(words) < 2:
         return None
     identification, place = words[:2]
-    page = sum((place >> bit & 1) << weight for weight, bit in enumerate(_PAGE_BITS))
+    page = 0
+    for weight, bit in enumerate(_PAGE_BITS):
+        page |= (place >> bit & 1) << weight
     number = (identification & 0x07FF) + _PAGE * page
     return Part(identification >> 12, number, place & 0xFF, tuple(words[2:]), bool(identification & 0x0800))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.answers import Heard
-from fieldscribe.families.spoken import Element, Masks, ProcessData, Speech, Spoken
+from fieldscribe.families.spoken import Element, Masks, ProcessData, Remembered, Speech, Spoken
 from fieldscribe.families.uss import remarks
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.families.uss.links import asked as said_of
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from fieldscribe.families.spoken import Carried, Course
     from fieldscribe.model import Device
 
+_CODES = 16
+"""How many tasks there may be, and responses: they have four bits."""
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 
 
@@ -45,6 +47,11 @@ class UssSpeech(Speech):
         self._link = link if framing == "uss" else replace(link, pzd=0)
         self._framing = framing
         self._direction = direction
+        tasks, responses = device.bus.functions, device.bus.codes("responses")
+        self._tasks: Remembered[int, str] = Remembered(_CODES, lambda code: remarks.code_text(tasks, code, "task"))
+        self._responses: Remembered[int, str] = Remembered(
+            _CODES, lambda code: remarks.code_text(responses, code, "response")
+        )
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The telegrams that people pasted. Raises UnclearError."""
@@ -56,7 +63,7 @@ class UssSpeech(Speech):
         """What a telegram is; any bytes are safe."""
         unwrapped = unwrap(frame) if self._framing == "uss" else bare_words(frame)
         spoken = self._read(unwrapped, course, directory, expecting=expecting)
-        return replace(spoken, binds=True)
+        return replace(spoken, binds=True) if expecting else spoken
 
     def _read(self, unwrapped: Unwrapped, course: Course, directory: Directory, *, expecting: bool) -> Spoken:
         unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
@@ -99,21 +106,25 @@ class UssSpeech(Speech):
     def _request(self, base: Heard, words: tuple[int, ...], directory: Directory) -> Spoken:
         divided = split(words, self._link, request=True)
         misfit = () if divided.fits else (remarks.misfit_text(len(words), self._link, request=True),)
-        base = replace(base, kind="request", faults=(*base.faults, *misfit))
+        faults = (*base.faults, *misfit)
         part, data = part_of(divided.part), ProcessData("request", divided.words)
         unit = 0 if base.unit is None else base.unit
         if part is None:
             alone = self._link.pkw == 0
             said = f"{base.summary}: {'request, process data' if alone else 'not readable'}"
-            heard = replace(base, kind="request" if alone else "unreadable", summary=said)
+            heard = replace(base, kind="request" if alone else "unreadable", summary=said, faults=faults)
             return Spoken(heard, (data,), base.unit, asks=Request(unit, 0, words=divided.words))
         asks = request_in(unit, part, self._link, divided.words)
         value = part.value(asks.width, self._link)
         element = Element(part.parameter, part.index, asks.width, value, part.values, asked=True)
-        task = remarks.code_text(self._device.bus.functions, part.code, "task")
+        said, details = _about(part, "task", directory)
         heard = replace(
-            _about(base, f"request, {task}", part, "task", directory),
+            base,
+            kind="request",
             function=part.code,
+            summary=f"{base.summary}: request, {self._tasks[part.code]}{said}",
+            faults=faults,
+            details=details,
             findings=tuple(remarks.request_findings(self._device, part, base.unit)),
             notes=tuple(remarks.request_notes(part, self._link)),
         )
@@ -125,14 +136,15 @@ class UssSpeech(Speech):
         divided = split(words, self._link, request=False)
         fault = "" if not status or status in _ANSWERS else no_answer_text(status)
         fault = fault if divided.fits else remarks.misfit_text(len(words), self._link, request=False)
-        base = replace(base, kind="reply", faults=(*base.faults, *((fault,) if fault else ())))
+        faults = (*base.faults, fault) if fault else base.faults
         part = part_of(divided.part)
         carried: tuple[Carried, ...] = (ProcessData("response", divided.words),)
         if part is None:
-            heard = replace(base, summary=f"{base.summary}: reply, process data")
+            heard = replace(base, kind="reply", summary=f"{base.summary}: reply, process data", faults=faults)
         else:
-            named = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
-            heard = _about(base, f"reply, {named}", part, "response", directory)
+            said, details = _about(part, "response", directory)
+            summary = f"{base.summary}: reply, {self._responses[part.code]}{said}"
+            heard = replace(base, kind="reply", summary=summary, faults=faults, details=details)
             if part.code in (REFUSED, NO_RIGHTS):
                 heard = self._refusal(heard, part, None if asked is None else asked.task)
             carried = (self._element(part), *carried) if part.code else carried
@@ -175,15 +187,14 @@ def speech_of(device: Device, options: Options) -> UssSpeech:
     return UssSpeech(device, link_of(device, options), options.framing or "uss", said_of(options).direction)
 
 
-def _about(base: Heard, said: str, part: Part, key: str, directory: Directory) -> Heard:
-    """The telegram, with the parameter part in its summary and details."""
-    details: dict[str, object] = {key: part.code}
-    if part.code:
-        points = directory.at("parameter", part.parameter, part.index)
-        alone = all(point.index is None for point in points)
-        said += f", {element_text(part.parameter, part.index, alone=alone)}"
-        details |= {"parameter": part.parameter, "index": part.index}
-    return replace(base, summary=f"{base.summary}: {said}", details=details)
+def _about(part: Part, key: str, directory: Directory) -> tuple[str, dict[str, object]]:
+    """The element of a parameter part in words, and what the part says as details."""
+    if not part.code:
+        return "", {key: part.code}
+    points = directory.at("parameter", part.parameter, part.index)
+    alone = all(point.index is None for point in points)
+    details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
+    return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
 
 def _broadcast(base: Heard, words: tuple[int, ...]) -> Spoken:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache, reduce
+from operator import xor
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
@@ -72,10 +74,7 @@ class Reply:
 
 def check_byte(data: bytes) -> int:
     """The block check character: all bytes combined by exclusive or."""
-    result = 0
-    for byte in data:
-        result ^= byte
-    return result
+    return reduce(xor, data, 0)
 
 
 def telegram(address: int, words: Sequence[int]) -> bytes:
@@ -85,6 +84,7 @@ def telegram(address: int, words: Sequence[int]) -> bytes:
     return body + bytes((check_byte(body),))
 
 
+@lru_cache(maxsize=16)  # asked when pasted bytes are cut into telegrams, and again when these are read
 def unwrap(data: bytes) -> Unwrapped:
     """The words of a whole telegram, with all that is wrong. Any bytes are safe."""
     if len(data) < LEAST_BYTES:

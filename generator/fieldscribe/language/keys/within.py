@@ -31,7 +31,7 @@ _FLAG_PRINTED = Place(
 _ONE_BIT = Whole(choices=(0, 1))
 _CITED = (
     *("code", "section", "address", "range", "scale", "bits", "flags", "enum", "resolution", "choices", "printed"),
-    *("bytes", "number", "answers", "refusals", "title", "values", "access"),
+    *("bytes", "number", "answers", "refusals", "title", "values", "access", "default", "special", "max"),
 )
 """The facts that `lines` can place."""
 

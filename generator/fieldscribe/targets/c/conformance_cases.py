@@ -212,7 +212,9 @@ def structs_of(point: Point, scope: HeaderScope) -> Iterator[StructView]:
     for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
         if len(names) > 1:
             fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
-            yield StructView(scope.struct(point), _fill_function(point, names), fields, floating=names not in integer)
+            yield StructView(
+                scope.struct(point.arguments), _fill_function(point, names), fields, floating=names not in integer
+            )
 
 
 def _arguments_of(point: Point, names: tuple[str, ...], scope: HeaderScope) -> str:

@@ -15,7 +15,6 @@ from fieldscribe.targets.c.literals import (
     unsigned,
 )
 from fieldscribe.targets.c.places import fixed_number, fixes
-from fieldscribe.targets.c.rules import rule_of
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.views import Function
@@ -49,6 +48,7 @@ class Writer:
 
     def __init__(self, point: Point, view: PointView, scope: HeaderScope) -> None:
         self.point, self.words, self.special, self.scope = point, view.words, view.special, scope
+        self.rule = view.rule
         self.name, self.macro = view.function, view.macro
         self.type, self.kind = view.raw_type, raw_kind(point)
 
@@ -121,7 +121,7 @@ class Writer:
                 f"{unsigned(low)}, {unsigned(high)}" if kind == "uint64_t" else f"{self.words.low}, {self.words.high}"
             )
             return f"return {known(point, f'fieldscribe_encode_{self.kind}(value, {ends}, raw)')};"
-        self.scope.grouped = len(point.arguments) > 1
+        self.scope.takes(point.arguments)
         number = fixed_number(point, self.macro, self.scope, "value") if fixes(point) else self._of_value(kind)
         within = {"int32_t": "within", "int64_t": "within_wide", "uint64_t": "within_u64"}[kind]
         inside = f"fieldscribe_{within}(value, {literal(low)}, {literal(high)})"
@@ -140,7 +140,7 @@ class Writer:
         if point.writable:
             yield self.check()
         if point.writable and counts:
-            self.scope.grouped = len(point.arguments) > 1
+            self.scope.takes(point.arguments)
             if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == point.outer:
                 body = f"return fieldscribe_encode_{self.kind}(count, {words.low}, {words.high}, raw);"
             else:
@@ -150,7 +150,7 @@ class Writer:
         if point.readable and counts:
             yield self._decode("decode_count", scale.count_type, scale.count_of_raw, fits=scale.count_fits)
         if point.writable and point.encodes_values:
-            self.scope.grouped = len(point.arguments) > 1
+            self.scope.takes(point.arguments)
             yield self._encode("encode", f"{real} value", *self._rounded(scale), floating=True)
         if point.readable:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
@@ -175,12 +175,11 @@ class Writer:
 
     def ruled(self) -> Iterator[Function]:
         """The functions of a point whose scale depends on other points."""
-        point, scope = self.point, self.scope
+        point = self.point
         if point.writable:
             yield self.check()
-        parameters = scope.parameters(point, point.scale_arguments)
-        body = f"return {rule_of(point, scope)};"
-        yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
+        if self.rule is not None and self.rule.text:
+            yield Function(self.rule.text)
         tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
         counts = point.decimals is not None
         if point.writable and counts:
@@ -205,8 +204,9 @@ class Writer:
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
         """The call that gives the rule, in a function with these arguments."""
-        self.scope.grouped = len(arguments) > 1
-        return called(f"{self.name}_rule", *self.scope.passed(self.point.scale_arguments))
+        assert self.rule is not None
+        self.scope.takes(arguments)
+        return called(self.rule.name, *self.scope.passed(self.point.scale_arguments))
 
     def _by_rule(self, tail: str, to: str, core: str, *, floating: bool = False) -> Function:
         point = self.point

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define, PointView
 
+_MOST_OLD_NAMES = 64
+"""A struct has no more old names: those of its points multiply."""
+
 STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL")
 """What conversions answer."""
 
@@ -49,12 +53,15 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
             for number, telegram in enumerate(device.telegrams)
             for name in (f"{scope.upper}_TELEGRAM_{upper(telegram.name)}",)
         ),
-        aliases=tuple(
-            alias
-            for point, kind, _ in placed
-            if point.was
-            for old, item in old_items(point)
-            for alias in _aliases(point, kind.view, AliasView(old, item, point.item), scope)
+        aliases=(
+            *(
+                alias
+                for point, kind, _ in placed
+                if point.was
+                for old, item in old_items(point)
+                for alias in _aliases(point, kind.view, AliasView(old, item, point.item), scope)
+            ),
+            *_aliases_of_structs(placed, scope),
         ),
         statuses=STATUSES,
         double=any(computes_in_double(kind.point) for kind in {kind: None for _, kind, _ in placed}),
@@ -143,7 +150,6 @@ def _function_tails(view: PointView) -> list[str]:
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
-    tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.splits else []
     tails += ["_extract", "_insert"] if view.bits else []
     return [*tails, *view.flags, *codes]
@@ -152,20 +158,40 @@ def _function_tails(view: PointView) -> list[str]:
 def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """The old names of everything that a renamed point has in the header."""
     words = view.words._replace(item=old.old_item, macro=upper(old.old_item))
-    function, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
+    function = f"{scope.prefix}_{words.item}"
     for (name, _), (new, _) in zip(defines(point, words, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
     for tail in _function_tails(view):
         floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
         sort = "OBJECT" if tail == "_addresses" else "FLOATING_FUNCTION" if floats else "FUNCTION"
         yield replace(old, old=function + tail, new=view.function + tail, sort=sort)
-    if view.fields:
-        yield replace(old, old=f"{function}_with", new=f"{view.function}_with", sort="STRUCT")
     enum = named_numbers(point)
-    if view.enum is not None and enum is not None and enum.name == point.item:
-        yield replace(old, old=f"{function}_name", new=view.enum.function, sort="FUNCTION")
+    if view.enum is not None and enum is not None and enum.was:
+        before = enum.was[point.was.index(old.was)]
+        yield replace(old, old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
         for entry, (new, _, _) in zip(enum.entries, view.enum.entries, strict=True):
-            yield replace(old, old=f"{macro}_{upper(entry.name)}", new=new, sort="NUMBER")
+            yield replace(old, old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
+
+
+def _aliases_of_structs(placed: Iterable[Placed], scope: HeaderScope) -> Iterator[AliasView]:
+    """The old names of structs, whose points may have been renamed alone or together.
+
+    Fields are in the order of their names: a struct has no old name under which it would have another order.
+    """
+    structs = {kind.view.struct: sorted(kind.point.arguments) for _, kind, _ in placed if kind.view.struct}
+    for struct, names in structs.items():
+        for chosen in islice(product(*[_names_of(name, scope) for name in names]), 1, _MOST_OLD_NAMES):
+            renamed, old = next(name for name in chosen if name.was), [name.old_item for name in chosen]
+            if old == sorted(old):
+                yield replace(renamed, old=scope.struct(old), new=struct, sort="STRUCT")
+
+
+def _names_of(name: str, scope: HeaderScope) -> Iterator[AliasView]:
+    """The name by which a point is a field, then its old ones."""
+    point = scope.points[name]
+    yield AliasView("", name, point.item)
+    for old, item in old_items(point):
+        yield AliasView(old, old if name == point.name else item, point.item)
 
 
 def _remark(point: Point, scope: HeaderScope, render: Render) -> str:

@@ -10,6 +10,7 @@ from fieldscribe.targets.c.device import STATUSES, device_view, function_names, 
 from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.frames import old_names_of
 from fieldscribe.targets.c.kinds import placed_points
+from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.points import named_numbers, names_of
 from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
@@ -87,17 +88,14 @@ def _owner_of(owner: Owner, blank: str, item: str) -> Owner:
 
 def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
     owner = Owner("point", shown.words.item)
-    own = [table.name for table in shown.tables if table.name.startswith(f"{shown.function}_")]
-    names = [*(name for name, _ in shown.defines), *function_names(shown), *own]
+    names = [*(name for name, _ in shown.defines), *function_names(shown)]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:
             names.remove(name)  # only once: another use of the name in the same point is a clash
-    yield owner, [*names, f"{shown.function}_with"] if shown.fields else names
+    yield owner, names
     yield from parts
-    for table in shown.tables:
-        if table.name not in own:
-            yield Owner("table of ranges", table.name), (table.name,)
+    yield from _of_shared(shown, point, scope)
     if shown.special is not None and shown.special.codes is not None and point.shared_codes:
         codes, shared = shown.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
@@ -112,6 +110,16 @@ def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Na
         yield whole, (shown.enum.function, shown.enum.table)
         for entry, (name, _, _) in zip(enum.entries, shown.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)
+
+
+def _of_shared(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
+    """The identifiers of what is named by what it holds; their owners say that, too, so equal checksums are a clash."""
+    if shown.struct:
+        yield Owner("struct", ", ".join(sorted(point.arguments))), (shown.struct,)
+    if shown.rule is not None:
+        yield Owner("rule", shown.rule.content), (shown.rule.name,)
+    if table := ranges_table(point, scope):
+        yield Owner("table of ranges", repr(point.allowed.fixed)), (table,)
 
 
 def _of_parts(shown: PointView, point: Point, owner: Owner) -> Iterator[Named]:

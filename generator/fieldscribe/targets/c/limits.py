@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-from zlib import crc32
 
 from fieldscribe.model import Bound, Interval, Limit, Point
 from fieldscribe.targets.c.literals import bare, hexadecimal, unsigned
@@ -76,13 +75,8 @@ def has_ranges_table(point: Point) -> bool:
 
 
 def ranges_table(point: Point, scope: HeaderScope) -> str:
-    """The table of a point's ranges, which points that have the same share; empty where none is needed.
-
-    It is named by what it holds: one more point that uses it leaves the lines of the others as they are.
-    """
-    if not has_ranges_table(point):
-        return ""
-    return f"{scope.prefix}_ranges_{crc32(repr(point.allowed.fixed).encode()):08x}"
+    """The table of a point's ranges, which points that have the same share; empty where none is needed."""
+    return scope.by_content("ranges", repr(point.allowed.fixed)) if has_ranges_table(point) else ""
 
 
 def _bounds_without_codes(point: Point) -> tuple[int, int]:

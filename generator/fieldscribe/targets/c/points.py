@@ -12,6 +12,7 @@ from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
+from fieldscribe.targets.c.rules import rule_view
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import special_view
 from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
@@ -29,7 +30,8 @@ def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: b
     """The view of a generated point; it may be the first that has the names of its numbers, or its special codes."""
     name, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
     shape = shape_of(point)
-    arguments = point.arguments if len(point.arguments) > 1 else ()
+    struct = scope.struct(point.arguments) if len(point.arguments) > 1 else ""
+    fields = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
     return PointView(
         words=words,
         function=name,
@@ -37,7 +39,9 @@ def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: b
         defines=tuple(defines(point, words, scope)),
         enum=_enum_view(point, words, scope) if first_names else None,
         tables=tuple(_tables(point, name, scope)),
-        fields=tuple((raw_type(scope.points[argument]), f"{argument}_raw") for argument in arguments),
+        struct=struct,
+        fields=tuple((raw_type(scope.points[field]), f"{field}_raw") for field in fields),
+        rule=rule_view(point, scope) if shape == "ruled" else None,
         shape=shape,
         raw_type=raw_type(point),
         counts=point.decimals is not None,
@@ -104,7 +108,7 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
     if point.text is not None:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
         yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
-    elif (table := ranges_table(point, scope)) and scope.tables.setdefault(table, name) == name:
+    elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
         yield TableView("fieldscribe_range", table, "", tuple(rows))
 

@@ -6,7 +6,9 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
-from fieldscribe.targets.c.literals import bare, signed
+from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.literals import bare, raw_type, signed
+from fieldscribe.targets.c.views import RuleView
 
 if TYPE_CHECKING:
     from fieldscribe.lowered import Operand, Rule
@@ -14,7 +16,20 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scope import HeaderScope
 
 
-def rule_of(point: Point, scope: HeaderScope) -> str:
+def rule_view(point: Point, scope: HeaderScope) -> RuleView:
+    """The function that gives the rule of a point. Of a single other point it knows the type alone: many share it."""
+    names = point.scale_arguments
+    parameters = scope.parameters(point, names)
+    if len(names) == 1:
+        parameters, scope.spelling = [f"{raw_type(scope.points[names[0]])} other_raw"], "other_raw"
+    body = f"return {_rule_of(point, scope)};"
+    content = f"({', '.join(parameters)}) {body}"
+    name = scope.by_content("rule", content)
+    text = function("static inline fieldscribe_rule", name, parameters, body)
+    return RuleView(name, content, text if scope.is_first(point.item, name) else "")
+
+
+def _rule_of(point: Point, scope: HeaderScope) -> str:
     """The expression for the rule of a point: its cases, by the raw numbers of other points."""
     rules, depth = "", 0
     for case in point.scale or ():

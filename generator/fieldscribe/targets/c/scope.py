@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from zlib import crc32
 
 from fieldscribe.lowered import lower
 from fieldscribe.names import upper
@@ -10,10 +11,15 @@ from fieldscribe.records import dataclass, field
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Point
+
+
+_AND = "_and_"
+_LONGEST = 80
+"""A struct whose name would have more characters has a checksum in place of the points' names."""
 
 
 @dataclass(slots=True)
@@ -21,8 +27,8 @@ class HeaderScope:
     """The state while the header of a device is built.
 
     `errata` are the ids of errata that change a fact, `digits` the names of enums of decimal digits, `spaces` the space
-    of each group whose points all have the same. `tables` are the tables that several points share, each with the first
-    of them. `grouped` says that the function being written gets the raw numbers of other points in a struct.
+    of each group whose points all have the same. `shared` are the names of what several points share, each with the
+    first of them. `spelling` is how the function being written spells the raw number of another point.
     """
 
     prefix: str
@@ -31,28 +37,43 @@ class HeaderScope:
     errata: frozenset[str]
     digits: frozenset[str]
     spaces: Mapping[str, str | None]
-    grouped: bool = False
-    tables: dict[str, str] = field(default_factory=dict)
+    spelling: str = "{}_raw"
+    shared: dict[str, str] = field(default_factory=dict)
 
     @property
     def points(self) -> Mapping[str, Point]:
         """The points by item and by name."""
         return self.lowered.points
 
-    def struct(self, point: Point) -> str:
-        """The struct for the raw numbers that a point needs."""
-        return f"{self.prefix}_{point.item}_with"
+    def by_content(self, sort: str, content: str) -> str:
+        """The name of something that points share: it follows from what it holds, so one more point renames nothing."""
+        return f"{self.prefix}_{sort}_{crc32(content.encode()):08x}"
+
+    def is_first(self, point: str, name: str) -> bool:
+        """Whether that point is the first that needs something shared, and so brings it."""
+        return self.shared.setdefault(name, point) == point
+
+    def struct(self, names: Iterable[str]) -> str:
+        """The struct for the raw numbers of several points: their names, whoever needs them and in whatever order."""
+        fields = sorted(names)
+        name = f"{self.prefix}_with_{_AND.join(fields)}"
+        is_clear = not any(_AND in f"_{field}_" for field in fields)  # `a_and_b` and `c`, or `a` and `b_and_c`
+        return name if is_clear and len(name) <= _LONGEST else self.by_content("with", " ".join(fields))
+
+    def takes(self, names: tuple[str, ...]) -> None:
+        """Begin a function that takes the raw numbers of these points, in a struct if there are several."""
+        self.spelling = "with->{}_raw" if len(names) > 1 else "{}_raw"
 
     def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
         """The parameter for the raw numbers of other points: a number, or a struct if there are several."""
-        self.grouped = len(names) > 1
-        if self.grouped:
-            return [f"const {self.struct(point)} *with"]
+        self.takes(names)
+        if len(names) > 1:
+            return [f"const {self.struct(point.arguments)} *with"]
         return [f"{raw_type(self.points[name])} {name}_raw" for name in names]
 
     def raw(self, name: str) -> str:
         """The expression for the raw number of another point, in the function being written."""
-        return f"with->{name}_raw" if self.grouped else f"{name}_raw"
+        return self.spelling.format(name)
 
     def passed(self, names: tuple[str, ...]) -> tuple[str, ...]:
         """The arguments that pass these raw numbers on: `lower_limit_raw`, or `with` for several."""

@@ -70,11 +70,20 @@ class SpecialView:
 
 
 @dataclass(frozen=True, slots=True)
+class RuleView:
+    """The function that gives the rule of a scale, what it does, and its text if no earlier point has it."""
+
+    name: str
+    content: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class PointView:
     """A generated point, or blanks in place of the words of all points of a kind.
 
-    `fields` are those of the struct with the raw numbers of other points, if functions need several. `splits` says that
-    functions split the raw number into words and join them.
+    `struct` has the raw numbers of other points, if functions need several, and `fields` are its fields if no earlier
+    point has it. `splits` says that functions split the raw number into words and join them.
     """
 
     words: Words
@@ -83,7 +92,9 @@ class PointView:
     defines: tuple[Define, ...]
     enum: EnumView | None
     tables: tuple[TableView, ...]
+    struct: str
     fields: tuple[tuple[str, str], ...]
+    rule: RuleView | None
     shape: str
     raw_type: str
     counts: bool

@@ -10,7 +10,7 @@ from fieldscribe.targets.heads import command
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
 from fieldscribe.targets.python.names import device_name_taken, identifiers
-from fieldscribe.text import python_doc, python_string
+from fieldscribe.text import python_doc, python_string, toml_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -39,6 +39,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     said = {"version": python_string(device.version), "digest": python_string(device.digest)}
     yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, **said, "view": names})
     yield f"{folder}/py.typed", ""
+    project = {
+        "name": toml_string(names.package.replace("_", "-")),
+        "package": toml_string(names.package),
+        "version": toml_string(device.version),
+        "description": toml_string(f"{device.vendor} {device.model}"),
+        "runtime": __version__,
+    }
+    yield f"{folder}/pyproject.toml", render("python/pyproject.toml.j2", {**head, **project})
     if enums.classes:
         yield f"{folder}/enums.py", render("python/enums.py.j2", {**head, "view": enums})
     yield f"{folder}/points.py", render("python/points.py.j2", {**head, "view": points_view(device, names, render)})

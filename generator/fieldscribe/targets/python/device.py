@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
 from fieldscribe.records import dataclass
-from fieldscribe.targets.python.families import in_python
+from fieldscribe.targets.python.families import RUNTIME, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import python_doc, python_string
@@ -52,25 +53,37 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     point = _example(device)
     if point is None:
         return ()
-    name_of_point = attribute(point.item)
-    settings = "".join([f", {setting}" for setting, _ in in_python(device).settings])
+    family, name_of_point = in_python(device), attribute(point.item)
+    line = family.line(device)
+    settings = "".join([f", {setting}" for setting, _ in family.settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
-    lines = [f"drive = {name}(transport, 1{settings}{variants})", f"{wait}drive.{name_of_point}.read()"]
+    inside = [f"drive = {name}(line, 1{settings}{variants})", f"print({wait}drive.{name_of_point}.read())"]
     if point.writable:
-        lines.append(f"{wait}drive.{name_of_point}.write(value)")
-    lines.append(f"{wait}drive.read_many({python_string(point.group)})")
+        inside.append(f"{wait}drive.{name_of_point}.write(value)")
+    inside.append(f"{wait}drive.read_many({python_string(point.group)})")
+    opened = f"async with {line.awaiting} as line:" if wait else f"with {line.blocking} as line:"
+    names = ", ".join(line.imports(wait))
+    lines = [
+        *line.first,
+        f"from {RUNTIME}.transports.{line.module} import {names}",
+        "",
+        opened,
+        *(f"    {text}" for text in inside),
+    ]
     lines += [f"{name}.{name_of_point}.decode(raw)", f"help({name}.{name_of_point})"]
-    return tuple([python_doc(line) for line in lines])
+    return tuple([text and " " * (len(text) - len(text.lstrip())) + python_doc(text.lstrip()) for text in lines])
 
 
 def _example(device: Device) -> Point | None:
-    """The point for the example: one to read and write, else one to read; of these the first that is a quantity."""
+    """The point for the example: one to read and write, else one to read; of these one that is a quantity."""
     for is_fit in (_is_settable, _is_usual):
-        quantities = filter(_is_quantity, filter(is_fit, device.points))
-        point = next(quantities, None) or next(filter(is_fit, device.points), None)
-        if point is not None:
-            return point
+        fitting = list(filter(is_fit, device.points))
+        if fitting:
+            return min(filter(_is_quantity, fitting), key=_RANK, default=None) or min(fitting, key=_RANK)
     return None
+
+
+_RANK = attrgetter("rank")
 
 
 def _is_usual(point: Point) -> bool:

@@ -12,7 +12,7 @@ from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from fieldscribe.model import Device, Entry, Flag, Point, Titles
     from fieldscribe.render import Render
@@ -58,12 +58,13 @@ class EnumClass:
 
 @dataclass(frozen=True, slots=True)
 class EnumsView:
-    """The enums module: the texts of its classes, its imports, and whether it has words of flags, or composers."""
+    """The enums module: the texts of its classes, their old names, its imports, and whether it has words of flags."""
 
     classes: list[str]
+    old_classes: Mapping[str, str]
     runtime: tuple[str, ...]
     has_words: bool
-    composes: bool
+    typing: str
 
 
 def enums_view(device: Device, names: Identifiers, render: Render) -> EnumsView:
@@ -74,7 +75,11 @@ def enums_view(device: Device, names: Identifiers, render: Render) -> EnumsView:
     for point in device.points:
         if point.shape.flags and point.form == "flags" and point.generated:
             classes.add_word(point)
-    return EnumsView(classes.texts, tuple(sorted(classes.used)), "Word" in classes.used, classes.composes)
+    if names.old_classes:
+        classes.used.add("renamed_classes")
+    typing = ["TYPE_CHECKING"] * bool(names.old_classes) + ["Self"] * classes.composes
+    used = tuple(sorted(classes.used))
+    return EnumsView(classes.texts, names.old_classes, used, "Word" in classes.used, ", ".join(typing))
 
 
 class _Classes:

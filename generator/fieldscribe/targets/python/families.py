@@ -30,11 +30,30 @@ class Flavour:
 
 
 @dataclass(frozen=True, slots=True)
+class Line:
+    """A transport of the runtime for examples: its module, and expressions that open it, for both kinds of devices."""
+
+    module: str
+    blocking: str
+    awaiting: str
+    first: tuple[str, ...] = ()
+    """Lines of import that the expressions need besides."""
+
+    def imports(self, wait: str) -> tuple[str, ...]:
+        """The classes that the expression names, in order."""
+        classes = [part.partition("(")[0] for part in (self.blocking, self.awaiting)]
+        if not wait:
+            return (classes[0],)
+        return (classes[1], classes[0]) if f"({classes[0]}(" in self.awaiting else (classes[1],)
+
+
+@dataclass(frozen=True, slots=True)
 class PythonFamily:
     """What generated modules import for a family, and the facts about the bus of a device.
 
     `module` of the runtime has the names in `exports` and the classes of `flavours`. `settings` are further parameters
-    of a device's constructor (name, class). `maker` gives the function that makes a point's attribute.
+    of a device's constructor (name, class). `maker` gives the function that makes a point's attribute, `line` the
+    transport that most people have.
     """
 
     module: str
@@ -45,6 +64,7 @@ class PythonFamily:
     profile: Callable[[Device, PackageScope], Node]
     blocks: Callable[[Device, PackageScope], Node | None]
     maker: Callable[[Point], str]
+    line: Callable[[Device], Line]
 
 
 def in_python(device: Device) -> PythonFamily:

@@ -132,6 +132,11 @@ class Identifiers:
         for point in device.points:
             if point.shape.flags and point.form == "flags" and point.generated:
                 self._name_flags(point)
+        old_classes = {
+            self._class(old, kind): new for new, kind, old_names in self._renamed(device) for old in old_names
+        }
+        self.old_classes = {old: old_classes[old] for old in sorted_imports(old_classes)}
+        """The classes by their old names, sorted for an import."""
 
     def enum_class(self, enum: str) -> str:
         """The class of an enum."""
@@ -166,6 +171,17 @@ class Identifiers:
         for flag in point.flags:
             if flag.width > 1 and flag.values:
                 self._fields[point.item, flag.name] = self._class(f"{name}{pascal(flag.name)}", "Field")
+
+    def _renamed(self, device: Device) -> Iterator[tuple[str, str, Iterable[str]]]:
+        """The classes that are called after a point with old names: each with its kind, and what it was called."""
+        for enum in device.enums:
+            yield self._enums[enum.name], "Enum", map(pascal, enum.was)
+        for point in device.points:
+            for flag, name in ((flag, self.field_class(point, flag.name)) for flag in point.flags if point.was):
+                if name is not None:
+                    yield name, "Field", [f"{pascal(item)}{pascal(flag.name)}" for item in point.old_items]
+            if point.was and self.word_class(point):
+                yield self.word_class(point), "Flags", map(pascal, point.old_items)
 
     def _class(self, wanted: str, kind: str) -> str:
         while wanted in self._taken:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _OWN = Owner("target", "what the package needs")
 _POINTS = "Python, the points"
+_CLASSES = "Python, the classes of numbers and flags"
 
 
 def device_name_taken(name: str) -> str:
@@ -39,6 +40,7 @@ def identifiers(device: Device) -> Iterator[Names]:
     """Every name that depends on the description, and the fixed names beside them."""
     names = Identifiers(device)
     yield from _of_device(device, names)
+    yield from _classes(device, names)
     for enum in device.enums:
         owner, space = Owner("enum", enum.name), f"Python, the enum `{enum.name}`"
         for entry in enum.entries:
@@ -59,6 +61,19 @@ def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
     for axis in device.variants:
         yield Names(module, Owner("variant", axis), (f"{pascal(axis)}Choice",))
         yield Names(constructor, Owner("variant", axis), (parameter(axis),))
+
+
+def _classes(device: Device, names: Identifiers) -> Iterator[Names]:
+    """The classes of the enums module."""
+    for enum in device.enums:
+        yield Names(_CLASSES, Owner("enum", enum.name), (names.enum_class(enum.name),))
+    for point in device.points:
+        owner, word = Owner("point", point.item), names.word_class(point)
+        if word:
+            yield Names(_CLASSES, owner, (word,))
+        for flag in point.flags if word else ():
+            if (name := names.field_class(point, flag.name)) is not None:
+                yield Names(_CLASSES, Owner("flag", flag.name, owner), (name,))
 
 
 def _of_point(point: Point) -> Iterator[Names]:

@@ -30,7 +30,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.rust.device import device_context
 
     scope = scope_of(device)
-    context = device_context(device, scope)
+    context = device_context(device, scope, render)
     folder = f"rust/{device.id}"
     for path, text in _crate(device, scope, context, render):
         yield f"rust/{path}", text
@@ -52,7 +52,7 @@ def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     from fieldscribe.targets.rust.device import device_context
 
     scope = scope_of(device)
-    return _crate(device, scope, device_context(device, scope), render)
+    return _crate(device, scope, device_context(device, scope, render), render)
 
 
 def vendored_runtime(device: Device) -> Iterator[tuple[str, str]]:

@@ -56,10 +56,11 @@ def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> 
     return {"words": "".join(word_texts(scope, render))} if source == "flags" else {}
 
 
-def device_context(device: Device, scope: CrateScope) -> dict[str, object]:
+def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """The context of the templates for the crate's sources."""
-    first_word = next((subject.name for subject in scope.subjects if subject.form == "flags"), "")
-    structs = tuple(arguments_views(scope))
+    words = [subject for subject in scope.subjects if subject.form == "flags"]
+    first_word = min(words, key=lambda subject: subject.point.rank).name if words else ""
+    structs = tuple(arguments_views(scope, render))
     version = Version.of(device.version)
     of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)

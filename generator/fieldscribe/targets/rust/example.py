@@ -32,7 +32,7 @@ class Snippet:
 
 def example_of(device: Device, scope: CrateScope) -> Snippet:
     """What a function that talks to the device does; nothing if no point is read by itself alone."""
-    asked = [one for one in scope.subjects if one.point.telegram is None]
+    asked = sorted((one for one in scope.subjects if one.point.telegram is None), key=lambda one: one.point.rank)
     read = _first(one for one in _plain(asked) if one.form == "scaled") or _first(_plain(asked))
     if read is None:
         return Snippet()
@@ -100,8 +100,8 @@ def _special(asked: list[CratePoint]) -> Snippet:
 
 def _blocks(device: Device, asked: list[CratePoint]) -> Snippet:
     """The reads of a group, and a point that they bring."""
-    for group, blocks in device.blocks.items():
-        for one in asked:
+    for one in asked:
+        for group, blocks in device.blocks.items():
             if one.point.readable and not one.factors and any(one.point.name in block.points for block in blocks):
                 lines = (
                     f"for block in blocks::{group.upper()} {{",

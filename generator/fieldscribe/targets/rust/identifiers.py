@@ -56,7 +56,7 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 def _of_enum(enum: Enum) -> Iterator[Names]:
     owner, space = Owner("enum", enum.name), f"Rust, the enum `{enum.name}`"
-    yield Names("Rust, module `enums`", owner, (type_name(enum.name),))
+    yield Names("Rust, module `enums`", owner, tuple(map(type_name, (enum.name, *enum.was))))
     for entry in enum.entries:
         yield Names(space, Owner("entry", entry.name, owner), (variant_name(entry.name),))
     if {variant_name(entry.name) for entry in enum.entries}.issuperset(UNKNOWN):
@@ -66,8 +66,13 @@ def _of_enum(enum: Enum) -> Iterator[Names]:
 def _of_point(subject: CratePoint) -> Iterator[Names]:
     point, owner = subject.point, Owner("point", subject.item)
     yield Names("Rust, module `points`", owner, (subject.name,))
-    for old in point.was if point.variant is None else ():
-        yield Names("Rust, module `points`", Owner("old name", old, owner), (type_name(old),))
+    for old, item in zip(point.was, point.old_items, strict=True):
+        old_name = Owner("old name", old, owner)
+        yield Names("Rust, module `points`", old_name, (type_name(item),))
+        if subject.arguments:
+            yield Names("Rust, module `with`", old_name, (type_name(item),))
+        if subject.factors and subject.factors != subject.arguments:
+            yield Names("Rust, module `with`", old_name, (type_name(f"{item}_factors"),))
     if point.references or point.specials:
         yield from _constants(subject, owner)
     if subject.arguments:

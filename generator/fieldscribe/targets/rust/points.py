@@ -21,10 +21,10 @@ from fieldscribe.targets.rust.identity import (
     widths_of,
     words_of,
 )
-from fieldscribe.targets.rust.layout import Item, binding
-from fieldscribe.targets.rust.literals import mask, type_name
+from fieldscribe.targets.rust.literals import mask
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
+from fieldscribe.targets.rust.words import old_names_text
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -91,9 +91,9 @@ class _Layouts:
             alias=words.code if is_alias(point.code or "", subject.name) else "",
             name=words.name,
             facts=(*_facts(subject._replace(name=words.name), words, self._scope), *traits),
-            was=tuple(binding(0, Item(f"pub type {type_name(old)}"), words.name) for old in point.was),
         )
-        return Pattern(self._render("rust/point.rs.j2", {"point": view}))
+        old_names = old_names_text(words.name, point.old_items, self._render)
+        return Pattern(self._render("rust/point.rs.j2", {"point": view}) + old_names)
 
 
 def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:

@@ -15,24 +15,24 @@ class ConstantView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One point: its doc comment, the manual's code to search for (or empty), its facts, its former names."""
+    """One point: its doc comment, the manual's code to search for (or empty), and its facts."""
 
     doc: tuple[str, ...]
     alias: str
     name: str
     facts: tuple[str, ...]
-    was: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class ArgumentsView:
-    """A struct of the raw numbers that a point needs."""
+    """A struct of the raw numbers that a point needs; `old_names` is the text of what it was called."""
 
     doc: str
     name: str
     fields: tuple[tuple[tuple[str, ...], str, str], ...]
     part: str
     part_literal: tuple[str, ...]
+    old_names: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, F
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.model import Device, Entry, Enum, Flag
     from fieldscribe.render import Render
@@ -38,9 +38,18 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, 
         if known is None:
             view = _enum(enum, raw, *blanks(words))
             known = patterns[key] = Pattern(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
-        texts.append(known[0].filled(words))
+        texts.append(known[0].filled(words) + old_names_text(words[0], enum.was, render))
         long |= known[1]
     return "".join(texts), long
+
+
+def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
+    """The types that keep the old names of one, as the description writes those."""
+    texts = []
+    for old in old_names:
+        lines = binding(0, Item(f"pub type {type_name(old)}"), name)
+        texts.append(render("rust/old_name.rs.j2", {"name": name, "lines": lines}))
+    return "".join(texts)
 
 
 def _is_long(enum: EnumView) -> bool:
@@ -94,7 +103,7 @@ def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
             if pattern is None:
                 view = _word(subject, *blanks(words))
                 pattern = patterns[key] = Pattern(render("rust/word.rs.j2", {"word": view}))
-            yield pattern.filled(words)
+            yield pattern.filled(words) + old_names_text(subject.name, subject.point.old_items, render)
 
 
 def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
@@ -134,7 +143,7 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
-def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
+def arguments_views(scope: CrateScope, render: Render) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
     needy = [subject for subject in scope.subjects if subject.arguments]
     links = _links(scope) if needy else {}
@@ -144,10 +153,12 @@ def arguments_views(scope: CrateScope) -> Iterator[ArgumentsView]:
         part = subject.factors_name if parted else ""
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", ())
+            old_names = old_names_text(part, [f"{old}_factors" for old in subject.point.old_items], render)
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", (), old_names)
         literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal)
+        old_names = old_names_text(subject.name, subject.point.old_items, render)
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal, old_names)
 
 
 def _fields(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ from fieldscribe.targets.vectors.sheets import Sheets
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.model import Bus, Device
     from fieldscribe.targets.vectors.exchanges import Wire
 
 
@@ -42,8 +43,7 @@ class OfFamily:
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points by address, then its frames and blocks.
 
-    What is tried in depth, or with bad answers, is tried at the first of all that are alike. New points have mostly
-    addresses behind those of old ones, wherever they stand in the description: the old ones keep their vectors.
+    What is tried in depth, or with bad answers, is tried at the first of all that are alike.
     """
     family_part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
     lines = Lines(rows(family_part.KINDS))
@@ -51,7 +51,7 @@ def collect(device: Device) -> Lines:
     meanings = Meanings()
     sheets = Sheets(lines, oracle, meanings)
     identities = Identities(lines, device.variants)
-    points = {point.item: point for point in sorted(device.points, key=_place) if point.generated}
+    points = {point.item: point for point in sorted(device.points, key=attrgetter("rank")) if point.generated}
     exchanges = [Exchanges(lines, oracle, meanings, points, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
@@ -80,11 +80,6 @@ def collect(device: Device) -> Lines:
         )
     family_part.frames(lines, device)
     return lines
-
-
-def _place(point: Point) -> tuple[bool, str, int]:
-    """What orders points; those without an address come last."""
-    return not point.addresses, point.space, min(point.addresses, default=0)
 
 
 _MANY = 200

@@ -16,6 +16,7 @@ from .errors import (
     ExceptionReplyError,
     FieldscribeError,
     FrameError,
+    LineError,
     MissingRawError,
     NoCaseError,
     NoReplyError,
@@ -68,7 +69,7 @@ from .modbus import (
     Profile,
     Transport,
 )
-from .named import NamedNumber
+from .named import NamedNumber, renamed_classes
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -123,6 +124,7 @@ __all__ = [
     "Integer",
     "Layout",
     "Limit",
+    "LineError",
     "MissingRawError",
     "ModbusDevice",
     "Named",
@@ -163,5 +165,6 @@ __all__ = [
     "input_register",
     "parameter",
     "renamed",
+    "renamed_classes",
     "telegram",
 ]

@@ -8,7 +8,7 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .errors import AccessError
+from .errors import AccessError, LineError
 from .session import Session, Steps, Value
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class AnyDevice(Session):
                 while True:
                     try:
                         reply = self._carry(request)
-                    except TimeoutError as error:
+                    except (TimeoutError, LineError) as error:
                         request = steps.throw(error)
                     else:
                         request = steps.send(reply)
@@ -134,7 +134,7 @@ class AnyAsyncDevice(Session):
                 while True:
                     try:
                         reply = await self._carry(request)
-                    except TimeoutError as error:
+                    except (TimeoutError, LineError) as error:
                         request = steps.throw(error)
                     else:
                         request = steps.send(reply)

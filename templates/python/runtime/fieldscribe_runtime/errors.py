@@ -174,3 +174,9 @@ class NoReplyError(FieldscribeError, TimeoutError):
     """Nothing came that answers, in time; what was heard last, if it tells why, is the `__cause__`."""
 
     status = "timeout"
+
+
+class LineError(FieldscribeError, ConnectionError):
+    """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more."""
+
+    status = "line"

@@ -4,7 +4,11 @@
 from __future__ import annotations
 
 import enum
-from typing import Self
+import warnings
+from typing import TYPE_CHECKING, Any, Self
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class NamedNumber(enum.IntEnum):
@@ -36,3 +40,16 @@ class NamedNumber(enum.IntEnum):
 
     def __format__(self, spec: str) -> str:
         return format(int(self), spec) if spec else str(self)
+
+
+def renamed_classes(module: str, **classes: type) -> Callable[[str], Any]:
+    """What a module does for a name that it lacks: the classes by their old names, with a warning."""
+
+    def renamed_class(name: str) -> Any:
+        if name not in classes:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}", name=name)
+        text = f"{name} is now called {classes[name].__name__}"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        return classes[name]
+
+    return renamed_class

@@ -10,9 +10,9 @@ from fieldscribe.families.can.frames import (
     LENGTH,
     CanFrame,
     Parsed,
-    differences,
     parse,
     places,
+    sums,
     telegram_words,
     unit_of,
 )
@@ -93,11 +93,9 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
     wrong = next((heard for heard in tried if heard.parsed.status == "wrong_check"), None)
     if wrong is None or number is None:
         return frame, None
-    data = bytearray(frame.printed)
-    for byte in differences(wrong.message, wrong.unit, CanFrame(number, frame.printed)):
-        data[byte.place] = byte.due
-    sums = places(wrong.message, "xor")
-    here, right = (bytes(sum_of[place] for place in sums) for sum_of in (frame.printed, data))
+    data, (here, right) = bytearray(frame.printed), sums(wrong.message, frame.printed)
+    for place, due in zip(places(wrong.message, "xor"), right, strict=True):
+        data[place] = due
     report_wrong_sum(subject, open_frame, "xor", here, right)
     parsed = parse(wrong.message, wrong.unit, CanFrame(number, bytes(data)))
     return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.facts import identifier_bits
-from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -50,6 +50,13 @@ def _role(role: Role) -> Node:
     return call("Role", (python_string(role.kind), number))
 
 
+_BUS = 'can.Bus("can0", interface="socketcan")'
+
+
+def _line(_: Device) -> Line:
+    return Line("can", f"CanLine({_BUS})", f"AsyncCanLine({_BUS})", ("import can",))
+
+
 IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.can",
     exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
@@ -59,4 +66,5 @@ IN_PYTHON = PythonFamily(
     profile=_profile,
     blocks=no_blocks,
     maker=usual_maker,
+    line=_line,
 )

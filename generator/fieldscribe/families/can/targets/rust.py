@@ -162,7 +162,8 @@ def heard(scope: CrateScope) -> tuple[str, Snippet]:
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
         return "", Snippet()
-    first = next((subject for subject in plain if subject.form == "scaled"), plain[0])
+    scaled = [subject for subject in plain if subject.form == "scaled"]
+    first = min(scaled or plain, key=lambda subject: subject.point.rank)
     lines = [f"let value = client.receive::<p::{first.name}>()?; // waits for its next frame"]
     lines.append('println!("it is {value:?}");')
     names = ["Receiver", "telegrams"]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.families.modbus.functions import BROADCAST, FRAMINGS, profile_of
-from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -56,6 +56,14 @@ def _blocks(device: Device, scope: PackageScope) -> Node | None:
     return Group("{", tuple(groups), "}")
 
 
+SERIAL = Line("serial", 'SerialLine("/dev/ttyUSB0", 9600)', 'AsyncSerialLine(SerialLine("/dev/ttyUSB0", 9600))')
+NETWORK = Line("tcp", 'TcpLine("192.168.0.20")', 'AsyncTcpLine("192.168.0.20")')
+
+
+def _line(device: Device) -> Line:
+    return SERIAL if "rtu" in device.bus.framings else NETWORK
+
+
 IN_PYTHON = PythonFamily(
     module=RUNTIME,  # the Modbus names come from the runtime itself
     exports=frozenset({"Block", "Profile"}),
@@ -65,4 +73,5 @@ IN_PYTHON = PythonFamily(
     profile=_profile,
     blocks=_blocks,
     maker=usual_maker,
+    line=_line,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.targets.python.families import RUNTIME, Flavour, PythonFamily, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -61,6 +61,10 @@ def _maker(point: Point) -> str:
     return _STORED.get(usual, usual) if stored else usual
 
 
+def _line(_: Device) -> Line:
+    return Line("serial", 'UssLine("/dev/ttyUSB0", 9600)', 'AsyncSerialLine(UssLine("/dev/ttyUSB0", 9600))')
+
+
 IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.uss",
     exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
@@ -70,4 +74,5 @@ IN_PYTHON = PythonFamily(
     profile=_profile,
     blocks=no_blocks,
     maker=_maker,
+    line=_line,
 )

@@ -1,0 +1,176 @@
+"""Changes that hold no fact, told apart from those that may: what frames a manual, and how it is worded."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.editions.findings import Remark
+from fieldscribe.audit.editions.furniture import heads_and_feet
+from fieldscribe.audit.editions.parting import is_row
+from fieldscribe.audit.editions.vocabulary import are_respelled
+from fieldscribe.audit.editions.words import Words
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from fieldscribe.audit.editions.changes import Editions
+    from fieldscribe.audit.editions.findings import Finding
+    from fieldscribe.audit.manual import Manual
+
+KINDS = (
+    "heads_and_feet",
+    "front_matter",
+    "contents",
+    "list_of_editions",
+    "headings",
+    "references",
+    "repeated_heads",
+    "moved",
+    "wording",
+)
+_BOTH = 2
+_MONTHS = "jan|feb|m\u00e4r|mar|apr|mai|may|jun|jul|aug|sep|okt|oct|nov|de[zc]"
+_DATE = re.compile(
+    r"\b(?:[0-9]{1,2}[./-][0-9]{1,2}[./-](?:[0-9]{2}){1,2}|(?:19|20)[0-9]{2}-[0-9]{2}(?:-[0-9]{2})?"
+    rf"|[0-9]{{1,2}}/(?:19|20)[0-9]{{2}}|(?:{_MONTHS})[^\W\d]*\.? (?:19|20)[0-9]{{2}})\b",
+    re.IGNORECASE,
+)
+_LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
+_NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
+"""A section's number, its title and its page; sections of sections stand near."""
+_POINTS = re.compile(
+    r"\b(?:siehe|vgl|see|refer|described|beschrieben|beschreibt|found|finden|aufgef\u00fchrt|listed|zu entnehmen)\b",
+    re.IGNORECASE,
+)
+_AT = re.compile(
+    r"\b(?:Anhang|Kapitel|Abschnitt|Seite|Handbuch|Ende|Appendix|Annex|Chapter|Section|Page|Handbook|End)\b",
+    re.IGNORECASE,
+)
+_SENTENCE = re.compile(r"[^.!?:;]*[.!]?\s*")
+
+
+class Remarks:
+    """Sorts findings into those that may hold facts and remarks about those that do not."""
+
+    def __init__(self, editions: Editions, manual: Manual) -> None:
+        self.editions, self.manual = editions, manual
+        self._below_title = self._second_line()
+        self._kinds: tuple[tuple[str, Callable[[Finding], bool]], ...] = (
+            ("front_matter", self._is_front_matter),
+            ("contents", self._is_contents),
+            ("list_of_editions", self._is_list_of_editions),
+            ("headings", self._is_heading),
+            ("references", self._is_reference),
+            ("repeated_heads", self._is_repeated),
+            ("moved", lambda finding: finding.kind == "moved"),
+            ("wording", _is_wording),
+        )
+
+    def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
+        """What may hold facts, in its order, and what does not, by kinds."""
+        kind_of = {
+            id(finding): "heads_and_feet"
+            for finding in heads_and_feet(findings, self.editions.old.lines, self.editions.new.lines)
+        }
+        for finding in findings:
+            if id(finding) not in kind_of and (kind := self._kind(finding)):
+                kind_of[id(finding)] = kind
+        by_kind = {kind: [finding for finding in findings if kind_of.get(id(finding)) == kind] for kind in KINDS}
+        remarks = [Remark(kind, tuple(group)) for kind, group in by_kind.items() if group]
+        return [finding for finding in findings if id(finding) not in kind_of], remarks
+
+    def _kind(self, finding: Finding) -> str:
+        """The kind of a finding that holds no fact; "" if it may hold one."""
+        if finding.void or finding.drafts or any(cite.fact for cite in finding.cited_by):
+            return ""
+        if any(reason.kind not in ("number", "word") for reason in finding.reasons):
+            return ""
+        return next((kind for kind, fits in self._kinds if fits(finding)), "")
+
+    def _second_line(self) -> int:
+        """Where the second line of the old edition that has words stands now."""
+        lines = (line for line in range(1, len(self.editions.old.lines) + 1) if self.editions.old.of_line(line))
+        places = (self.editions.now(line) for line in islice(lines, 1, None))
+        return next((place[0] for place in places if place is not None), 1)
+
+    def _was_there(self, line: int) -> bool:
+        return any(not self.editions.is_new(word) for word in self.editions.new.of_line(line))
+
+    def _is_front_matter(self, finding: Finding) -> bool:
+        """Whether it stands before all that the old edition had, but for its first line: the title may be repeated."""
+        return finding.kind == "added" and finding.new is not None and finding.new[1] < self._below_title
+
+    def _is_contents(self, finding: Finding) -> bool:
+        """Whether each line has leaders and a page, or a section's number and a page."""
+        lines = _written((*finding.was, *finding.now))
+        if finding.kind == "moved" or not lines:
+            return False
+        return all(map(_LEADERS.search, lines)) or (
+            all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
+        )
+
+    def _among_sections(self, finding: Finding) -> bool:
+        """Whether the lines above and below are numbered sections with pages, too."""
+        text = self.editions.new if finding.new else self.editions.old
+        first, last = finding.new or finding.old or (1, 1)
+        beside = (_NUMBERED.fullmatch(text.line(line).strip()) for line in (first - 1, last + 1))
+        sections = [match for match in beside if match]
+        return len(sections) == _BOTH and any(match[1] for match in sections)
+
+    def _is_list_of_editions(self, finding: Finding) -> bool:
+        """Whether rows below a heading or a row without numbers have a date each."""
+        lines = _written(finding.now or finding.was)
+        rows = [line for line in lines if any(map(str.isdigit, line)) and not line.startswith("#")]
+        return finding.kind in ("added", "removed") and bool(rows) and all(map(_DATE.search, rows))
+
+    def _is_heading(self, finding: Finding) -> bool:
+        """Whether it is a heading over text that was there before."""
+        if finding.kind != "added" or finding.new is None or finding.new[0] != finding.new[1]:
+            return False
+        below = (line for line in range(finding.new[1] + 1, len(self.manual) + 1) if self.editions.new.of_line(line))
+        return finding.new[0] in self.manual.headings and self._was_there(next(below, 0))
+
+    def _is_reference(self, finding: Finding) -> bool:
+        """Whether it is a sentence that says where something is described."""
+        if finding.kind != "added" or len(finding.places) > 1 or len(lines := _written(finding.now)) != 1:
+            return False
+        if any(reason.kind == "number" for reason in finding.reasons) or _SENTENCE.fullmatch(lines[0]) is None:
+            return False
+        return bool(_POINTS.search(lines[0]) and _AT.search(lines[0]))
+
+    def _is_repeated(self, finding: Finding) -> bool:
+        """Whether all its rows stand in the other edition, too: the head of a table, on one page more or less."""
+        if finding.kind not in ("added", "removed"):
+            return False
+        lines = _written(finding.now or finding.was)
+        other = self._lines_of_old if finding.kind == "added" else self._lines_of_new
+        return all(is_row(line) and _words_of(line) in other for line in lines)
+
+    @cached_property
+    def _lines_of_old(self) -> set[tuple[str, ...]]:
+        return set(map(_words_of, self.editions.old.lines))
+
+    @cached_property
+    def _lines_of_new(self) -> set[tuple[str, ...]]:
+        return set(map(_words_of, self.editions.new.lines))
+
+
+def is_spelling(finding: Finding) -> bool:
+    """Whether words are only spelt otherwise, or signs between them."""
+    return all(are_respelled(old, new) for old, new in finding.words)
+
+
+def _is_wording(finding: Finding) -> bool:
+    """Whether it is explained, and no erratum speaks of its lines, or of the same words."""
+    return finding.explained and (is_spelling(finding) or not any(cite.is_erratum for cite in finding.cited_by))
+
+
+def _written(lines: Iterable[str]) -> list[str]:
+    return [line for line in lines if any(map(str.isalnum, line))]
+
+
+def _words_of(line: str) -> tuple[str, ...]:
+    return tuple(Words(line).texts)

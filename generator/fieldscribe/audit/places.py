@@ -1,0 +1,175 @@
+"""The places that a description cites, as they stand in a text: lines, passages, and the parts of passages."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.columns import Columns
+from fieldscribe.audit.labels import standing
+from fieldscribe.audit.manual import Extent, Manual, Token
+from fieldscribe.audit.outcome import Audit, Moved
+from fieldscribe.audit.passage import Passage
+from fieldscribe.audit.placement import placement
+from fieldscribe.audit.siblings import Siblings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from fractions import Fraction
+
+    from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.printed_errata import PrintedErratum
+    from fieldscribe.model import About
+
+_PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
+"""Facts that a place may print anew behind the address of each of its subjects."""
+_NEARLY_ALL = 0.75
+"""The share of facts from which on all have to stand alike; of some more one may always be another."""
+
+
+class Asked:
+    """What is looked for in a text."""
+
+    def __init__(
+        self, claims: list[Claim], errata: list[PrintedErratum], looked_through: Mapping[int, frozenset[str]]
+    ) -> None:
+        self.claims, self.errata, self.looked_through = claims, errata, looked_through
+
+
+def nearly_all(stand: list[bool], but_one_of: int = 4) -> bool:
+    """Whether so many of what is alike stand that all have to."""
+    enough = sum(stand) > _NEARLY_ALL * len(stand)
+    return enough or (len(stand) >= but_one_of and sum(stand) == len(stand) - 1)
+
+
+class Places:
+    """Where cited lines stand now, with what was found in them so far."""
+
+    def __init__(self, manual: Manual, asked: Asked, outcome: Audit) -> None:
+        claims, errata, looked_through = asked.claims, asked.errata, asked.looked_through
+        self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
+        self.used: set[tuple[int, int]] = set()
+        self.taken: dict[About, list[PrintedErratum]] = {}
+        for erratum in errata:
+            for name in erratum.subjects:
+                self.taken.setdefault(name, []).append(erratum)
+        self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
+        self.subjects: dict[Extent, dict[str, str]] = {}
+        self.absent: list[tuple[Claim, list[Extent]]] = []
+        cited = sorted({first for claim in claims for first, _ in claim.cited})
+        self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
+        self.cited = sorted(self.now)
+        self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
+        places = [(place, numbers) for line, numbers in looked_through.items() for place in self._may_be(line)]
+        self.empty = {place for place, numbers in places if not numbers}
+        self.no_facts = {place: numbers for place, numbers in places if numbers}
+        self._extents: dict[tuple[int, int], Extent] = {}
+        self._passages: dict[Extent, Passage] = {}
+        self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
+        self._parted: dict[tuple[Extent, str], bool] = {}
+        self.added: list[Token] = []
+        self.columns, self.siblings = Columns(manual), Siblings()
+
+    def _now(self, line: int) -> int:
+        """Where any line of the transcribed text stands in this text: it moved with the nearest cited line above it."""
+        place = bisect_right(self.cited, line)
+        return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
+
+    def _may_be(self, line: int) -> set[int]:
+        """Where a line that no fact cites may stand: it moved with the cited line above it, or with the one below."""
+        below = self.cited[bisect_right(self.cited, line) :][:1]
+        return {self._now(line), *(line + self.now[cited] - cited for cited in below)}
+
+    def extent(self, first: int, last: int) -> Extent:
+        """The lines that a citation means in this text."""
+        key = (first, last)
+        if key not in self._extents:
+            start = self._now(first)
+            if last:
+                extent = Extent(start, start + last - first, "lines")
+            else:
+                place = bisect_right(self.starts, start)
+                extent = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
+            self._extents[key] = extent
+        return self._extents[key]
+
+    def passage(self, extent: Extent) -> Passage:
+        """Their text, with the cells that are merged from above."""
+        if extent not in self._passages:
+            lines = [(line, 0, self.manual.line(line)) for line in range(extent.first, extent.last + 1)]
+            self._passages[extent] = Passage(self.manual, (*lines, *self.manual.merged_cells(extent.first)))
+        return self._passages[extent]
+
+    def _tokens(self, extent: Extent) -> list[Token]:
+        return self.passage(extent).tokens
+
+    def _text(self, extent: Extent) -> str:
+        return self.passage(extent).text
+
+    def _of_line(self, line: int) -> list[Token]:
+        return self.manual.tokens[line - 1] if 1 <= line <= len(self.manual) else []
+
+    def _use(self, tokens: Iterable[Token]) -> None:
+        self.used.update((token.line, token.column) for token in tokens)
+
+    def _own_passage(self, claim: Claim, extent: Extent) -> Passage:
+        """A place, or the part of it behind the subject's own address where the manual prints such facts so."""
+        part = self._part(claim.subject, extent) if claim.fact in _PARTED else None
+        return part if part is not None and self._parts(extent, claim.fact) else self.passage(extent)
+
+    @cached_property
+    def _addresses(self) -> dict[Extent, dict[str, frozenset[Fraction]]]:
+        """Whose addresses are cited in each place."""
+        addresses: dict[Extent, dict[str, frozenset[Fraction]]] = {}
+        for claim in self.claims:
+            if claim.fact == "address" and claim.anchor:
+                for cited in claim.cited:
+                    addresses.setdefault(self.extent(*cited), {})[claim.subject] = claim.numbers
+        return addresses
+
+    @cached_property
+    def _claims_in(self) -> dict[tuple[Extent, str], list[Claim]]:
+        claims: dict[tuple[Extent, str], list[Claim]] = {}
+        for claim in self.claims:
+            for cited in claim.cited:
+                claims.setdefault((self.extent(*cited), claim.fact), []).append(claim)
+        return claims
+
+    def _part(self, subject: str, extent: Extent) -> Passage | None:
+        """What stands behind a subject's own address, up to the next one; None if the place has only one address."""
+        addresses = self._addresses.get(extent, {})
+        if subject not in addresses or len(set(addresses.values())) == 1:
+            return None
+        key = (extent, addresses[subject])
+        if key not in self._own_parts:
+            others = frozenset().union(*addresses.values())
+            self._own_parts[key] = self.passage(extent).part(addresses[subject], others)
+        return self._own_parts[key]
+
+    def _parts(self, extent: Extent, fact: str) -> bool:
+        """Whether the manual prints such a fact behind the address of each subject: for nearly all of them."""
+        key = (extent, fact)
+        if key not in self._parted:
+            parts = [(claim, self._part(claim.subject, extent)) for claim in self._claims_in[key] if not claim.optional]
+            stand = [part is not None and bool(standing([claim], part)) for claim, part in parts]
+            self._parted[key] = nearly_all(stand, but_one_of=3)
+        return self._parted[key]
+
+    def _moved(self, cited: list[int]) -> dict[int, int]:
+        """Where each cited line stands in a manual that changed; what moved is noted."""
+        anchors: dict[int, list[Claim]] = {}
+        for claim in self.claims:
+            if not claim.optional:
+                for first, _ in claim.cited:
+                    anchors.setdefault(first, []).append(claim)
+        numbers: dict[int, list[Fraction]] = {}
+        for erratum in self.errata:
+            if not erratum.is_sentence:
+                for first, _ in erratum.cited:
+                    numbers.setdefault(first, []).extend(erratum.numbers)
+        now = placement(self.manual, cited, anchors, numbers)
+        for line in [line for line in cited if now[line] != line]:
+            for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
+                self.outcome.moved.append(Moved(name, line, now[line]))
+        return now

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: 0BSD
+"""A serial line, by pyserial: Modbus RTU and USS.
+
+from fieldscribe_runtime.transports.serial import SerialLine
+
+with SerialLine("/dev/ttyUSB0", 9600) as line:
+drive = HitachiL200(line, unit=1)
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import time
+from typing import TYPE_CHECKING, Any
+
+from ..arguments import shown
+from ..errors import RequestError
+from ..modbus.frames import RTU
+from .line import USS, Line
+
+try:
+    import serial
+except ModuleNotFoundError as missing:
+    hint = 'this needs pyserial: pip install "fieldscribe-runtime[serial]"'
+    raise ModuleNotFoundError(hint, name=missing.name) from None
+
+if TYPE_CHECKING:
+    from typing import Self
+
+_BITS = 11
+"""Of a character with start, parity and stop bit."""
+_MODE = re.compile("[78][NEO][12]")
+_SILENCE = 3.5
+"""Characters of silence that part two frames."""
+
+
+class SerialLine(Line):
+    """A serial line with Modbus RTU: opened when it is used first, and anew after a failure.
+
+    `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
+    is data bits, parity (N, E, O) and stop bits. With `echo` what is sent comes back first, as on many RS-485 adapters
+    with two wires.
+    """
+
+    FRAMING = RTU
+    MODE = "8N1"
+
+    def __init__(
+        self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
+    ) -> None:
+        super().__init__(self.FRAMING)
+        self.port, self.echo, mode = port, echo, mode or self.MODE
+        if not _MODE.fullmatch(mode):
+            raise RequestError("bad_mode", f"a mode is data bits, parity and stop bits, as in 8E1, not {shown(mode)}")
+        self._settings: dict[str, Any] = {
+            "baudrate": baudrate,
+            "bytesize": int(mode[0]),
+            "parity": mode[1],
+            "stopbits": int(mode[2]),
+            "timeout": timeout,
+        }
+        self._silence = max(_SILENCE * _BITS / baudrate, 0.00175)
+        self._serial: Any = None
+
+    def __str__(self) -> str:
+        return f"{self.port} at {self._settings['baudrate']} baud"
+
+    def _send(self, request: bytes) -> None:
+        if self._serial is None:
+            self._serial = serial.serial_for_url(self.port, **self._settings)
+        else:
+            time.sleep(self._silence)
+        self._serial.reset_input_buffer()
+        self._serial.write(request)
+        self._serial.flush()
+        if self.echo and self._serial.read(len(request)) != request:
+            raise TimeoutError("what was sent was not heard: another speaks, or the adapter gives no echo")
+
+    def _read(self, most: int) -> bytes:
+        received: bytes = self._serial.read(most)
+        return received
+
+    def _failed(self) -> None:
+        while self._serial.read(64):  # until the line is silent
+            pass
+
+    def close(self) -> None:
+        """Close the port."""
+        if self._serial is not None:
+            self._serial.close()
+            self._serial = None
+
+
+class UssLine(SerialLine):
+    """The same with USS, which has even parity."""
+
+    FRAMING = USS
+    MODE = "8E1"
+
+
+class AsyncSerialLine:
+    """A serial line for async devices, whose waiting is done in a thread: `AsyncSerialLine(SerialLine(...))`."""
+
+    def __init__(self, line: SerialLine) -> None:
+        self.line, self.framing = line, line.framing
+
+    async def exchange(self, request: bytes) -> bytes:
+        """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
+        return await asyncio.to_thread(self.line.exchange, request)
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        self.line.close()

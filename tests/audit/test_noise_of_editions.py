@@ -1,0 +1,199 @@
+"""What a new edition changes is told once, with what it is; what holds no fact is a remark, and asks for nothing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.audit.editions import Edition, compare
+from fieldscribe.audit.editions.report import as_lines
+from fieldscribe.audit.editions.vocabulary import is_respelled
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_subject
+from support.described import group, head, together, write
+
+if TYPE_CHECKING:
+    from fieldscribe.audit.editions import Comparison
+    from fieldscribe.resolve.subject import Subject
+
+FILLING = "".join(f"Chapter {chapter}, about this and that.\n\n" for chapter in "abcdefghijklmnop")
+OLD = f"""# Heat pump
+
+Modes ..... 3
+Words ..... 7
+
+{FILLING}
+## Registers
+
+| Code | Title | Register | Range | Step |
+|------|-------|----------|-------|------|
+| H01 | Flow temperature | 0010h | 0-900 | 0.1 K |
+| H02 | Target temperature | 0011h | 200-550 | 0.1 K |
+| H03 | {"Mode of the whole plant, with all that belongs to it, " * 4}| 0012h | 0-2 | - |
+| H04 | Delay | 0013h | 0-30 | - |
+
+{FILLING}
+## Words
+
+Status word at 0020h
+
+3\tleft or right\t
+\t0\tturns left
+\t1\tturns right
+4\tready\t
+\t1\tready
+
+The plant frees the ramp. See page 12.
+
+{FILLING}"""
+POINTS = """- {code: H01, name: flow, at: 0010h, range: 0..900, scale: value = raw * 0.1, unit: K, line: 43}
+- {code: H02, name: target, at: 0011h, range: 200..550, scale: value = raw * 0.1, unit: K, line: 44}
+- {code: H03, name: mode, at: 0012h, range: 0..2, line: 45}
+- {code: H04, name: delay, at: 0013h, range: 0..30, line: 46}
+- name: status
+  at: 0020h
+  line: 83
+  flags:
+    3: {name: direction, values: {0: {name: left, en: turns left}, 1: {name: right, en: turns right}}}
+  lines: {flags: 85..87}
+"""
+
+
+@pytest.fixture(scope="module")
+def subject(tmp_path_factory: pytest.TempPathFactory) -> Subject:
+    looked_through = "\n- {lines: 3..38, why: Prose.}\n- {lines: 48..81, why: Prose.}\n- {lines: 88..124, why: Prose.}"
+    text = together(head(looked_through=looked_through), group(POINTS, access="rw"))
+    subject = load_subject(write(tmp_path_factory.mktemp("noise") / "plant", text), Report())
+    assert subject is not None
+    return subject
+
+
+def _compared(subject: Subject, new: str) -> Comparison:
+    return compare(subject, Edition("old", OLD, None), Edition("new", new, None))[0]
+
+
+def _with(old: str, new: str) -> str:
+    assert OLD.count(old) == 1, old
+    return OLD.replace(old, new)
+
+
+def _with_feet(foot: str) -> str:
+    """The text with a foot of a page, with its number, behind each chapter d."""
+    pieces = OLD.split("Chapter d")
+    return pieces[0] + "".join(f"{foot.format(page + 7)}\n\nChapter d{piece}" for page, piece in enumerate(pieces[1:]))
+
+
+REMARKS = {
+    # what holds no fact, as text: its kind
+    "feet that count": (_with_feet("Heat pump B-{}"), "heads_and_feet"),
+    "numbers of pages": (_with_feet("{}"), "heads_and_feet"),
+    "one foot that says so": (_with("## Words", "Edition 2 of 2025, page 4 of 9\n\n## Words"), "heads_and_feet"),
+    "cover": (f"Manual\n\nOrder number 4711, for firmware 1.1.\n\n{OLD}", "front_matter"),
+    "cover with the title": (f"# Heat pump\n\nOrder number 4711.\n\n{OLD}", "front_matter"),
+    "pages of the contents": (_with("..... 7", "..... 9"), "contents"),
+    "list of editions": (
+        _with("## Registers", "## History\n\n| Edition | Of |\n| 1 | March 2020 |\n| 2 | 01.05.2025 |\n\n## Registers"),
+        "list_of_editions",
+    ),
+    "a heading": (_with("Status word at", "## 7 of 9: Status\n\nStatus word at"), "headings"),
+    "a pointer": (
+        _with("The plant frees", "Terminals are described in the appendix.\n\nThe plant frees"),
+        "references",
+    ),
+    "another page": (_with("See page 12", "See page 14"), "wording"),
+    "a table over two pages": (
+        _with("| H03", "\n| Code | Title | Register | Range | Step |\n|---|---|---|---|---|\n| H03"),
+        "repeated_heads",
+    ),
+    "spelling": (_with("frees the ramp", "freed the Ramp"), "wording"),
+}
+
+
+@pytest.mark.parametrize(("new", "kind"), REMARKS.values(), ids=REMARKS)
+def test_what_holds_no_fact_is_one_remark(subject: Subject, new: str, kind: str) -> None:
+    outcome = _compared(subject, new)
+    assert ([remark.kind for remark in outcome.remarks], outcome.findings) == ([kind], [])
+    assert outcome.explained
+    assert "remark" in _told(outcome)[0]
+
+
+FINDINGS = {
+    # what may hold one: kinds and words of the findings
+    "two bits": (
+        _with("0\tturns left\n\t1\tturns right", "0\tturns right\n\t1\tturns left"),
+        [("swapped", (("left", "right"),))],
+    ),
+    "a new row above a changed one": (
+        _with("| H02", "| H09 | Boost | 0019h | 0-1 | - |\n| H02").replace("200-550", "200-600"),
+        [("added", (("", "H09 | Boost | 0019h | 0-1 | -"),)), ("changed", (("550", "600"),))],
+    ),
+    "a changed row above one that is gone": (
+        _with("| 0-2 | - |\n| H04 | Delay | 0013h | 0-30 | - |", "| 0-2, 9 | - |"),
+        [("changed", (("", ", 9"),)), ("removed", (("H04 | Delay | 0013h | 0-30 | -", ""),))],
+    ),
+    "a row in place of another": (
+        _with("| H04 | Delay | 0013h | 0-30 | - |", "| H07 | Boost | 0019h | 0-1 | 1 s |"),
+        [("removed", (("H04 | Delay | 0013h | 0-30 | -", ""),)), ("added", (("", "H07 | Boost | 0019h | 0-1 | 1 s"),))],
+    ),
+    "whole numbers": (_with("0-900 | 0.1 K", "0-900 | 0.5 K"), [("changed", (("0.1", "0.5"),))]),
+    "a sentence with a number": (
+        _with("The plant frees", "It waits for 20 ms, see page 3.\n\nThe plant frees"),
+        [("added", (("", "It waits for 20 ms, see page 3."),))],
+    ),
+    "an equal line at two places": (
+        OLD.replace("Chapter d,", "It waits for 20 ms.\n\nChapter d,", 2),
+        [("added", (("", "It waits for 20 ms."),))],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("new", "findings"), FINDINGS.values(), ids=FINDINGS)
+def test_what_may_hold_a_fact_is_one_finding(
+    subject: Subject, new: str, findings: list[tuple[str, tuple[tuple[str, str], ...]]]
+) -> None:
+    outcome = _compared(subject, new)
+    assert [(finding.kind, finding.words) for finding in outcome.findings] == findings
+    assert (outcome.explained, outcome.remarks) == (False, [])
+    assert all(".yaml:" in line for line in _told(outcome) if line.split(": ")[1:2] == [findings[0][0]])
+
+
+def test_equal_lines_name_all_their_places(subject: Subject) -> None:
+    outcome = _compared(subject, FINDINGS["an equal line at two places"][0])
+    assert [place.new for place in outcome.findings[0].places] == [(12, 12), (56, 56)]
+    assert "2 places: lines 12, 56 in the new edition" in _told(outcome)[0]
+
+
+def test_a_long_line_is_shown_around_its_change(subject: Subject) -> None:
+    told = _told(_compared(subject, _with("0012h | 0-2", "0012h | 0-5")))
+    [shown] = [line for line in told if line.startswith("  + ")]
+    assert shown.endswith("| 0012h | 0-5 | - |")
+    assert len(shown) < 180
+
+
+def test_a_removed_row_is_told_once(subject: Subject) -> None:
+    [finding] = _compared(subject, _with("| H04 | Delay | 0013h | 0-30 | - |\n", "")).findings
+    assert [(reason.kind, reason.subjects) for reason in finding.reasons] == [("gone", ("delay",))]
+
+
+def _told(outcome: Comparison) -> list[str]:
+    return ["".join(text for _, text in line) for line in as_lines(outcome, everything=False)]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ("Anschlu\u00df", "Anschluss", True),
+        ("vorgeben", "Vorgeben", True),
+        ("freigeben", "freigegeben", True),
+        ("register", "registers", True),
+        ("k\u00fchlen", "kuhlen", True),
+        ("synchron", "asynchron", False),
+        ("Eingang", "Ausgang", False),
+        ("maximum", "minimum", False),
+        ("signal", "signed", False),
+        ("A020", "A021", False),
+        ("high", "higher", False),
+    ],
+)
+def test_spellings_of_a_word(old: str, new: str, same: bool) -> None:
+    assert is_respelled(old, new) == is_respelled(new, old) == same

@@ -1,0 +1,50 @@
+"""A server of pymodbus, in a thread of its own: somebody else's other end."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import threading
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from pymodbus import FramerType
+from pymodbus.server import ModbusTcpServer
+from pymodbus.simulator import DataType, SimData, SimDevice
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@contextmanager
+def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7) -> Iterator[int]:
+    """A server of pymodbus in a thread of its own, with that number in each register; its port."""
+    words = [SimData(0, count=0x1400, values=word, datatype=DataType.REGISTERS)]
+    bits = [SimData(0, count=64, values=False, datatype=DataType.BITS)]
+    device = SimDevice(id=1, simdata=(bits, bits, words, words))
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    loop = asyncio.new_event_loop()
+    ready = threading.Event()
+    made: list[ModbusTcpServer] = []
+
+    async def serve() -> None:
+        made.append(ModbusTcpServer(device, framer=framer, address=("127.0.0.1", port)))
+        await made[0].serve_forever(background=True)
+        ready.set()
+
+    async def stop() -> None:
+        await made[0].shutdown()  # type: ignore[no-untyped-call]  # pymodbus says no types here
+
+    thread = threading.Thread(target=loop.run_forever, daemon=True)
+    thread.start()
+    asyncio.run_coroutine_threadsafe(serve(), loop).result(5)
+    assert ready.wait(5)
+    try:
+        yield port
+    finally:
+        asyncio.run_coroutine_threadsafe(stop(), loop).result(5)
+        loop.call_soon_threadsafe(loop.stop)
+        thread.join(5)
+        loop.close()

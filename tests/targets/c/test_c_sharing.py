@@ -1,0 +1,176 @@
+"""What points of a header share is there once, and is named by what it holds: no other point renames it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.pipeline import outputs
+from fieldscribe.targets import c
+from fieldscribe.targets.identifiers import clashes
+from support.c_device import WARNINGS, write_headers
+from support.models import allowed, device_of, point, scaled, value_of
+from support.toolchains import compiled, run
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device, Factor, Point
+
+LISTED = allowed((1, 1), (3, 3), (5, 5), (9, 9))
+
+
+def ruled(name: str, address: int, *factors: Factor) -> Point:
+    return point(name, address, "s16", access="r", scale=scaled(1, 0, *factors))
+
+
+FACTORS = (point("rated", 0), point("shown", 1), point("other", 2))
+RATED_SHOWN = (value_of("rated", -1), value_of("shown"))
+SHARING = (
+    ruled("first", 10, *RATED_SHOWN),
+    ruled("second", 11, *RATED_SHOWN),
+    ruled("turned", 12, *reversed(RATED_SHOWN)),
+    ruled("by_rated", 13, value_of("rated")),
+    ruled("by_other", 14, value_of("other")),
+    point("listed", 15, allowed=LISTED),
+    point("listed_too", 16, allowed=LISTED),
+)
+
+
+def made(*points: Point) -> Device:
+    return device_of("sharing", (*FACTORS, *points))
+
+
+def header(device: Device) -> str:
+    return next(text for _, path, text in outputs(device, ["c"]) if path == "c/sharing.h")
+
+
+def names_in(text: str) -> set[str]:
+    return set(re.findall(r"sharing_\w+", text.lower()))
+
+
+def test_points_with_the_same_content_share_it() -> None:
+    text = header(made(*SHARING))
+    assert re.findall(r"typedef struct (\w+) {", text) == ["sharing_with_rated_and_shown"]
+    assert "    uint16_t rated_raw;\n    uint16_t shown_raw;\n} sharing_with_rated_and_shown;" in text
+    rules = re.findall(r"fieldscribe_rule (sharing_rule_[0-9a-f]{8})\(\s*(.*?)\)", text)
+    assert [taken for _, taken in rules] == [
+        "const sharing_with_rated_and_shown *with",
+        "const sharing_with_rated_and_shown *with",  # divided first, which is another rule
+        "uint16_t other_raw",
+    ]
+    assert len(re.findall(r"fieldscribe_range sharing_ranges_[0-9a-f]{8}\[", text)) == 1
+    called = [re.findall(rf"(\w+)_decode\([^{{]*{{[^}}]*{rule}\(", text) for rule, _ in rules]
+    assert called == [
+        ["sharing_first", "sharing_second"],
+        ["sharing_turned"],
+        ["sharing_by_rated", "sharing_by_other"],
+    ]
+
+
+@pytest.mark.parametrize(
+    "inserted",
+    [
+        ruled("new", 20, *RATED_SHOWN),
+        ruled("new", 20, value_of("other", -1)),
+        ruled("new", 20, value_of("shown"), value_of("other")),
+        point("new", 20, allowed=LISTED),
+    ],
+    ids=["the same", "another rule", "other factors", "a list"],
+)
+def test_one_more_point_renames_nothing(inserted: Point) -> None:
+    before = names_in(header(made(*SHARING)))
+    assert before <= names_in(header(made(inserted, *SHARING)))
+    assert before == names_in(header(made(*reversed(SHARING))))
+
+
+def test_what_is_left_keeps_its_names() -> None:
+    whole, left = names_in(header(made(*SHARING))), names_in(header(made(*SHARING[1:])))
+    assert left <= whole
+    assert all("first" in name for name in whole - left)
+
+
+@pytest.mark.parametrize(
+    ("names", "struct"),
+    [
+        (("b", "a"), "sharing_with_a_and_b"),
+        (("a_and_b", "c"), "sharing_with_[0-9a-f]{8}"),
+        (("a", "b_and_c"), "sharing_with_[0-9a-f]{8}"),
+        (("and", "c"), "sharing_with_[0-9a-f]{8}"),
+        (("a" * 31, "b" * 31), f"sharing_with_{'a' * 31}_and_{'b' * 31}"),  # 80 characters
+        (("a" * 31, "b" * 32), "sharing_with_[0-9a-f]{8}"),
+    ],
+)
+def test_a_struct_is_named_by_its_fields(names: tuple[str, str], struct: str) -> None:
+    factors = [point(name, 30 + at) for at, name in enumerate(names)]
+    text = header(made(*factors, ruled("new", 20, *map(value_of, names))))
+    assert re.findall(r"typedef struct (\w+) {", text) == re.findall(f"{struct}(?= {{)", text) != []
+
+
+def test_names_that_could_be_those_of_others_stay_apart() -> None:
+    factors = [point(name, 30 + at) for at, name in enumerate(("a_and_b", "c", "a", "b_and_c"))]
+    points = [ruled("one", 20, *map(value_of, ("a_and_b", "c"))), ruled("two", 21, *map(value_of, ("a", "b_and_c")))]
+    device = made(*factors, *points)
+    assert len(set(re.findall(r"typedef struct (\w+) {", header(device)))) == 2
+    assert list(clashes(c.identifiers(device))) == []
+
+
+OLD = {
+    "alone": ({"rated": ("nominal",)}, {"nominal_and_shown"}),
+    "together": (
+        {"rated": ("nominal",), "shown": ("printed",)},
+        {"nominal_and_printed", "nominal_and_shown"},  # `printed, rated` is another order of the fields
+    ),
+    "more than once": ({"rated": ("nominal", "plate")}, {"nominal_and_shown", "plate_and_shown"}),
+    "in another order": ({"rated": ("top",)}, set()),
+}
+
+
+@pytest.mark.parametrize(("was", "old"), OLD.values(), ids=OLD)
+def test_a_struct_keeps_the_old_names_of_its_points(was: dict[str, tuple[str, ...]], old: set[str]) -> None:
+    device = made(*SHARING)
+    device = replace(device, points=tuple(replace(one, was=was.get(one.name, ())) for one in device.points))
+    aliases = re.findall(r"#define sharing_with_(\w+) sharing_with_rated_and_shown\n", header(device))
+    assert sorted(aliases) == sorted(old)
+    assert list(clashes(c.identifiers(device))) == []
+
+
+def test_old_names_of_a_struct_are_few() -> None:
+    """Those of its points multiply: of ten points with one old name there would be a thousand."""
+    names = [f"p{at}" for at in range(10)]
+    factors = [point(name, 30 + at, was=(f"p{at}_old",)) for at, name in enumerate(names)]
+    text = header(made(*factors, ruled("new", 20, *map(value_of, names))))
+    assert len(re.findall("#define sharing_with_", text)) == 63
+
+
+def test_equal_checksums_are_a_clash(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody has met one, but the second point would be converted by the rule of the first."""
+    monkeypatch.setattr("fieldscribe.targets.c.scope.crc32", lambda _: 7)
+    clash = next(clashes(c.identifiers(made(*SHARING))))
+    assert clash.name == "sharing_rule_00000007"
+
+
+USER = """
+#include "sharing.h"
+int main(void)
+{
+    const sharing_with_rated_and_shown with = {.rated_raw = 2U, .shown_raw = 3U};
+    int64_t first = 0;
+    int64_t turned = 0;
+    int64_t alone = 0;
+    return sharing_first_decode_count(12, &with, &first) == SHARING_OK && first == 8 &&
+            sharing_turned_decode_count(12, &with, &turned) == SHARING_OK && turned == first &&
+            sharing_by_other_decode_count(12, 4U, &alone) == SHARING_OK && alone == 3
+        ? 0
+        : 1;
+}
+"""
+
+
+def test_points_that_share_are_computed_each_with_its_own_numbers(tmp_path: Path) -> None:
+    folder = write_headers(made(*SHARING), tmp_path)
+    (tmp_path / "user.c").write_text(USER, "utf-8")
+    flags = ("-std=c99", *WARNINGS, f"-I{folder / 'c'}")
+    run([compiled("gcc", flags, tmp_path / "user.c", tmp_path / "user")])

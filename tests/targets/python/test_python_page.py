@@ -1,0 +1,66 @@
+"""Every program on the page for Python runs as it stands there, on a server of pymodbus and a bus of python-can."""
+
+from __future__ import annotations
+
+import re
+import threading
+from typing import TYPE_CHECKING, Any
+
+import can
+import pytest
+from pymodbus import FramerType
+from support.modbus_server import server
+from support.places import ROOT
+from support.python_package import imported
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+PAGE = (ROOT / "descriptions/using/python.md").read_text("utf-8")
+GENERATED = ROOT / "generated/python"
+
+
+@pytest.fixture
+def packages() -> Iterator[Any]:
+    yield from imported(GENERATED, "hitachi_l200")
+
+
+def speak(bus: can.BusABC, stop: threading.Event) -> None:
+    """Frames of the telegram, as the manual prints them, until somebody has heard enough."""
+    frame = can.Message(arbitration_id=0x321, data=bytes.fromhex("DD11001400000000"), is_extended_id=False)
+    while not stop.wait(0.02):
+        bus.send(frame)
+
+
+@pytest.mark.full(seconds=5)
+@pytest.mark.usefixtures("packages")
+def test_the_programs_run(capsys: pytest.CaptureFixture[str]) -> None:
+    blocks = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+    far, stop = can.Bus("can0", interface="virtual"), threading.Event()
+    speaker = threading.Thread(target=speak, args=(far, stop), daemon=True)
+    speaker.start()
+    known: dict[str, Any] = {"__name__": "page"}
+    printed = []
+    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp:
+        for block in blocks:
+            here = block.replace("/dev/ttyUSB0", f"socket://127.0.0.1:{rtu}").replace("socketcan", "virtual")
+            here = here.replace('TcpLine("192.168.0.20")', f'TcpLine("127.0.0.1", {tcp})')
+            exec(compile(here, "page", "exec"), known)
+            printed.append(capsys.readouterr().out.splitlines())
+    stop.set()
+    speaker.join(2)
+    far.shutdown()
+    first, watch, gateway, _, many, raw, failing, bus = printed
+    assert first == ["0.1 Hz"]
+    assert watch == gateway == ["0.1"]
+    assert [line[0] for line in many] == ["{", "{"]
+    assert raw[:2] == ["500 50.0", "(500,)"]
+    assert "inactive" in raw[2]
+    assert failing[1].startswith("out_of_range")
+    assert failing[2].startswith("2 ")
+    assert "battery_voltage" in "".join(bus)
+
+
+def test_the_readme_has_the_first_program() -> None:
+    first = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[0]
+    assert first in (ROOT / "README.md").read_text("utf-8")
