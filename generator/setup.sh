@@ -47,6 +47,7 @@ if [ "$purpose" = tests ]; then
     need make make
     need ninja ninja-build
     need cmake cmake
+    need meson meson
     need avr-gcc "gcc-avr avr-libc"
     need_that gcc-multilib links gcc -m32
     need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h

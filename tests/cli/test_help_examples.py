@@ -15,7 +15,6 @@ from support.places import ROOT
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
 
 COMMANDS = ("decode", "list", "search", "completion", "units")
@@ -26,7 +25,7 @@ COMMANDS = ("decode", "list", "search", "completion", "units")
 def test_examples(
     command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def load(device_file: Path, _report: Report) -> Device:
+    def load(device_file: Path, *_more: object) -> Device:
         return shipped(device_file.parent.name)
 
     monkeypatch.setattr(pipeline, "load_device", load)

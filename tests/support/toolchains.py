@@ -27,6 +27,7 @@ _PACKAGES = {
     "make": "make",
     "ninja": "ninja-build",
     "cmake": "cmake",
+    "meson": "meson",
     "qemu-system-arm": "qemu-system-arm",
     "frama-c": "frama-c-base",
     "avr-gcc": "gcc-avr avr-libc",
