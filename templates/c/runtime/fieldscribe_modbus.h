@@ -345,7 +345,8 @@ typedef struct fieldscribe_modbus_line {
 
 /*
  * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
- * came. What goes to all units is OK when it is sent, as nobody answers.
+ * came. What goes to all units is OK when it is sent, as nobody answers. Over TCP give each request another
+ * `transaction`: by that a late answer is told from the one that is waited for.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
