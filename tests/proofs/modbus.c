@@ -542,8 +542,8 @@ void prove_words_in(uint16_t count)
 void prove_begin(uint8_t function, uint32_t whole)
 {
     ask_any();
-    beginning = fieldscribe_modbus_begin(FIELDSCRIBE_MODBUS_RTU, &request, function, whole);
-    beginning = fieldscribe_modbus_begin(FIELDSCRIBE_MODBUS_TCP, &request, function, whole);
+    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_RTU, &request, function, whole);
+    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_TCP, &request, function, whole);
 }
 
 void prove_await(size_t size)

@@ -832,31 +832,29 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 }
 
 /* How the answer with that function, of so many bytes, begins. */
-static fieldscribe_modbus_beginning fieldscribe_modbus_begin(fieldscribe_modbus_framing framing,
+static void fieldscribe_modbus_begin(fieldscribe_modbus_beginning *beginning, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, uint8_t function, uint32_t whole)
 {
-    fieldscribe_modbus_beginning beginning = {{0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U}, 0U, (uint16_t)(whole & 0xFFFFU)};
+    uint8_t *const head = beginning->head;
     uint8_t at = 0U;
     if (framing == FIELDSCRIBE_MODBUS_TCP) {
-        fieldscribe_modbus_put(&beginning.head[0], request->transaction);
-        fieldscribe_modbus_put(&beginning.head[4], (uint16_t)((whole - 6U) & 0xFFFFU));
+        fieldscribe_modbus_put(&head[0], request->transaction);
+        fieldscribe_modbus_put(&head[2], 0U);
+        fieldscribe_modbus_put(&head[4], (uint16_t)((whole - 6U) & 0xFFFFU));
         at = 6U;
     }
-    beginning.head[at] = request->unit;
-    beginning.head[at + 1U] = function;
-    beginning.known = (uint8_t)(at + 2U);
-    if (fieldscribe_modbus_reads(function)) {
-        beginning.head[at + 2U] = (uint8_t)((whole - fieldscribe_modbus_around(framing) - 3U) & 0xFFU);
-        ++beginning.known;
-    }
-    return beginning;
+    head[at] = request->unit;
+    head[at + 1U] = function;
+    head[at + 2U] = (uint8_t)((whole - fieldscribe_modbus_around(framing) - 3U) & 0xFFU);
+    beginning->known = (uint8_t)(at + (fieldscribe_modbus_reads(function) ? 3U : 2U));
+    beginning->whole = (uint16_t)(whole & 0xFFFFU);
 }
 
 fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_profile *profile,
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
     const uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
-    const uint8_t refused = (uint8_t)(request->function | 0x80U);
+    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U;
     fieldscribe_modbus_receiver receiver;
     receiver.buffer = buffer;
     receiver.size = size;
@@ -864,9 +862,8 @@ fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_pr
     receiver.dropped = 0U;
     receiver.done = (whole == 0U) || (whole > size);
     receiver.framing = framing;
-    receiver.answer = fieldscribe_modbus_begin(framing, request, request->function, whole);
-    receiver.refusal =
-        fieldscribe_modbus_begin(framing, request, refused, fieldscribe_modbus_around(framing) + 3U);
+    fieldscribe_modbus_begin(&receiver.answer, framing, request, request->function, whole);
+    fieldscribe_modbus_begin(&receiver.refusal, framing, request, (uint8_t)(request->function | 0x80U), refusal);
     return receiver;
 }
 
