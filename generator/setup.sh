@@ -59,6 +59,7 @@ if [ "$purpose" = tests ]; then
     need fish fish
     need node nodejs
     need npm npm
+    need chromium-headless-shell chromium-headless-shell
 fi
 
 if [ -n "$missing_packages" ]; then

@@ -19,6 +19,7 @@ from fieldscribe.model import (
     Own,
     Place,
     Point,
+    ScaleCase,
     Shape,
     Source,
     Special,
@@ -171,6 +172,7 @@ def _shape(shape: Shape, enums: _Enums) -> Shape:
     digits = shape.digits
     return replace(
         shape,
+        scale=shape.scale and tuple([ScaleCase(case.point, case.raw, case.rule) for case in shape.scale]),
         enum=shape.enum and enums.of(shape.enum),
         digits=digits and replace(digits, enum=enums.of(digits.enum)),
         flags=tuple(_flag(flag) for flag in shape.flags),

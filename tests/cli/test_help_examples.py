@@ -1,42 +1,231 @@
-"""The examples of `--help` run, and none is a wrong call."""
+"""Every example of `--help` runs as it stands, and does what it shows: ends so, says so, makes these files."""
 
 from __future__ import annotations
 
 import re
-import shlex
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import command_of, main
+from fieldscribe.cli import COMMANDS, command_of
 from support.described import shipped
-from support.places import ROOT
+from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
 
-COMMANDS = ("decode", "list", "search", "completion", "units")
+
+class Claim(NamedTuple):
+    """What an example does: how it ends, a pattern in what it prints, one in its messages, and what is there then."""
+
+    code: int
+    said: str
+    told: str = ""
+    made: str = ""
 
 
-@pytest.mark.full(seconds=6)
-@pytest.mark.parametrize("command", COMMANDS)
-def test_examples(
+A020 = r"A020 base_frequency: .*\n  Found as +"
+MAXIMUM = r"P1082 maximum_frequency"
+
+CLAIMS = {
+    "check": {
+        "": Claim(0, r"hitachi_l200: \d+ points (.|\n)*woodward_mpu2s: \d+ points"),
+        "descriptions/hitachi_l200 --format json": Claim(0, r'"device": "hitachi_l200"(.|\n)*"findings": \[\]'),
+    },
+    "generate": {
+        "hitachi_l200 --target c --out firmware/drivers": Claim(
+            0, r"\d+ written, .* in firmware/drivers", made="firmware/drivers/c/hitachi_l200.h"
+        ),
+        "--check": Claim(1, r"stale: generated/c/hitachi_l200\.h"),
+        "--check --strict-version": Claim(1, r"stale: generated/c/hitachi_l200\.h"),
+    },
+    "export": {
+        "json hitachi_l200": Claim(0, r'"device": "hitachi_l200"'),
+        "json hitachi_l200 | jq '.points[] | select(.code == \"A020\")'": Claim(
+            0, r'"points": \[(.|\n)*"code": "A020"'
+        ),
+        "dbc woodward_mpu2s --unit 3 > mpu2s_3.dbc": Claim(0, r"BO_ 803 "),  # 323h
+    },
+    "explain": {
+        "hitachi_l200 A020": Claim(0, A020 + "code A020"),
+        "hitachi_l200 0x1028": Claim(0, A020 + r"wire address 1028h \(4136\), holding"),
+        "hitachi_l200 modicon:4137 --as-documented": Claim(0, A020 + "modicon 4137"),
+        "woodward_mpu2s nr:2": Claim(0, r"generator_frequency: .*\n  Found as +nr 2"),
+        "woodward_mpu2s can:321": Claim(0, "message visualisation: .*\n  Found as +CAN identifier 321h of unit 1"),
+        'siemens_mm4 "P2010[1]"': Claim(
+            0, r"P2010 uss_baud_rate_index_1: (.|\n)*Wire address +07DAh \(2010\), index 1"
+        ),
+        "siemens_mm4 error:17": Claim(0, "error 17 not_in_this_operating_state"),
+        "hitachi_l200 unit:Hz": Claim(0, r"Hz: hertz(.|\n)*Points +network_frequency_setpoint"),
+    },
+    "decode": {
+        'hitachi_l200 "05 06 10 28 01 F4 0C 91"': Claim(0, r"A020 base_frequency = 50 Hz(.|\n)*ok \(0C 91\)"),
+        "hitachi_l200 0801000600051C91 --format json": Claim(0, r'"point": "digital_input_5"(.|\n)*"checks": "ok'),
+        'hitachi_l200 "08 01 01 17 12 1A" --request "08 01 00 06 00 05 1C 91"': Claim(
+            0, r"digital_input_3 = on (.|\n)*digital_input_4 = off (.|\n)*ok \(12 1A\)"
+        ),
+        "woodward_mpu2s 321#DD00051513880064 321#DD010302000007D0": Claim(
+            0, r"telegram_identification = 1301 (.|\n)* 50 Hz (.|\n)*before: generator_active_power = 100000 W"
+        ),
+        'woodward_mpu2s "DD 00 05 15 13 88 00 64" --can-id 321': Claim(0, r"telegram_identification = 1301 "),
+        "woodward_mpu2s --log candump.log": Claim(0, r"^\(1\.5\) can0 321#(.|\n)*^\(1\.6\) can0 321#"),
+        "woodward_mpu2s - --format jsonl": Claim(0, r'^{"device": .*"time": "1\.5".*}\n{.*"time": "1\.6".*}\n$'),
+        'siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 58"': Claim(
+            0, rf"{MAXIMUM}: (.|\n)*STW control_word = raw 1151 = 047Fh(.|\n)*  Bit 0 +1  on\n(.|\n)*ok \(58\)"
+        ),
+        'siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"': Claim(0, f"{MAXIMUM} = 50 Hz "),
+        'siemens_mm4 --framing pzd --direction response "FA31 0000"': Claim(
+            0, r"ZSW status_word (.|\n)*  Bit 0 +1  ready_to_switch_on\n"
+        ),
+    },
+    "encode": {
+        'hitachi_l200 A020 "50 Hz"': Claim(0, "base_frequency = 50 Hz: raw 500 = 01F4h"),
+        "hitachi_l200 A020 50 --unit 5 --frame": Claim(0, "^05 06 10 28 01 F4 0C 91\n$", "= 50 Hz: raw 500"),
+        "hitachi_l200 A061 50 --with A062=10 --with A004=60": Claim(0, "upper_frequency_limit = 50 Hz: raw 500"),
+        "hitachi_l200 A061 inactive": Claim(0, r"upper_frequency_limit = inactive .*: raw 0 "),
+        'woodward_mpu2s fault_text_terminal_62 "OIL PRESSURE" --frame': Claim(
+            0, r"^(33F#EE01[0-9A-F]{12}\n){8}$", "a text takes 8 messages"
+        ),
+        "woodward_mpu2s power_measurement_phases three_phase --with-word 0400h --frame": Claim(
+            0, r"^33F#EE0100150C00E214\n$", "the word becomes 0C00h"
+        ),
+        "siemens_mm4 P1082 40 --unit 3 --pkw 4 --keep --frame": Claim(
+            0, "^02 0E 03 D4 3A 00 00 42 20 00 00 (.*)\n$", "task 13 store_double_word"
+        ),
+        "siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW=047Fh --frame": Claim(
+            0, "^02 0E 01 (00 ){8}04 7F 33 33 76\n$", "rounded to about 39.99"
+        ),
+    },
+    "audit": {
+        "hitachi_l200 --manual hitachi_l200_modbus.txt": Claim(
+            1, r"the text that was transcribed(.|\n)*facts +\d+, \d+ of them not where"
+        ),
+        "hitachi_l200 --manual new.txt --report html > audit.html": Claim(1, "(?i)<html"),
+        "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt": Claim(0, r"(\d+) cited lines moved"),
+        "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt --renumber --accept --file new.txt": Claim(
+            0, r"renumbered: \d+ lines in 1 file\n(.|\n)*accepted"
+        ),
+    },
+    "diff": {
+        "HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200": Claim(1, "entry run_button is now run_key"),
+        "v1.2.0:descriptions descriptions --format markdown > changes.md": Claim(1, r"^## hitachi\\_l200 2\.0\.0"),
+        "released.json hitachi_l200 --fail-on breaking": Claim(0, "no difference"),
+        "old/my_drive my_drive --keep-names": Claim(0, "no difference"),
+    },
+    "list": {
+        "": Claim(0, r"^hitachi_l200 +modbus(.|\n)*^woodward_mpu2s +can"),
+        "--family modbus --format json": Claim(0, r'"device": "hitachi_l200"(?!(.|\n)*siemens)'),
+        "hitachi_l200": Claim(0, r"^ +run_command +coil +0000h"),
+        'hitachi_l200 --matching "A0*" --access w': Claim(0, r"^A001 +frequency_source(?!(.|\n)*\nA1)"),
+        "woodward_mpu2s --unit Hz --space telegram": Claim(0, r"generator_frequency(.|\n)*busbar_frequency"),
+        "siemens_mm4 --group parameters --format csv": Claim(0, r"^code,name,.*\nr0000,display_value,"),
+    },
+    "search": {
+        "Hochlaufzeit": Claim(0, "F002 acceleration_time: "),
+        "acceleration time": Claim(0, "F002 acceleration_time: "),
+        "E07": Claim(0, r"enum `Overvoltage \(E07\)` \(7\)"),
+        "error:21h": Claim(0, "hitachi_l200 exception 21h "),
+        "4.2.40 --device woodward_mpu2s": Claim(0, "section `4.2.40`"),
+        "ueberspannung --format json": Claim(0, r"\\u00dcberspannung"),
+    },
+    "completion": {
+        "bash > ~/.local/share/bash-completion/completions/fieldscribe": Claim(0, "complete .* fieldscribe\n$"),
+        "zsh > ~/.zfunc/_fieldscribe": Claim(0, "^#compdef fieldscribe\n"),
+        "fish > ~/.config/fish/completions/fieldscribe.fish": Claim(0, "complete -c fieldscribe "),
+        "bash": Claim(0, "complete .* fieldscribe\n$"),
+    },
+    "init": {
+        "": Claim(2, "^$", "missing: DEVICE, --family, "),
+        'heat_pump --family modbus --vendor Example --model "HP 12" --title "Heat pump"': Claim(
+            0, "made descriptions/heat_pump/device.yaml", made="descriptions/heat_pump/device.yaml"
+        ),
+    },
+    "import": {
+        "table registers.csv --device heat_pump --out heat_pump/device.yaml": Claim(
+            0, "", made="heat_pump/device.yaml"
+        ),
+        "table manual.txt --list": Claim(0, r"701\.\.704 +points +.*2 address, 3 name"),
+        "table manual.txt --lines 650..1050 --space holding > registers.yaml": Claim(
+            0, r"space: holding\n(.|\n)*- code: A002\n"
+        ),
+        "table list.csv --columns code=1,address=3,range=6": Claim(0, r"- code: A001\n(.|\n)*at: 1\n(.|\n)*0\.\.400"),
+    },
+    "fmt": {
+        "": Claim(0, "0 formatted, "),
+        "heat_pump --check": Claim(0, "0 not formatted"),
+        "- < status.yaml": Claim(0, r"- \{name: speed, at: 1\}"),
+    },
+    "watch": {
+        "heat_pump --out bindings": Claim(0, r"^\d\d:\d\d:\d\d heat_pump: \d+ written", made="bindings/c/heat_pump.h"),
+        "--target c,docs": Claim(0, r"^\d\d:\d\d:\d\d 5 devices: \d+ written", made="generated/docs/hitachi_l200.md"),
+    },
+    "vendor": {
+        "c hitachi_l200 --out firmware/drivers": Claim(0, "", made="firmware/drivers/hitachi_l200.h"),
+        "c hitachi_l200 --out firmware/drivers --points A001,D001,run_command": Claim(
+            0, "", made="firmware/drivers/hitachi_l200.h"
+        ),
+        "c hitachi_l200 --out firmware/drivers --points @points.txt --single-file": Claim(
+            0, "", made="firmware/drivers/hitachi_l200.h"
+        ),
+        "python woodward_mpu2s --out tools": Claim(0, "", made="tools/woodward_mpu2s/__init__.py"),
+        'rust siemens_mm4 --out crates --points "P10*,status_word"': Claim(0, "", made="crates/siemens_mm4/Cargo.toml"),
+        "--check": Claim(1, r"missing: vendored/hitachi_l200\.h"),
+    },
+    "units": {
+        "": Claim(0, r"^Hz +hertz \(frequency\)"),
+        "kVAh mW": Claim(0, r"kVAh +kilovolt-ampere-hour .*= 1000 VAh\nmW +milliwatt "),
+        "pressure --format json": Claim(0, r'"symbol": "Pa"'),
+    },
+    "schema": {
+        "> schema.json": Claim(0, '"\\$schema": '),
+        "--page > KEYS.md": Claim(0, "^# All keys of the description language\n"),
+    },
+}
+
+
+def test_every_command_has_examples_and_every_example_a_claim() -> None:
+    """A new example needs a line in the table above."""
+    printed = {
+        name: {_called(example.printed, name) for example in examples_of(command_of(name).EXAMPLE)} for name in COMMANDS
+    }
+    assert printed == {name: set(claims) for name, claims in CLAIMS.items()}
+    for name in COMMANDS:
+        assert command_of(name).EXAMPLE.count(f"fieldscribe {name}") >= len(printed[name])
+
+
+def _called(printed: str, command: str) -> str:
+    """What stands behind the command."""
+    return printed.partition(f"fieldscribe {command}")[2].strip().rstrip(")")
+
+
+@pytest.mark.full(seconds=25)
+@pytest.mark.parametrize("command", CLAIMS)
+def test_examples_do_what_they_show(
     command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def load(device_file: Path, *_more: object) -> Device:
-        return shipped(device_file.parent.name)
+    folder = workplace(tmp_path)
+    if command == "audit":
+        audited(folder)
+    if command in ("diff", "fmt", "watch"):
+        drafted(folder, capsys)
+    if command == "vendor":
+        asked_for(folder)
+    if command == "watch":
+        stops_at_once(monkeypatch)
+    if command in ("decode", "encode", "explain"):
+        monkeypatch.setattr(pipeline, "load_device", _load_once)
+    capsys.readouterr()
+    for example in examples_of(command_of(command).EXAMPLE):
+        claim = CLAIMS[command][_called(example.printed, command)]
+        result = ran(example, folder, capsys, monkeypatch)
+        assert result.code == claim.code, (example.printed, result)
+        assert re.search(claim.said, result.said, re.MULTILINE), (example.printed, result)
+        assert re.search(claim.told, result.told), (example.printed, result.told)
+        assert (folder / claim.made).exists(), example.printed
 
-    monkeypatch.setattr(pipeline, "load_device", load)
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "descriptions").symlink_to(ROOT / "descriptions")
-    (tmp_path / "candump.log").write_text("(1.5) can0 321#DD010302000007D0\n")
-    examples = re.findall(
-        r"^  (?:\S+ .*\| )?fieldscribe (.*?)(?: [>|] .*)?$", command_of(command).EXAMPLE, re.MULTILINE
-    )
-    assert examples
-    for example in examples:
-        words = shlex.split(re.sub(r" - ", " --log candump.log ", example))
-        assert main(words) in (0, 1), example
-        assert "fieldscribe: " not in capsys.readouterr().err
+
+def _load_once(device_file: Path, _report: Report, _inputs: object = None) -> Device:
+    return shipped(device_file.parent.name)

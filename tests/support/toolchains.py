@@ -37,6 +37,7 @@ _PACKAGES = {
     "zsh": "zsh",
     "fish": "fish",
     "node": "nodejs npm",
+    "chromium-headless-shell": "chromium-headless-shell",
 }
 _LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
 

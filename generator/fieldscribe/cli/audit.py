@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 HELP = "hold everything that a description cites against the text of its manual"
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
-  fieldscribe audit hitachi_l200 --manual new_edition.txt --report html > audit.html
-  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt
-  fieldscribe audit hitachi_l200 --manual new_edition.txt --old hitachi_l200_modbus.txt --renumber --accept
+  fieldscribe audit hitachi_l200 --manual new.txt --report html > audit.html
+  fieldscribe audit hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt
+  fieldscribe audit hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt --renumber --accept --file new.txt
 
 ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
 fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a

@@ -19,11 +19,11 @@ EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
   fieldscribe decode hitachi_l200 0801000600051C91 --format json
   fieldscribe decode hitachi_l200 "08 01 01 17 12 1A" --request "08 01 00 06 00 05 1C 91"
-  fieldscribe decode woodward_mpu2s 321#DD00051E13880064 321#DD010302000007D0
-  fieldscribe decode woodward_mpu2s "DD 00 05 1E 13 88 00 64" --can-id 321
+  fieldscribe decode woodward_mpu2s 321#DD00051513880064 321#DD010302000007D0
+  fieldscribe decode woodward_mpu2s "DD 00 05 15 13 88 00 64" --can-id 321
   fieldscribe decode woodward_mpu2s --log candump.log
   candump -L can0 | fieldscribe decode woodward_mpu2s - --format jsonl
-  fieldscribe decode siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 72"
+  fieldscribe decode siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 58"
   fieldscribe decode siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"
   fieldscribe decode siemens_mm4 --framing pzd --direction response "FA31 0000"
 

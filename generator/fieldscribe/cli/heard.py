@@ -48,7 +48,7 @@ class _Text:
 
     def frame(self, heard: Heard) -> None:
         heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.shown)
-        rows = [(label, visible(text)) for label, text in _rows(heard)]
+        rows = _rows(heard)
         if self._coloured:
             sys.stdout.write(self._between)
             print_rows(heading, rows)
@@ -62,11 +62,14 @@ class _Text:
 
 
 def _rows(heard: Heard) -> list[tuple[str, str]]:
-    rows = [("Frame", heard.summary), *[("Says", item.text) for item in heard.items]]
+    rows = [("Frame", visible(heard.summary))]
+    for item in heard.items:
+        rows.append(("Says", visible(item.head or item.text)))
+        rows += [bits.shown for bits in item.flags]
     if heard.checks:
-        rows.append(("Header" if heard.framing == "tcp" else "Checksum", heard.checks))
-    rows += [("Wrong", fault) for fault in (*heard.faults, *heard.findings)]
-    return rows + [("Note", note) for note in heard.notes]
+        rows.append(("Header" if heard.framing == "tcp" else "Checksum", visible(heard.checks)))
+    rows += [("Wrong", visible(fault)) for fault in (*heard.faults, *heard.findings)]
+    return rows + [("Note", visible(note)) for note in heard.notes]
 
 
 class _JsonLines:

@@ -19,7 +19,7 @@ EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points A001,D001,run_command
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points @points.txt --single-file
   fieldscribe vendor python woodward_mpu2s --out tools
-  fieldscribe vendor rust siemens_mm4 --out crates --points "P10*,telegram_words"
+  fieldscribe vendor rust siemens_mm4 --out crates --points "P10*,status_word"
   fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
 
 a point is named by its code or its name, several by their group or by a pattern; what they need comes with them

@@ -14,20 +14,24 @@ from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
+from fieldscribe.families.answers import Bits
 from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import dataclass
+from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.model import Device, Flag, Point
+    from fieldscribe.model import Device, Entry, Flag, Point
 
 
 _NAMELESS = "{}, a number without a name in the manual"
 _MOST_RULES = 256
-"""How many scales of a point, and names of a flag's numbers, are remembered."""
+"""How many scales of a point are remembered."""
+_MOST_FLAGS = 64
+"""And how many numbers of a flag, with what they mean."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +42,7 @@ class Meaning:
     value: str | None = None
     missing: tuple[str, ...] = ()
     hint: str = ""
+    flags: Flags | None = None
 
 
 class Meanings:
@@ -50,8 +55,7 @@ class Meanings:
         self._device = device
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
-        self._flags = [(flag.low, mask_of(flag.width), _flag_texts(flag)) for flag in point.flags]
-        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
+        self._flags = Flags(point) if point.flags else None
         self._needs = point.scale_arguments
         self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
         self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
@@ -62,7 +66,10 @@ class Meanings:
         if point.text is not None:
             return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
         named = self._named(raw)
-        return self._quantity(raw, settings) if named is None else Meaning(named)
+        if named is None:
+            return self._quantity(raw, settings)
+        is_special = bool(point.shape.specials) and point.special(raw) is not None
+        return Meaning(named, flags=None if is_special else self._flags)
 
     def lacks(self, settings: Settings) -> bool:
         """Whether the scale needs other points than those with these settings."""
@@ -80,25 +87,10 @@ class Meanings:
             entry = self._entries.get(raw)
             return line("" if entry is None else wording.entry_meaning(entry)) or _NAMELESS.format(raw)
         if self._flags:
-            return self._flags_text(raw)
+            return self._flags.sentence(raw)
         if shape.digits is not None:
             return _digits_text(point, raw)
         return ("on" if raw else "off") if shape.type == "bit" else None
-
-    def _flags_text(self, raw: int) -> str:
-        true: list[str] = []
-        false: list[str] = []
-        for low, mask, said in self._flags:
-            is_false, text = said[raw >> low & mask]
-            (false if is_false else true).append(text)
-        parts = [", ".join(true) if true else "none set"]
-        if false:
-            parts.append(f"not set: {', '.join(false)}")
-        rest = raw & ~self._named_bits
-        if rest:
-            bits = [str(bit) for bit in range(self._point.width) if rest >> bit & 1]
-            parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
-        return line("; ".join(parts))
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
         shape = self._point.shape
@@ -174,10 +166,66 @@ class _Scale:
         return Meaning(said + self._unit, exactly)
 
 
-def _flag_texts(flag: Flag) -> Remembered[int, tuple[bool, str]]:
-    """By the number of a flag: whether it is a single bit whose name is not true, and what it is called."""
-    is_bit = flag.width == 1
-    return Remembered(_MOST_RULES, lambda number: (is_bit and number != flag.active, _flag_text(flag, number)))
+class Flags:
+    """The flags of a point; what each of their numbers says is worked out once."""
+
+    def __init__(self, point: Point) -> None:
+        self._lowest, self._width = point.bits[1] if point.bits else 0, point.width
+        self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, self._lowest)) for flag in point.flags]
+        self._nameless = Remembered(_MOST_FLAGS, _nameless_bit)
+        self._named_bits = sum(mask << low for low, mask, _ in self._flags)
+
+    def sentence(self, raw: int) -> str:
+        """All flags in one sentence: those that are true first."""
+        true: list[str] = []
+        false: list[str] = []
+        for low, mask, said in self._flags:
+            is_false, text, _ = said[raw >> low & mask]
+            (false if is_false else true).append(text)
+        parts = [", ".join(true) if true else "none set"]
+        if false:
+            parts.append(f"not set: {', '.join(false)}")
+        if bits := self._others(raw):
+            named = ", ".join(map(str, bits))
+            parts.append(f"also bit{'s' if len(bits) > 1 else ''} {named}, which the manual does not name")
+        return line("; ".join(parts))
+
+    def bits(self, raw: int) -> list[Bits]:
+        """What each flag says, and each set bit that the manual does not name."""
+        named = [said[raw >> low & mask][2] for low, mask, said in self._flags]
+        return named + [self._nameless[self._lowest + bit] for bit in self._others(raw)]
+
+    def _others(self, raw: int) -> list[int]:
+        rest = raw & ~self._named_bits
+        return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
+
+
+def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits]]:
+    """By the number of a flag: whether it is a bit whose name is not true, what it is called, and both as a fact."""
+    is_bit, low = flag.width == 1, lowest + flag.low
+    high = low + flag.width - 1
+    place = f"Bit {low}" if is_bit else f"Bits {high}..{low}"
+
+    def said(number: int) -> tuple[bool, str, Bits]:
+        entry = next((entry for entry in flag.values if entry.raw == number), None)
+        told = "" if entry is None else line(_told(entry))
+        true = number == flag.active if is_bit else None
+        shown = place, visible(_flag_line(flag, number, told))
+        return true is False, _flag_text(flag, number), Bits(high, low, flag.name, number, true, told, shown)
+
+    return Remembered(_MOST_FLAGS, said)
+
+
+def _nameless_bit(bit: int) -> Bits:
+    """A set bit that the manual does not name."""
+    return Bits(bit, bit, None, 1, None, "", (f"Bit {bit}", "1  not named by the manual"))
+
+
+def _flag_line(flag: Flag, number: int, told: str) -> str:
+    """`1  ready`, `0  fault (true when 0): a fault`; what only repeats the name is left out."""
+    inverted = " (true when 0)" if flag.width == 1 and not flag.active else ""
+    says_more = told.casefold().replace(" ", "_") not in ("", flag.name)
+    return f"{number}  {flag.name}{inverted}" + (f": {told}" if says_more else "")
 
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
@@ -228,6 +276,11 @@ def _digits_text(point: Point, raw: int) -> str:
         quantity = f" ({entry.quantity})" if entry is not None and entry.quantity else ""
         parts.append(f"{digit} {named}{quantity}")
     return line("digits " + ", ".join(parts))
+
+
+def _told(entry: Entry) -> str:
+    """What a number of a flag means: its English title, behind its name where it has one of its own."""
+    return entry.title["en"] if entry.name in ("zero", "one") else f"{entry.name} ({entry.title['en']})"
 
 
 def _flag_text(flag: Flag, number: int) -> str:

@@ -64,15 +64,25 @@ class Voice:
     def _said(self, raw: int, settings: Settings) -> Item:
         point = self._point
         meaning = self._meanings.of(raw, settings)
-        text = f"{self._head}{meaning.text} ({self._raw_text(raw)}): {self._title}"
-        odd = ""
+        odd = remark = ""
         if self._written:
             odd, unchecked = (self._absent, "") if self._absent else written_remarks(self._device, point, raw, settings)
             remark = odd or unchecked
-            text += f"; {remark}" if remark else ""
-        text += f"; {meaning.hint}" if meaning.hint else ""
-        shown, findings = None if self._is_text else raw, (odd,) if odd else ()
-        return Item(*self._base, line(text), self._name, point.code, shown, meaning.value, meaning.missing, findings)
+        number = self._raw_text(raw)
+        rest = f": {self._title}; {remark}" if remark else f": {self._title}"
+        rest += f"; {meaning.hint}" if meaning.hint else ""
+        return Item(
+            *self._base,
+            line(f"{self._head}{meaning.text} ({number}){rest}"),
+            self._name,
+            point.code,
+            None if self._is_text else raw,
+            meaning.value,
+            meaning.missing,
+            (odd,) if odd else (),
+            line(f"{self._head}{number}{rest}") if meaning.flags else "",
+            meaning.flags,
+        )
 
 
 class Told:

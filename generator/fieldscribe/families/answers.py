@@ -16,10 +16,41 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
+class Bits:
+    """What some bits of a word say: `raw` is their number, `true` whether the name of a single bit holds.
+
+    Set bits that the manual does not name have no name. `text` is what the number means, where the manual says it;
+    `shown` is the line with all of that, and what stands before it.
+    """
+
+    high: int
+    low: int
+    name: str | None
+    raw: int
+    true: bool | None
+    text: str
+    shown: tuple[str, str]
+
+    def as_data(self) -> dict[str, object]:
+        """The same for JSON."""
+        own = {"name": self.name, "raw": self.raw, "true": self.true, "text": self.text}
+        return {"bits": [self.high, self.low], **own}
+
+
+class TellsBits(Protocol):
+    """What tells the bits of a word."""
+
+    def bits(self, raw: int) -> list[Bits]:
+        """What each flag says, and each set bit that the manual does not name."""
+
+
+@dataclass(frozen=True, slots=True)
 class Item:
     """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `text` alone tells a person everything. `missing` names the points whose raw numbers are needed to work out the
+    `text` alone tells a person everything; `head` is the same without the flags, where `flags` are told one by one
+    (by `telling`, when they are asked for: most are never).
+    `missing` names the points whose raw numbers are needed to work out the
     value. `findings` say what the device refuses or which address the manual closes; `text` repeats them.
     """
 
@@ -33,6 +64,13 @@ class Item:
     value: str | None = None
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
+    head: str = ""
+    telling: TellsBits | None = None
+
+    @property
+    def flags(self) -> list[Bits]:
+        """The flags of a word, one by one."""
+        return [] if self.telling is None or self.raw is None else self.telling.bits(self.raw)
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -44,6 +82,7 @@ class Item:
             "code": self.code,
             "raw": self.raw,
             "value": self.value,
+            "flags": [bits.as_data() for bits in self.flags],
             "missing": list(self.missing),
             "findings": list(self.findings),
             "text": self.text,

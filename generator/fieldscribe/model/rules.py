@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -46,11 +46,16 @@ class Linear:
 
 @dataclass(frozen=True, slots=True)
 class ScaleCase:
-    """raw = `rule`(value). It holds always if `point` is None, else while the raw number of `point` equals `raw`."""
+    """raw = `rule`(value). It holds always if `point` is None, else while the raw number of `point` equals `raw`.
+
+    `written` is the formula as the author took it from the manual. It is for people and no fact: equal rules are equal,
+    and points whose rules are equal show the words of the first.
+    """
 
     point: str | None
     raw: int | None
     rule: Linear
+    written: str = field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,7 +111,7 @@ class Scales:
             return None
         if isinstance(raw, str):
             rule = self._rule(draft, raw, draft.span("scale"))
-            return None if rule is None or rule == IDENTITY else (ScaleCase(None, None, rule),)
+            return None if rule is None or rule == IDENTITY else (ScaleCase(None, None, rule, written(raw)),)
         seen: dict[tuple[str, int], Span] = {}
         cases = tuple(case for entry in raw if (case := self._case(draft, entry, seen)) is not None)
         if not cases:
@@ -142,7 +142,7 @@ class Scales:
             first = [(seen[key], "first given here")]
             self.scope.report.error("duplicate-case", "two rules hold in this case", place, "remove one of them", first)
         seen.setdefault(key, place)
-        return None if rule is None else ScaleCase(chosen_name, constant, rule)
+        return None if rule is None else ScaleCase(chosen_name, constant, rule, written(entry["rule"]))
 
     def _rule(self, draft: Draft, text: str, span: Span) -> Linear | None:
         formula = Written(text, span)
@@ -216,6 +216,11 @@ class Scales:
     def _refuse(self, place: Span, message: str, hint: str) -> NoReturn:
         self.scope.report.error("bad-formula", message, place, hint)
         raise UnknownError
+
+
+def written(text: str) -> str:
+    """A formula as its author wrote it, on one line."""
+    return " ".join(text.split())
 
 
 def _suggest_scale(error: FormulaError, text: str, key: str) -> None:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
-from fieldscribe.wording.rules import Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import Called, Points, called, inverse_text, ranges_text, shown
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
+    from fieldscribe.model import Device, Entry, Flag, Point, ScaleCase, Special, Titles
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
 
@@ -183,21 +183,32 @@ def scale_text(point: Point, points: Points | None = None) -> str:
     )
 
 
-def range_text(point: Point, points: Points | None = None) -> str:
+def formula_text(point: Point, points: Points | None = None) -> str:
+    """The scale as the manual writes it: `value = raw * 0.1`; empty where the raw number is the value."""
+    return "; ".join(_case_text(case, points) for case in point.scale or ())
+
+
+def _case_text(case: ScaleCase, points: Points | None) -> str:
+    formula = case.written or f"value = {inverse_text(case.rule, points)}"
+    return formula if case.point is None else f"{formula} when {called(case.point, points)}.raw is {case.raw}"
+
+
+def range_text(point: Point, points: Points | None = None, *, unit: bool = True) -> str:
     """Which values may be written, in the unit: `0..400 Hz`; empty where only raw numbers are known."""
     if _is_unbounded(point):
         return ""
     if point.info.floating:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
-        return with_unit(" or ".join(ends), point) if ends else "any number"
+        text = " or ".join(ends)
+        return (with_unit(text, point) if unit else text) if ends else "any number"
     rule = None if point.form in ("text", "digits") else fixed_rule(point)
-    return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol)
+    return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol if unit else "")
 
 
-def raw_range_text(point: Point) -> str:
+def raw_range_text(point: Point, points: Called | None = None) -> str:
     """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
     nothing = point.info.floating or point.text is not None or _is_unbounded(point)
-    return "" if nothing else ranges_text(point, SAME, None, "")
+    return "" if nothing else ranges_text(point, SAME, points, "")
 
 
 def _is_unbounded(point: Point) -> bool:

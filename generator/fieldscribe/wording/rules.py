@@ -16,6 +16,15 @@ if TYPE_CHECKING:
 Points = Mapping[str, Point]
 """Points by name: the texts of rules that refer to points look there for units and names."""
 
+
+class Called(dict[str, Point]):
+    """Points by name, and how texts call them. Without points, only raw numbers are spoken of."""
+
+    def __init__(self, points: Points, called: Mapping[str, str]) -> None:
+        super().__init__(points)
+        self.called = called
+
+
 _TURNED = str.maketrans("<>", "><")
 
 
@@ -54,7 +63,9 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
         ]
         parts.append(_span_text(interval, ends, falling, listed))
         if point.allowed.moves:
-            remarks += [_lifted_text(end, side, line) for side, end in (("low", interval.low), ("high", interval.high))]
+            remarks += [
+                _lifted_text(end, side, line, points) for side, end in (("low", interval.low), ("high", interval.high))
+            ]
     if unit and parts:
         parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
@@ -71,16 +82,22 @@ def clause_text(clause: Clause, points: Points | None = None) -> str:
 
 
 def _comparison_text(comparison: Comparison, points: Points | None) -> str:
+    name = called(comparison.of, points)
     numbers = [raw for raw in comparison.than if isinstance(raw, int)]
     if not numbers:
-        return _test_text(comparison.of, comparison.test, [str(text) for text in comparison.than])
+        return _test_text(name, comparison.test, [str(text) for text in comparison.than])
     point = None if points is None else points.get(comparison.of)
     line = None if point is None else fixed_rule(point)
     if point is None or line is None:
-        return _test_text(f"{comparison.of}.raw", comparison.test, [str(raw) for raw in numbers])
+        return _test_text(f"{name}.raw", comparison.test, [str(raw) for raw in numbers])
     names = {} if point.enum is None else {entry.raw: entry.name for entry in point.enum.entries}
     test = comparison.test.translate(_TURNED) if line.factor < 0 else comparison.test
-    return _test_text(comparison.of, test, [names.get(raw) or shown(raw, line) for raw in numbers])
+    return _test_text(name, test, [names.get(raw) or shown(raw, line) for raw in numbers])
+
+
+def called(name: str, points: Points | None) -> str:
+    """How texts call a point."""
+    return points.called.get(name, name) if isinstance(points, Called) else name
 
 
 def _test_text(name: str, test: str, than: list[str]) -> str:
@@ -107,11 +124,11 @@ def _bound_text(bound: Bound, is_low: bool, point: Point, line: Line, points: Po
     return f"{'max' if is_low == (line.factor > 0) else 'min'}({shown(fixed, line)}, {words})"
 
 
-def _lifted_text(bound: Bound, side: str, line: Line) -> str:
+def _lifted_text(bound: Bound, side: str, line: Line, points: Points | None) -> str:
     """The exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
     if isinstance(bound, int) or not bound.unless:
         return ""
-    cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
+    cases = [f"{called(name, points)}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
     fixed = bound.outermost(low=side == "low")
     return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, line)}"
 
@@ -130,7 +147,9 @@ def _limit_text(limit: Limit, line: Line, points: Points | None) -> str:
         constant = value_multiple(factor, other) if other else None
         if constant is not None:
             ratio *= constant**factor.power
-        factors.append((factor.point if constant is not None else _factor_text(factor), factor.power))
+        factors.append(
+            (called(factor.point, points) if constant is not None else _limit_factor(factor, points), factor.power)
+        )
     factors.sort(key=lambda factor: -factor[1])
     if factors and factors[0][1] == 1:
         start = times_text(factors.pop(0)[0], ratio.numerator, ratio.denominator)
@@ -143,10 +162,15 @@ def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
     return start + "".join(f" {'x' if power == 1 else '/'} {name}" for name, power in factors)
 
 
+def _limit_factor(factor: Factor, points: Points | None) -> str:
+    """A factor of a limit: always by its raw number."""
+    return _factor_text(factor, Called({}, points.called) if isinstance(points, Called) else None)
+
+
 def _factor_text(factor: Factor, points: Points | None = None) -> str:
     if points and factor.point in points and points[factor.point].info.floating:
-        return factor.point  # its value: the raw number is only a bit pattern
-    text = f"{factor.point}.raw"
+        return called(factor.point, points)  # its value: the raw number is only a bit pattern
+    text = f"{called(factor.point, points)}.raw"
     if factor.slope != 1 or factor.intercept:
         text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"
     return f"10^{text}" if factor.ten_to else text

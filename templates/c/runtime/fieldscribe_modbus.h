@@ -331,7 +331,7 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
 }
 
 /*
- * A line that requests go over. `send` drops what has come in and sends; `receive` waits for a byte, and says false when
+ * A line that requests go over. `send` drops what has come in and sends; `receive` waits for a byte, and is false when
  * the line stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
  */
 typedef struct fieldscribe_modbus_line {

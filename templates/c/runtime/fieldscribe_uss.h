@@ -673,7 +673,7 @@ fieldscribe_uss_receiver fieldscribe_uss_await(
     receiver.length = 0U;
     receiver.dropped = 0U;
     receiver.unit = request->unit;
-    receiver.least = fieldscribe_uss_reply_length(link);
+    receiver.least = (size_t)fieldscribe_uss_reply_length(link);
     receiver.longer = link->pkw == FIELDSCRIBE_USS_VARIABLE;
     receiver.done = receiver.least > size;
     return receiver;

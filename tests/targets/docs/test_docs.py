@@ -12,12 +12,24 @@ from typing import Any
 
 import pytest
 from fieldscribe.families import family
-from fieldscribe.model import Device, Document, Enum, Place, Source, Special
+from fieldscribe.model import (
+    Allowed,
+    Device,
+    Document,
+    Enum,
+    Fixed,
+    Flag,
+    Interval,
+    Limit,
+    Place,
+    Source,
+    Special,
+)
 from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
 from fieldscribe.targets.docs import bus, outputs
-from fieldscribe.targets.docs.cells import anchor, link, target
-from support.models import HERTZ, NUMBER, changed, entry, point, sample_device, titles
+from fieldscribe.targets.docs.cells import anchor, link, narrow, target
+from support.models import HERTZ, NUMBER, changed, entry, linear, point, sample_device, titles, value_of
 
 HOSTILE = "a | b `c` </td><script>alert(1)</script> [x](http://e) {{ 7*7 }} \\"
 DEVICE = sample_device()
@@ -87,28 +99,153 @@ def test_names_that_only_a_documented_point_uses_are_shown() -> None:
     entries = tuple(entry(number, f"baud_{number}") for number in range(6))
     speeds = Enum("speeds", titles("Speeds"), entries, True)
     page = _page(sample_device((point("baud_rate", 1, enum=speeds, generated=False, reason="not reachable"),)))
-    assert "names: [`speeds`](#names-speeds)" in page
-    assert '<a id="names-speeds"></a>' in page
+    assert "| 0 = baud_0 (" in page
+    assert "<br>5 = baud_5 (" in page
 
 
 def test_a_row_of_the_page() -> None:
     assert _row(_page(), "base_frequency") == [
         "A020",
-        '<a id="point-base_frequency"></a>`base_frequency`',
-        "Base frequency / Basisfrequenz",
+        '<a id="point-base_frequency"></a>`base_frequency`<br>Base frequency / Basisfrequenz',
         "holding",
         "1028h (4136)",
-        "4137",
-        "404137",
+        "4137 / 404137",
         "u16",
         "rw",
-        "0..400 Hz",
+        "0..400",
+        "Hz",
         "0..4000",
-        "raw x 0.1 Hz",
-        "50 Hz",
-        "set 1; kept after [`enter`](#command-enter); was `main_frequency`; erratum [`a020_wire`](#erratum-a020_wire)",
+        "value = raw x 0.1",
+        "50",
+        "set 1; kept after [enter](#command-enter); was `main_frequency`; erratum [a020_wire](#erratum-a020_wire)",
         "Gruppe A, line 780",
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "broken"),
+    [
+        ("keypad", "keypad"),
+        ("motor_speed", "motor_speed"),
+        ("max(1, upper_speed_limit)..4000", "max(1, upper_<wbr>speed_<wbr>limit)..<wbr>4000"),
+        ("-32768..32767", "-32768..<wbr>32767"),
+        ("0..4294967295", "0..<wbr>4294967295"),
+        ("0..A061", "0..A061"),
+        ("1..A061; while A061.raw is 0: to 400", "1..<wbr>A061; while A061.raw is 0: to 400"),
+    ],
+)
+def test_where_a_narrow_cell_may_be_broken(text: str, broken: str) -> None:
+    assert narrow(text) == broken
+
+
+LEVELS = Enum("levels", titles("Levels"), tuple(entry(number, f"level_{number}") for number in range(6)), True)
+EVENTS = Enum("events", titles("Events"), tuple(entry(number, f"event_{number}") for number in range(40)), True)
+
+
+def test_a_list_of_names_stands_once_a_group_beside_its_first_point() -> None:
+    users = [point(f"user_{place}", place, enum=enum) for place, enum in enumerate((LEVELS, EVENTS, LEVELS, EVENTS))]
+    page = _page(sample_device(tuple(users)))
+    levels = "<br>".join(f"{number} = level_{number} (level_{number})" for number in range(6))
+    said = [_row(page, user.name)[-2].removesuffix("; lost when switched off") for user in users]
+    below = "[numbers below](#numbers-user_1)"
+    assert said == [levels, below, "numbers as of [user_0](#point-user_0)", below]
+    assert '<a id="numbers-user_1"></a>Numbers of [`user_1`](#point-user_1), [`user_3`](#point-user_3):' in page
+    assert page.count("| 39 | `event_39` | event_39 |") == 1
+
+
+@pytest.mark.parametrize(
+    ("note", "errata", "in_row", "below"),
+    [
+        ("Short.", ("a",), "Short; erratum [a](#erratum-a)", ""),
+        ("Long " * 30, (), "[more below](#more-speed)", "Long " * 30),
+        ("", ("a" * 50, "b" * 80), "[more below](#more-speed)", f"errata [`{'a' * 50}`](#erratum-{'a' * 50}), [`"),
+        ("", (), "", ""),
+    ],
+)
+def test_a_long_remark_stands_below_the_table(note: str, errata: tuple[str, ...], in_row: str, below: str) -> None:
+    page = _page(sample_device((point("speed", 1, note=titles(note) if note else {}, errata=errata),)))
+    assert _row(page, "speed")[-2] == in_row
+    said = page.partition('\n- <a id="more-speed"></a>`speed`: ')[2]
+    assert said.startswith(below.strip())
+    assert bool(said) == bool(below)
+
+
+def _flag(low: int, width: int, name: str, active: int = 1, values: tuple[str, ...] = ()) -> Flag:
+    entries = tuple(entry(number, ("zero", "one")[number], text) for number, text in enumerate(values))
+    return Flag(low, width, name, titles(name.capitalize()), active, entries)
+
+
+WORDS: list[tuple[dict[str, Any], list[str]]] = [
+    (
+        {"flags": (_flag(0, 1, "ready"), _flag(4, 2, "mode"))},
+        ["| 15..6 | 5..4 | 3..1 | 0 |", "|  | mode |  | ready |"],
+    ),
+    (
+        {"flags": (_flag(0, 1, "run"), _flag(10, 1, "valid")), "fixed": Fixed(0xC400, 0x8400)},
+        ["| 15..14 | 13..11 | 10 | 9..1 | 0 |", "| always 10 |  | valid<br>always 1 |  | run |"],
+    ),
+    (
+        {"type": "u32", "flags": (_flag(16, 16, "source"), _flag(0, 16, "bit"))},
+        ["| 31..16 | 15..0 |", "| source | bit |"],
+    ),
+    (
+        {"flags": tuple(_flag(bit, 1, f"b{bit}") for bit in range(16))},
+        ["| " + " | ".join(str(bit) for bit in range(15, -1, -1)) + " |", "| b15 | b14 | b13 |"],
+    ),
+    (
+        {"flags": tuple(_flag(bit, 1, f"operational_{bit}") for bit in range(16))},
+        [
+            "| 15 | 14 | 13 | 12 | 11 | 10 | 9 | 8 |",
+            "| operational_<wbr>15 | ",
+            "| **7** | **6** | **5** | **4** | **3** | **2** | **1** | **0** |",
+        ],
+    ),
+    (
+        {"bits": (7, 4), "width": 4, "flags": (_flag(0, 1, "low"), _flag(3, 1, "high"))},
+        ["| 7 | 6..5 | 4 |", "| high |  | low |"],
+    ),
+    (
+        {"flags": (_flag(3, 1, "fault", 0, ("a fault", "no fault")), _flag(0, 1, "on", 1, ("off",)))},
+        ["| 3 | `fault` | Fault | 0 | a fault | no fault |", "| 0 | `on` | On | 1 | off |  |"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("facts", "lines"), WORDS)
+def test_a_word_of_bits_is_drawn(facts: dict[str, Any], lines: list[str]) -> None:
+    word = point("word", 1, **facts)
+    page = _page(sample_device((word, changed(word, name="same"))))
+    assert page.count("Bits of ") == 1
+    drawn = page.partition('Bits of <a id="bits-word"></a>`word`, <a id="bits-same"></a>`same`:')[2]
+    assert [line for line in lines if f"\n{line}" not in drawn] == []
+
+
+def test_the_map_of_each_space_is_sorted_by_address() -> None:
+    points = (
+        point("late", 9, place=Place((9,), {"modicon": 10})),
+        point("coil", 3, "bit", space="coil"),
+        point("high", 2, "u8", bits=(15, 8), width=8),
+        point("wide", 4, "u32", place=Place((5, 4), {"modicon": 5}), code="A1"),
+        point("low", 2, "u8", bits=(7, 0), width=8),
+        point("nowhere", 0, place=Place((), {}), generated=False, reason="no address"),
+    )
+    page = _page(sample_device(points))
+    _, _, maps = page.partition("## Address map")
+    rows = [_cells(line) for line in maps.splitlines() if line.startswith("| 0")]
+    assert [[cell.strip() for cell in row if cell.strip()][-1] for row in rows] == [
+        f"[`{name}`](#point-{name})" for name in ("high", "low", "wide", "late", "coil")
+    ]
+    assert "| 0005h (5) high, 0004h (4) low | 5 | u32 | rw | A1 | [`wide`](#point-wide) |" in maps
+    assert maps.index("### Holding") < maps.index("### Coil")
+
+
+def test_rules_call_points_by_codes_that_are_theirs_alone() -> None:
+    limit = Limit(linear(1, 0, value_of("upper")), (), 0, 65535)
+    limited = Allowed((Interval(1, limit),), False, ())
+    upper = point("upper", 1, code="A061")
+    points = (upper, point("lower", 2, allowed=limited), point("other", 3, code="A061"))
+    assert "1..upper" in _row(_page(sample_device(points)), "lower")
+    assert "1..A061" in _row(_page(sample_device(points[:2])), "lower")
 
 
 def test_the_page_names_what_is_not_generated_and_why() -> None:
@@ -119,13 +256,14 @@ def test_the_page_names_what_is_not_generated_and_why() -> None:
 
 def test_frames_show_printed_and_corrected_bytes_and_their_meaning() -> None:
     line = next(one for one in _page().splitlines() if '<a id="frame-write_base"></a>' in one)
-    assert "`05 06 10 28 01 F4 A8 54` | `05 06 10 28 01 F4 0C 91` | `base_frequency` = 500 (50 Hz)" in line
+    frames = "`05 06 10 28 01 F4 A8 54`<br>correct: `05 06 10 28 01 F4 0C 91`"
+    assert f"{frames} | `base_frequency` = 500 (50 Hz)" in line
 
 
 def test_errata_lead_to_their_points_and_frames() -> None:
     page = _page()
-    assert "| [`base_frequency`](#point-base_frequency) |  | wire 4137 | wire 4136 |" in page
-    assert "|  | frame [`write_base`](#frame-write_base) | crc A8 54 | crc 0C 91 |" in page
+    assert "<br>[base_<wbr>frequency](#point-base_frequency) | wire 4137 | wire 4136 |" in page
+    assert "<br>frame [`write_base`](#frame-write_base) | crc A8 54 | crc 0C 91 |" in page
 
 
 def test_a_row_of_the_sheet() -> None:
@@ -169,7 +307,7 @@ def test_a_row_of_the_sheet() -> None:
     [
         ({}, "", ""),
         ({"default_raw": 7}, "raw 7", "raw 7"),
-        ({"default_raw": 7, "default": Fraction(7, 10), "unit": HERTZ}, "0.7", "0.7 Hz"),
+        ({"default_raw": 7, "default": Fraction(7, 10), "unit": HERTZ}, "0.7", "0.7"),
         ({"default": Fraction(1, 3)}, "1/3", "1/3"),
     ],
 )
@@ -178,7 +316,7 @@ def test_a_factory_setting(facts: dict[str, Any], in_sheet: str, in_page: str) -
     device = sample_device((point("setting", 1, **facts),))
     assert _rows(device)["setting"]["default"] == in_sheet
     page = _page(device)
-    heads = next(line for line in page.splitlines() if line.startswith("| Name | Title | Wire"))
+    heads = next(line for line in page.splitlines() if line.startswith("| Name | Wire"))
     cells = dict(zip((head.strip() for head in _cells(heads)), _row(page, "setting"), strict=True))
     assert cells.get("Default", "") == in_page  # a column that is empty in all rows is left out
 

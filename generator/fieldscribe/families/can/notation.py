@@ -1,4 +1,4 @@
-"""CAN frames as people paste them: `321#DD00051E13880064`, lines of candump, bytes for a known identifier."""
+"""CAN frames as people paste them: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fieldscribe.records import dataclass
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-HINT = "write identifier and data in hexadecimal, as in 321#DD00051E13880064, or give the identifier with --can-id 321"
+HINT = "write identifier and data in hexadecimal, as in 321#DD00051513880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF
 _STAMP = r"(?P<stamp>\([0-9.]{1,32}\)\s+)?"
 _LOGGED = re.compile(

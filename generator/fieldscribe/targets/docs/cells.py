@@ -12,10 +12,22 @@ from fieldscribe.text import markdown
 if TYPE_CHECKING:
     from collections.abc import Container, Sequence
 
+LINE_BREAK = "<br>"
+"""Begins a new line inside a cell."""
+MAY_BREAK = "_<wbr>"
+"""A sign of a name behind which a line may break."""
 _BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
 """What most cells are made of, and Markdown escapes nothing of it."""
-_PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9]))*")
+_PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9])|(?<= )\*{1,2}(?= ))*")
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
+_LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
+"""A name that would make its column wide."""
+_NARROW = 12
+"""A shorter text needs no break."""
+_LONG = 17
+"""A point's own name is broken if it is so long: names are code, which takes more signs to break."""
+_LONG_SPAN = re.compile(r"(?:(?<=[a-z)])|(?<=[0-9.]{5}))\.\.|\.\.(?=[A-Za-z]|-?[0-9]{6})")
+"""What parts the ends of a range where one is a name or a long number."""
 _NUMBERED = re.compile(r"^([0-9]+)([.)])")
 _ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
@@ -66,6 +78,20 @@ def code(text: str) -> str:
     return f"`{text}`" if _CODE.fullmatch(text) else markdown(text)
 
 
+def narrow(text: str) -> str:
+    """A finished cell whose long names may be broken behind their signs `_`; who searches for them does not notice."""
+    return text if len(text) < _NARROW else _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", text))
+
+
+def _breaking(name: re.Match[str]) -> str:
+    return name[0].replace("_", MAY_BREAK)
+
+
+def narrow_link(kind: str, name: str) -> str:
+    """A link in a narrow column."""
+    return f"[{narrow(cell(name))}](#{anchor(kind, name)})"
+
+
 def anchor(kind: str, name: str) -> str:
     """The anchor that a link and its target share."""
     return f"{kind}-{name if _ANCHOR.fullmatch(name) else _NO_ANCHOR.sub('-', name.lower())}"
@@ -74,6 +100,12 @@ def anchor(kind: str, name: str) -> str:
 def target(kind: str, name: str) -> str:
     """A name in a cell, as the target of links."""
     return f'<a id="{anchor(kind, name)}"></a>{code(name)}'
+
+
+def narrow_target(kind: str, name: str) -> str:
+    """A name in a narrow column, as the target of links; a long one may be broken."""
+    long = _LONG_NAME.fullmatch(name) if len(name) >= _LONG else None
+    return f'<a id="{anchor(kind, name)}"></a>{f"<code>{_breaking(long)}</code>" if long else code(name)}'
 
 
 def link(kind: str, name: str) -> str:

@@ -8,40 +8,36 @@ import fieldscribe
 from fieldscribe import wording
 from fieldscribe.model import Named
 from fieldscribe.records import dataclass
+from fieldscribe.targets.docs.address_map import MapView, map_views
 from fieldscribe.targets.docs.bus import BusView, bus_view
-from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code, link, paragraph, source_cell, target
+from fieldscribe.targets.docs.cells import (
+    LINE_BREAK,
+    by_rows,
+    cell,
+    code,
+    link,
+    narrow_link,
+    narrow_target,
+    paragraph,
+    source_cell,
+    target,
+)
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.special_codes import CodesView, code_views
+from fieldscribe.targets.docs.special_codes import codes_table
 from fieldscribe.targets.docs.subjects import reference_heads
 from fieldscribe.targets.heads import command
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Mapping
 
-    from fieldscribe.model import Device, Enum, Erratum, Frame, Point
+    from fieldscribe.model import Device, Erratum, Frame, Point
     from fieldscribe.targets.docs.subjects import Scope
 
 _NUMBERINGS = {
     "modicon": "the number with one added, as many PLC and panel tools count; the space is not part of the number",
     "reference": "the traditional reference whose first digit says the space (4: holding registers)",
 }
-_ENUM_KINDS = {
-    True: "only these numbers may be written",
-    False: "the range of the point says which numbers may be written",
-}
-
-
-@dataclass(frozen=True, slots=True)
-class EnumView:
-    """The entries of an enum, and the points that use it."""
-
-    anchor: str
-    heading: str
-    name: str
-    kind: str
-    users: str
-    entries: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +53,8 @@ class PageView:
     numberings: tuple[str, ...]
     bus: BusView
     groups: tuple[GroupView, ...]
-    codes: tuple[CodesView, ...]
-    enums: tuple[EnumView, ...]
+    codes: str
+    maps: tuple[MapView, ...]
     frames: str
     errata: str
     missing: str
@@ -80,8 +76,8 @@ def page_of(scope: Scope) -> PageView:
         numberings=tuple(f"{cell(key.capitalize())}: {_numbering(key)}." for key in numberings),
         bus=bus_view(device),
         groups=tuple(group_views(scope)),
-        codes=tuple(code_views(device)),
-        enums=tuple(_enum_views(device)),
+        codes=codes_table(device),
+        maps=tuple(map_views(device)),
         frames=_frames(scope),
         errata=_errata(device),
         missing=_missing(device),
@@ -119,67 +115,27 @@ def _documents(device: Device) -> str:
     return by_rows(("Document", "Title", "Language", "File", "SHA-256"), rows)
 
 
-def _enum_views(device: Device) -> Iterator[EnumView]:
-    users: dict[str, list[Point]] = {}
-    for point in device.points:
-        for enum in _enums_of(point):
-            users.setdefault(enum.name, []).append(point)
-    for enum in _all_enums(device):
-        links = ", ".join(link("point", point.item) for point in users.get(enum.name, ()))
-        yield EnumView(
-            anchor=anchor("names", enum.name),
-            heading=cell(wording.title_text(enum.title)),
-            name=code(enum.name),
-            kind=_ENUM_KINDS[enum.closed],
-            users=f" Used by {links}." if links else "",
-            entries=_entries(enum),
-        )
-
-
-def _all_enums(device: Device) -> Iterable[Enum]:
-    """The device's enums, then those of points that are only documented."""
-    enums = {enum.name: enum for enum in device.enums}
-    for point in device.points:
-        for enum in _enums_of(point):
-            enums.setdefault(enum.name, enum)
-    return enums.values()
-
-
-def _enums_of(point: Point) -> Iterator[Enum]:
-    """The enum of the point's raw number, or of its digits."""
-    if point.enum is not None:
-        yield point.enum
-    if point.digits is not None:
-        yield point.digits.enum
-
-
-def _entries(enum: Enum) -> str:
-    rows = [
-        (str(entry.raw), code(entry.name), cell(wording.title_text(entry.title)), cell(entry.quantity or ""))
-        for entry in enum.entries
-    ]
-    return by_rows(("Raw", "Name", "Title", "Quantity"), rows)
-
-
 def _frames(scope: Scope) -> str:
     rows = [_frame_row(scope, frame) for frame in scope.device.frames]
-    heads = ("Name", "Title", "Framing", "Direction", "Answers", "Printed", "Correct", "Meaning", "Errata", "Source")
+    heads = ("Frame", "Kind", "Bytes", "Meaning", "Errata", "Source")
     return by_rows(heads, rows, always=heads)
 
 
 def _frame_row(scope: Scope, frame: Frame) -> tuple[str, ...]:
+    answers = f"answers {link('frame', frame.answers)}" if frame.answers else ""
+    corrected = "" if frame.valid else f"correct: {code(frame.corrected.hex(' ').upper())}"
     return (
-        target("frame", frame.name),
-        cell(wording.title_text(frame.title)),
-        cell(frame.framing),
-        cell(frame.direction),
-        link("frame", frame.answers) if frame.answers else "",
-        code(frame.printed.hex(" ").upper()),
-        "as printed" if frame.valid else code(frame.corrected.hex(" ").upper()),
-        ", ".join(_meaning(name, raw, scope.by_name) for name, raw in frame.meaning.items()),
-        ", ".join(link("erratum", erratum) for erratum in frame.errata),
+        _lines(target("frame", frame.name), cell(wording.title_text(frame.title))),
+        _lines(cell(f"{frame.framing} {frame.direction}"), answers),
+        _lines(code(frame.printed.hex(" ").upper()), corrected),
+        _lines(*(_meaning(name, raw, scope.by_name) for name, raw in frame.meaning.items())),
+        _lines(*(link("erratum", erratum) for erratum in frame.errata)),
         source_cell(frame.source, scope.several),
     )
+
+
+def _lines(*texts: str) -> str:
+    return LINE_BREAK.join(filter(None, texts))
 
 
 def _meaning(name: str, raw: int, by_name: Mapping[str, Point]) -> str:
@@ -195,9 +151,11 @@ def _errata(device: Device) -> str:
         items.setdefault(point.name, []).append(point)
     rows = [
         (
-            target("erratum", erratum.id),
-            ", ".join(link("point", point.item) for name in erratum.points for point in items.get(name, ())),
-            _where(erratum),
+            _lines(
+                narrow_target("erratum", erratum.id),
+                *(narrow_link("point", point.item) for name in erratum.points for point in items.get(name, ())),
+                _where(erratum),
+            ),
             cell(erratum.printed),
             cell(erratum.taken),
             cell(erratum.why),
@@ -206,7 +164,7 @@ def _errata(device: Device) -> str:
         )
         for erratum in device.errata
     ]
-    heads = ("Erratum", "Points", "Where", "Printed", "Taken", "Why", "Certainty", "Source")
+    heads = ("Erratum, about", "Printed", "Taken", "Why", "Certainty", "Source")
     return by_rows(heads, rows, always=heads)
 
 
@@ -224,8 +182,7 @@ def _missing(device: Device) -> str:
     rows = [
         (
             cell(point.code or ""),
-            link("point", point.item),
-            cell(wording.title_text(point.title)),
+            _lines(link("point", point.item), cell(wording.title_text(point.title))),
             wording.words_text(point),
             cell(point.reason or "no reason given"),
             ", ".join(link("erratum", erratum) for erratum in point.errata),
@@ -233,4 +190,4 @@ def _missing(device: Device) -> str:
         for point in device.points
         if not point.generated
     ]
-    return by_rows(("Code", "Name", "Title", "Wire address", "Why", "Errata"), rows)
+    return by_rows(("Code", "Name", "Wire address", "Why", "Errata"), rows)

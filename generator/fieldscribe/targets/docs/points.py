@@ -1,4 +1,4 @@
-"""The tables of points, group by group, and the tables of the bits inside their words."""
+"""The tables of points, group by group."""
 
 from __future__ import annotations
 
@@ -8,34 +8,38 @@ from fieldscribe import wording
 from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import (
+    LINE_BREAK,
     anchor,
     by_rows,
     cell,
     code,
-    number_cell,
+    narrow,
+    narrow_target,
     paragraph,
     source_cell,
     source_text,
-    target,
 )
-from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, own_remarks, remarks
-from fieldscribe.targets.docs.subjects import reference_heads
+from fieldscribe.targets.docs.numbers import Lists
+from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, more_below, own_remarks, remarks_text
+from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, reference_heads
+from fieldscribe.targets.docs.words import Words
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Group, Point
+    from fieldscribe.targets.docs.numbers import ListView
     from fieldscribe.targets.docs.subjects import Scope, Subject
+    from fieldscribe.targets.docs.words import WordView
 
-_FACTS = ("Type", "Access", "Range", "Raw range", "Scale", "Default", "Remarks", "Source")
-
-
-@dataclass(frozen=True, slots=True)
-class FlagsView:
-    """The bits of one word."""
-
-    point: str
-    rows: str
+_FACTS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Default", "Remarks", "Source")
+_SAID: Mapping[str, Callable[[Subject], object]] = {
+    "Unit": lambda subject: subject.point.unit.symbol,
+    "Raw range": lambda subject: subject.limits.page[1],
+    "Scale": lambda subject: subject.point.scale,
+    "Default": lambda subject: subject.point.default is not None or subject.point.default_raw is not None,
+}
+"""Which points say something in these columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,9 @@ class GroupView:
     note: str
     facts: str
     points: str
-    flags: tuple[FlagsView, ...]
+    more: str
+    words: tuple[WordView, ...]
+    lists: tuple[ListView, ...]
 
 
 class _Kin(NamedTuple):
@@ -56,6 +62,7 @@ class _Kin(NamedTuple):
 
     space: str
     meaning: tuple[str, str]
+    unit: str
     scale: str
 
 
@@ -76,14 +83,19 @@ def _group_view(group: Group, subjects: list[Subject], rows: _Rows) -> GroupView
     facts = [f"{len(subjects)} point{'' if len(subjects) == 1 else 's'}"]
     facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
     facts += [f"source: {source}"] if source else []
+    words, lists = Words(), Lists()
+    for subject in subjects:
+        words.take(subject.point)
     return GroupView(
         anchor=anchor("group", group.name),
         heading=cell(wording.title_text(group.title)),
         name=code(group.name),
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
-        points=rows.table(subjects, with_space=len(spaces) > 1),
-        flags=tuple(rows.flags(subjects)),
+        points=rows.table(subjects, lists, with_space=len(spaces) > 1),
+        more=more_below(subject.point for subject in subjects),
+        words=tuple(words.views()),
+        lists=tuple(lists.views()),
     )
 
 
@@ -94,71 +106,50 @@ class _Rows:
         self.scope = scope
         self._kins: dict[int, _Kin] = {}
         self._remarks: dict[tuple[int, tuple[bool, ...]], Pattern] = {}
-        self._flags: dict[int, str] = {}
+        silent = {head for head, says in _SAID.items() if not any(map(says, scope.subjects))}
+        self._always = set(_FACTS) - silent
 
-    def table(self, subjects: Sequence[Subject], *, with_space: bool) -> str:
+    def table(self, subjects: Sequence[Subject], lists: Lists, *, with_space: bool) -> str:
         """The table of a group."""
         references = reference_heads(point for point, *_ in subjects)
-        heads = (
-            *("Code", "Name", "Title", "Space", "Wire address", "Index"),
-            *(cell(key.capitalize()) for key in references),
-            *_FACTS,
-        )
-        return by_rows(heads, [self._row(subject, references, with_space) for subject in subjects], always=_FACTS)
+        heads = ("Code", "Name", "Space", "Wire address", "Index", numbers_head(references), *_FACTS)
+        rows = [self._row(subject, lists, references, with_space) for subject in subjects]
+        return by_rows(heads, rows, always=self._always)
 
-    def flags(self, subjects: Sequence[Subject]) -> Iterator[FlagsView]:
-        """The tables of bits of those points that have named ones."""
-        for point, kin, _ in subjects:
-            if point.shape.flags:
-                rows = self._flags.get(kin)
-                if rows is None:
-                    rows = self._flags[kin] = _flag_table(point)
-                yield FlagsView(target("bits", point.item), rows)
-
-    def _row(self, subject: Subject, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
+    def _row(self, subject: Subject, lists: Lists, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
         point, number, limits = subject
         kin = self._kins.get(number)
         if kin is None:
             kin = self._kins[number] = self._kin(point)
+        name = narrow_target("point", point.item if point.variant else point.name)
         return (
             cell(point.code) if point.code else "",
-            target("point", point.item if point.variant else point.name),
-            cell(wording.title_text(point.title)),
+            f"{name}{LINE_BREAK}{cell(wording.title_text(point.title))}",
             kin.space if with_space else "",
             wording.words_text(point),
             "" if point.index is None else str(point.index),
-            *[number_cell(point.place.references.get(key, "")) for key in references],
+            numbers_text(point, references),
             *kin.meaning,
-            *limits.page,
+            limits.page[0],
+            kin.unit,
+            limits.page[1],
             kin.scale,
-            "" if point.default is None and point.default_raw is None else cell(wording.default_text(point)),
-            self._remarks_cell(point, number),
+            ""
+            if point.default is None and point.default_raw is None
+            else narrow(cell(wording.default_text(point, unit=False))),
+            self._remarks_cell(point, number, lists),
             source_cell(point.source, self.scope.several),
         )
 
     def _kin(self, point: Point) -> _Kin:
-        scale = cell(wording.scale_text(point, self.scope.by_name))
-        return _Kin(cell(point.space), (wording.type_text(point), point.access), scale)
+        scale = narrow(cell(wording.formula_text(point, self.scope.by_code)))
+        return _Kin(cell(point.space), (wording.type_text(point), point.access), cell(point.unit.symbol), scale)
 
-    def _remarks_cell(self, point: Point, kin: int) -> str:
-        own = own_remarks(point)
+    def _remarks_cell(self, point: Point, kin: int, lists: Lists) -> str:
+        own = own_remarks(point, lists.said(point))
         form = form_of(own)
         pattern = self._remarks.get((kin, form))
         if pattern is None:
-            shown = remarks(self.scope, point, OwnRemarks(*blanks(own)))
-            pattern = self._remarks[kin, form] = Pattern("; ".join(filter(None, shown)))
+            text = remarks_text(self.scope, point, OwnRemarks(*blanks(own)))
+            pattern = self._remarks[kin, form] = Pattern(text)
         return pattern.filled(own)
-
-
-def _flag_table(point: Point) -> str:
-    rows = [
-        (
-            wording.flag_bits(flag, point),
-            code(flag.name),
-            cell(wording.title_text(flag.title)),
-            "0" if flag.width == 1 and flag.active == 0 else "1" if flag.width == 1 else "",
-            ", ".join(cell(wording.flag_value_text(entry)) for entry in flag.values),
-        )
-        for flag in point.flags
-    ]
-    return by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.records import dataclass
-from fieldscribe.targets.docs.cells import anchor, by_rows, cell, code
+from fieldscribe.targets.docs.cells import by_rows, cell, code, target
 from fieldscribe.text import csv_cell
 
 if TYPE_CHECKING:
@@ -17,32 +16,29 @@ if TYPE_CHECKING:
 _HEADS = ("of", "type", "code", "raw_first", "raw_last", "name", "no_value", "writable")
 
 
-@dataclass(frozen=True, slots=True)
-class CodesView:
-    """Codes that many points share; `users` says how many points of which type."""
+def codes_table(device: Device) -> str:
+    """The shared codes, each type, group or format once, in the order of their first points."""
+    rows = [
+        (
+            _sharers(name, points) if first else "",
+            wording.special_numbers(special, points[0].width),
+            code(special.name),
+            cell(wording.title_text(special.title)),
+            cell(wording.special_remarks(special)),
+        )
+        for name, points in _sharing(device).items()
+        for first, special in _marked([special for special in points[0].specials if not special.own])
+    ]
+    return by_rows(("Codes of", "Raw", "Name", "Title", "Remarks"), rows)
 
-    anchor: str
-    heading: str
-    users: str
-    rows: str
+
+def _sharers(name: str, points: list[Point]) -> str:
+    return f"{target('codes', name)}: {len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
 
 
-def code_views(device: Device) -> Iterator[CodesView]:
-    """The shared codes, in the order of their first point."""
-    for name, points in _sharing(device).items():
-        rows = [
-            (
-                wording.special_numbers(special, points[0].width),
-                code(special.name),
-                cell(wording.title_text(special.title)),
-                cell(wording.special_remarks(special)),
-            )
-            for special in points[0].specials
-            if not special.own
-        ]
-        table = by_rows(("Raw", "Name", "Title", "Remarks"), rows)
-        count = f"{len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
-        yield CodesView(anchor("codes", name), cell(name), count, table)
+def _marked(specials: list[Special]) -> Iterator[tuple[bool, Special]]:
+    """Each code, and whether it is the first."""
+    return ((place == 0, special) for place, special in enumerate(specials))
 
 
 def sheet_of_codes(device: Device) -> str:

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.model import Shape
-from fieldscribe.targets.docs.cells import cell
+from fieldscribe.targets.docs.cells import cell, narrow, number_cell
 from fieldscribe.text import csv_cell
 from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.wording.rules import Called
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
 
@@ -40,6 +41,7 @@ class Scope(NamedTuple):
 
     device: Device
     by_name: Mapping[str, Point]
+    by_code: Called
     subjects: tuple[Subject, ...]
     several: bool
     """Whether facts come from several documents, so that each source names its own."""
@@ -48,7 +50,17 @@ class Scope(NamedTuple):
 def scope_of(device: Device) -> Scope:
     """The points of a device for its rows."""
     by_name = {point.name: point for point in device.points}
-    return Scope(device, by_name, tuple(_subjects(device.points, by_name)), len(device.documents) > 1)
+    by_code = Called(by_name, _codes(device.points))
+    return Scope(device, by_name, by_code, tuple(_subjects(device.points, by_name, by_code)), len(device.documents) > 1)
+
+
+def _codes(points: Iterable[Point]) -> dict[str, str]:
+    """The codes by which rules call points: those that belong to one name."""
+    names: dict[str, set[str]] = {}
+    for point in points:
+        if point.code:
+            names.setdefault(point.code, set()).add(point.name)
+    return {next(iter(alike)): code for code, alike in names.items() if len(alike) == 1}
 
 
 def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
@@ -59,7 +71,20 @@ def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:
     return tuple(heads)
 
 
-def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator[Subject]:
+def numbers_head(keys: Sequence[str]) -> str:
+    """The head of the column with all numberings: `Modicon / Reference`."""
+    return cell(" / ".join(key.capitalize() for key in keys))
+
+
+def numbers_text(point: Point, keys: Sequence[str]) -> str:
+    """The numbers of a point in these numberings: `4115 / 404115`, with a dash for one that it lacks."""
+    references = point.place.references
+    if not references:
+        return ""
+    return " / ".join([number_cell(references.get(key, "-")) for key in keys])
+
+
+def _subjects(points: Iterable[Point], by_name: Mapping[str, Point], by_code: Called) -> Iterator[Subject]:
     shapes, kins = dict[int, object](), dict[object, int]()
     known_limits: dict[object, Limits] = {}
     for point in points:
@@ -70,7 +95,7 @@ def _subjects(points: Iterable[Point], by_name: Mapping[str, Point]) -> Iterator
         key = limits_of(point, kin)
         limits = known_limits.get(key)
         if limits is None:
-            limits = known_limits[key] = _limits(point, by_name)
+            limits = known_limits[key] = _limits(point, by_name, by_code)
         yield Subject(point, kin, limits)
 
 
@@ -89,14 +114,20 @@ def limits_of(point: Point, kin: int) -> object:
     return kin, id(point.allowed)
 
 
-def _limits(point: Point, by_name: Mapping[str, Point]) -> Limits:
+def _limits(point: Point, by_name: Mapping[str, Point], by_code: Called) -> Limits:
     span, raw = wording.range_text(point, by_name), wording.raw_range_text(point)
     outer = None if point.info.floating else wording.outer_raw(point)
     ends = f"{outer[0]},{outer[1]}" if outer else ","
-    return Limits(
-        ("" if point.flags else cell(span), cell(raw) if _has_rule(point) else ""),
-        f"{ends},{csv_cell(raw)},{csv_cell(span)}",
-    )
+    return Limits(_page_limits(point, by_code, span, raw), f"{ends},{csv_cell(raw)},{csv_cell(span)}")
+
+
+def _page_limits(point: Point, by_code: Called, span: str, raw: str) -> tuple[str, str]:
+    """The range without its unit, and the raw range where it says more; both call other points by their codes."""
+    if point.allowed.moves:
+        raw = wording.raw_range_text(point, Called({}, by_code.called))
+    if point.allowed.moves or point.unit.symbol:
+        span = wording.range_text(point, by_code, unit=False)
+    return "" if point.flags else narrow(cell(span)), narrow(cell(raw)) if _has_rule(point) else ""
 
 
 def _has_rule(point: Point) -> bool:

@@ -1,0 +1,136 @@
+"""A folder in which every example of `--help` can be run as it stands, and what runs one."""
+
+from __future__ import annotations
+
+import io
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import threading
+from contextlib import chdir
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.cli import main
+
+from support.places import ROOT, TESTS
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pytest
+
+_EXAMPLE = re.compile(
+    r"^  (?P<before>\S.* \| |source <\()?fieldscribe(?P<words> .*?)"
+    r"(?: (?P<sign>[<>|]) (?P<file>.*?))?\)?(?P<remark> {3,}\(.*\))?$",
+    re.MULTILINE,
+)
+_AUDITED = TESTS / "transcripts/audit/drive"
+_REGISTERS = "code;address;name;type;range;unit\nA001;1;Speed;u16;0..400;Hz\nA002;2;Torque;s16;-100..100;%\n"
+_TEXT = """\
+| Code | Address | Name | Type | Range |
+| --- | --- | --- | --- | --- |
+| A001 | 1 | Speed | u16 | 0..400 |
+| A002 | 2 | Torque | u16 | 0..100 |
+"""
+_STATUS = "group: status\ntitle: Status\npoints:\n- { name: speed,   at: 1 }\n"
+
+
+class Example(NamedTuple):
+    """An example as `--help` prints it: the words behind `fieldscribe`, and the file it reads or writes."""
+
+    printed: str
+    words: str
+    sign: str
+    file: str
+
+
+class Ran(NamedTuple):
+    """What an example did."""
+
+    code: int
+    said: str
+    told: str
+
+
+def examples_of(epilog: str) -> list[Example]:
+    """All examples in the text below the options of a command."""
+    return [
+        Example(
+            (match[0].removesuffix(match["remark"] or "")).strip(),
+            match["words"].strip(),
+            "|" if (match["before"] or "").endswith("| ") else match["sign"] or "",
+            match["file"] or "",
+        )
+        for match in _EXAMPLE.finditer(epilog)
+    ]
+
+
+def workplace(folder: Path) -> Path:
+    """A checkout with two commits, and the files that examples name."""
+    descriptions = folder / "descriptions"
+    shutil.copytree(ROOT / "descriptions", descriptions)
+    source = descriptions / "hitachi_l200/standard_a.yaml"
+    git = ("git", "-c", "user.name=x", "-c", "user.email=x@example.org", "-c", "commit.gpgsign=false")
+    now = source.read_text("utf-8")
+    source.write_text(now.replace("name: run_key,", "name: run_button,"), "utf-8")
+    for words in (("init", "-q"), ("add", "."), ("commit", "-qm", "first"), ("tag", "v1.2.0")):
+        subprocess.run([*git, *words], cwd=folder, check=True)
+    source.write_text(now, "utf-8")
+    subprocess.run([*git, "commit", "-qam", "second"], cwd=folder, check=True)
+    for name, text in {
+        "candump.log": "(1.5) can0 321#DD010302000007D0\n(1.6) can0 321#DD00051513880064\n",
+        "registers.csv": _REGISTERS,
+        "list.csv": "1;x;Speed;y;z;0..400\nA001;x;1;y;z;0..400\n",
+        "manual.txt": "\n" * 700 + _TEXT,
+        "status.yaml": _STATUS,
+        "points.txt": "A020\nd001\n",
+    }.items():
+        (folder / name).write_text(text, "utf-8")
+    return folder
+
+
+def ran(example: Example, folder: Path, capsys: pytest.CaptureFixture[str], patch: pytest.MonkeyPatch) -> Ran:
+    """What an example does in the folder; what it is piped into is not run, and what feeds it is a log of candump."""
+    read = folder / (example.file if example.sign == "<" else "candump.log")
+    patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(read.read_bytes()), encoding="utf-8"))
+    with chdir(folder):
+        code = main(shlex.split(example.words))
+    said, told = capsys.readouterr()
+    return Ran(code, said, told)
+
+
+def audited(folder: Path) -> None:
+    """The device of the examples is one whose manual is here; in its next edition all lines moved."""
+    device = folder / "descriptions/hitachi_l200"
+    shutil.rmtree(device)
+    device.mkdir()
+    shutil.copy(_AUDITED / "device.yaml", device)
+    manual = (_AUDITED / "manual.txt").read_text("utf-8")
+    (folder / "hitachi_l200_modbus.txt").write_text(manual, "utf-8")
+    (folder / "new.txt").write_text("\n" + manual, "utf-8")
+
+
+def drafted(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A description of one's own with what it was before, and a device as it was released."""
+    words = ("--family", "modbus", "--vendor", "Example", "--model", "M", "--title", "Mine")
+    with chdir(folder):
+        for name in ("heat_pump", "my_drive"):
+            assert main(["init", name, *words]) == 0
+            shutil.move(f"descriptions/{name}", name)
+        shutil.copytree("my_drive", "old/my_drive")
+        capsys.readouterr()
+        assert main(["export", "json", "hitachi_l200"]) == 0
+    (folder / "released.json").write_text(capsys.readouterr().out, "utf-8")
+
+
+def asked_for(folder: Path) -> None:
+    """A project that asks for a device which is not there yet."""
+    asked = 'out = "vendored"\ntargets = ["c"]\n\n[[devices]]\ndevice = "hitachi_l200"\n'
+    (folder / "fieldscribe.toml").write_text(asked, "utf-8")
+
+
+def stops_at_once(patch: pytest.MonkeyPatch) -> None:
+    """What runs for ever ends behind its first run."""
+    patch.setattr(threading.Event, "wait", lambda _event, _seconds=None: True)
