@@ -576,7 +576,7 @@ static void has(uint8_t *buffer, size_t size, size_t length)
 
 void prove_likely(size_t size, size_t length)
 {
-    if (length > 0U && length <= FRAMES && KNOWN_HEADS) {
+    if (length > 0U && length <= SHORT && KNOWN_HEADS) {
         //@ split length;
         has(frame, size, length);
         (void)fieldscribe_modbus_likely(&receiver, EXACTLY(length, frame), length);
