@@ -121,7 +121,20 @@ def stream_of(asked: Asked, data: Random) -> bytes:
         hurt[data.randrange(len(hurt))] ^= 1 << data.randrange(8)
         noise = bytes(data.choice([*good[:9], 0, 255, data.randrange(256)]) for _ in range(data.randrange(12)))
         cut = good[: data.randrange(len(good))]
-        pieces += data.choice(([good], [noise, good], [bytes(hurt)], [cut, good], [noise], [good, good]))
+        odd = bytes([2, 13, asked.unit, *data.randbytes(11)])  # over USS: a good check, but half a word
+        other = asked.answer(data)
+        pieces += data.choice(
+            (
+                [good],
+                [noise, good],
+                [bytes(hurt)],
+                [cut, other, noise],
+                [cut, good],
+                [noise],
+                [good, good],
+                [odd + bcc(odd)],
+            )
+        )
     return b"".join(pieces)
 
 
