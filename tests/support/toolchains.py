@@ -72,6 +72,13 @@ def gcc_for_32_bits() -> str:
     return path
 
 
+def crates(project: Path) -> None:
+    """Fetches the crates that a project of cargo needs, once; without them the test is skipped or fails, as above."""
+    fetched = run([tool("cargo"), "fetch", "--offline"], cwd=project)
+    if fetched.returncode != 0 and run([tool("cargo"), "fetch"], cwd=project).returncode != 0:
+        _do_without("what cargo fetches from crates.io", "it by `cargo fetch` with the network, which keeps it")
+
+
 def _do_without(name: str, packages: str) -> NoReturn:
     """Skips the test and says what to install; where CI is set, it fails."""
     reason = f"{name} is missing: install {packages}"
