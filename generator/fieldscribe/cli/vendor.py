@@ -62,11 +62,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import report_findings
     from fieldscribe.diagnostics import Report
-<<<<<<< HEAD
-=======
     from fieldscribe.reading import Inputs
-    from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
->>>>>>> firmware
 
     report, inputs = Report(), Inputs()
     orders = _orders(arguments, report, inputs)
@@ -74,44 +70,32 @@ def run(arguments: Namespace) -> int:
         report_findings(report, arguments.format)
         return FINDINGS
     missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
-    return carried_out(orders, missing, arguments.format, check=arguments.check, force=arguments.force)
+    looks = arguments.check or arguments.list_outputs
+    deliveries = delivered(orders, missing, check=looks, force=arguments.force)
+    if arguments.list_outputs:
+        return _list(deliveries)
+    if not looks:
+        _keep_up(arguments, deliveries, inputs)
+    return say(deliveries, arguments.format, check=arguments.check)
 
 
-def carried_out(orders: list[Order], missing: tuple[str, str], form: str = "text", *, check: bool, force: bool) -> int:
-    """Leave the files, or compare, and say it; the exit code. `missing` is what to say without the library of an extra.
-
-    Raises StopError.
-    """
+def delivered(orders: list[Order], missing: tuple[str, str], *, check: bool, force: bool) -> list[Delivery]:
+    """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
     from fieldscribe.asked import UnclearError
-    from fieldscribe.cli.common import StopError, usage_error
+    from fieldscribe.cli.common import StopError
     from fieldscribe.cli.generate import say_waiting
     from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
 
     try:
         refuse_doubles(orders)
-<<<<<<< HEAD
-        deliveries = [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
-=======
-        if arguments.check or arguments.list_outputs:
-            deliveries = [compare(order) for order in orders]
-        else:
-            deliveries = [deliver(order, say_waiting, force=arguments.force) for order in orders]
-            _keep_up(arguments, deliveries, inputs)
->>>>>>> firmware
+        return [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
         raise StopError(*missing) from error
     except OSError as error:
-<<<<<<< HEAD
-        return usage_error(f"cannot write to {error.filename or orders[0].out}: {error.strerror or error}")
-    return _say(deliveries, form, check=check)
-=======
-        return usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
-    if arguments.list_outputs:
-        return _list(deliveries)
-    return _say(arguments, deliveries)
->>>>>>> firmware
+        where = error.filename or orders[0].out
+        raise StopError(f"cannot write to {where}: {error.strerror or error}") from error
 
 
 def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
@@ -234,7 +218,8 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def _say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
+def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
+    """Print what was done, or what is not as it should be; the exit code."""
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
 
