@@ -172,8 +172,8 @@ fn errors_say_all_once_and_name_the_point() {
     let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 1);
     let error = client.write::<points::BaseFrequency>(f64::NAN).unwrap_err();
     assert_eq!(error.to_string(), "base_frequency: the value is not a number");
-    let error: ClientError<std::io::Error> = Error::Special("level").into();
-    assert_eq!(error.to_string(), "level: the raw number is a special code and no quantity");
+    let error: ClientError<std::io::Error> = Error::NotANumber("level").into();
+    assert_eq!(error.to_string(), "level: the value is not a number");
     assert!(std::error::Error::source(&error).is_none());
     assert_eq!(enums::FrequencySource::Unknown(999).to_string(), "999");
     assert_eq!(enums::FrequencySource::from(1).to_string(), enums::FrequencySource::from(1).name().unwrap());
