@@ -28,7 +28,7 @@ async fn talks(context: Context, profile: &'static Profile, framing: Framing) {
     let reply = client.read_block(&blocks::COILS[0]).await.unwrap();
     assert_eq!(reply.items().collect::<Vec<_>>(), [1, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0]);
     let refused = client.exchange(Request::new(1, 3, 0x2000, 1)).await.unwrap_err();
-    assert!(matches!(refused, ClientError::Reply(ReplyError::Exception { code: 2, .. }, None)), "{refused}");
+    assert!(matches!(refused, ClientError::Reply(ReplyError::Exception { code: 2, .. }, Some(_))), "{refused}");
     let spawned = tokio::spawn(async move { client.read::<p::BaseFrequency>().await });
     assert_eq!(spawned.await.unwrap().unwrap(), 50.0);
 }
