@@ -131,6 +131,19 @@ impl<T: Transport + ?Sized> Transport for &mut T {
     }
 }
 
+/// Several clients live on one line, also in several threads, and take turns on it. Needs the feature `std`.
+#[cfg(feature = "std")]
+impl<T: Transport> Transport for &std::sync::Mutex<T> {
+    type Error = T::Error;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        let line = self.lock();
+        // Whoever panicked with it did not leave an exchange half done for the next.
+        let mut line = line.unwrap_or_else(std::sync::PoisonError::into_inner);
+        line.exchange(request, reply)
+    }
+}
+
 /// As for [`Transport`].
 impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
     type Error = T::Error;
