@@ -159,8 +159,8 @@ def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyP
             with serial_line(rtu) as path:  # programs keep a port to themselves
                 monkeypatch.setenv("TTY", path)
                 printed.append(succeed([place]).splitlines())
-    first, serial, gateway, shared, own, tokio, reopened, many, values, by_address, by_name, failing, uart, genset = printed
-    assert first == serial == reopened == ["0.1 Hz"]
+    first, serial, gateway, shared, own, tokio, anew, many, values, by_address, by_name, failing, uart, genset = printed
+    assert first == serial == anew == ["0.1 Hz"]
     assert shared == ["0.1", "0.1"]
     assert gateway == tokio == ["0.1"]
     assert own == ["> [01, 03, 10, 01, 00, 01, D1, 0A]", "0.1"]

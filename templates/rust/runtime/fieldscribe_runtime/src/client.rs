@@ -42,6 +42,10 @@ pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 /// let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
 /// assert_eq!(client.read::<JumpFrequency>().unwrap(), 50.0);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no transport for a `Client`",
+    note = "a transport that does not block goes with `AsyncClient` or `LocalClient`"
+)]
 pub trait Transport {
     /// What can go wrong on the line.
     type Error;
@@ -75,6 +79,10 @@ pub trait Transport {
 ///     spawn(async move { client.read::<P>().await });
 /// }
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no transport for an `AsyncClient`",
+    note = "a transport that blocks goes with `Client`, one of a single thread with `LocalClient`"
+)]
 pub trait AsyncTransport: Send {
     /// What can go wrong on the line.
     type Error: Send;

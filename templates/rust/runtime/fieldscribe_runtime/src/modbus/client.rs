@@ -174,7 +174,10 @@ macro_rules! client {
 
         impl<T> $client<T> {
             /// The unit of that number behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self {
+            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self
+            where
+                T: $transport,
+            {
                 Self { transport, unit: Unit::new(profile, framing, unit) }
             }
 
