@@ -156,9 +156,9 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
 
     from fieldscribe.asked import UnclearError
     from fieldscribe.checks.device_name_is_free import reasons
-    from fieldscribe.cli.common import StopError, open_device
+    from fieldscribe.cli.common import StopError, open_device, usage_error
     from fieldscribe.language.keys.forms import ID
-    from fieldscribe.vendoring.choosing import chosen
+    from fieldscribe.vendoring.choosing import chosen, only_raw
     from fieldscribe.vendoring.orders import Order
 
     if device is None or out is None:
@@ -174,6 +174,8 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
         chosen(opened, wish.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
+    for said in only_raw(opened, wish.points):
+        usage_error(said)
     return Order(opened, wish, out)
 
 
