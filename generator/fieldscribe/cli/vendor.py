@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.reading import Inputs
@@ -23,7 +24,8 @@ EXAMPLE = """examples:
   fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
 
 a point is named by its code or its name, several by their group or by a pattern; what they need comes with them
---check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
+--check writes nothing, says what is missing, stale or edited by hand, or there for what the project file names no
+more, and ends with 1 if anything is
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
@@ -76,7 +78,8 @@ def run(arguments: Namespace) -> int:
         return _list(deliveries)
     if not looks:
         _keep_up(arguments, deliveries, inputs)
-    return say(deliveries, arguments.format, check=arguments.check)
+    left = _left(orders) if arguments.language is None else []
+    return say(deliveries, arguments.format, check=arguments.check, left=left)
 
 
 def delivered(orders: list[Order], missing: tuple[str, str], *, check: bool, force: bool) -> list[Delivery]:
@@ -96,6 +99,14 @@ def delivered(orders: list[Order], missing: tuple[str, str], *, check: bool, for
     except OSError as error:
         where = error.filename or orders[0].out
         raise StopError(f"cannot write to {where}: {error.strerror or error}") from error
+
+
+def _left(orders: list[Order]) -> list[Path]:
+    """Files of what the project file names no more."""
+    from fieldscribe.vendoring.files import LANGUAGES
+    from fieldscribe.vendoring.orders import dropped
+
+    return dropped(orders, LANGUAGES)
 
 
 def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
@@ -220,20 +231,29 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
-    """Print what was done, or what is not as it should be; the exit code."""
+def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
+    """Print what was done, or what is not as it should be; the exit code.
+
+    `left` are files that were left for what is wanted no more.
+    """
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
+    from fieldscribe.report import visible
 
     if form == "json":
-        print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
+        data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
+        print_json(data | ({"not_wanted": list(map(str, left))} if left else {}))
     for delivery in deliveries:
         if form == "text":
             _print(delivery, check=check)
         for path, reason in delivery.refused.items():
             hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
             usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
-    return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
+    if left and form == "text":
+        print(*(f"not wanted any more: {visible(str(path))}" for path in left), sep="\n")
+        print("  hint: delete them, or name their device and target in the project file again")
+    is_fine = all(delivery.is_current for delivery in deliveries) and not (check and left)
+    return FINE if is_fine else FINDINGS
 
 
 def _print(delivery: Delivery, *, check: bool) -> None:
