@@ -24,8 +24,7 @@ EXAMPLE = """examples:
   fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
 
 a point is named by its code or its name, several by their group or by a pattern; what they need comes with them
---check writes nothing, says what is missing, stale or edited by hand, or there for what the project file names no
-more, and ends with 1 if anything is
+--check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
 
@@ -234,7 +233,7 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
 def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
     """Print what was done, or what is not as it should be; the exit code.
 
-    `left` are files that were left for what is wanted no more.
+    `left` are files of what the project file does not name, or no more: told, for somebody may have asked by hand.
     """
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
@@ -242,7 +241,7 @@ def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Pa
 
     if form == "json":
         data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
-        print_json(data | ({"not_wanted": list(map(str, left))} if left else {}))
+        print_json(data | ({"not_in_project": list(map(str, left))} if left else {}))
     for delivery in deliveries:
         if form == "text":
             _print(delivery, check=check)
@@ -250,10 +249,9 @@ def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Pa
             hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
             usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
     if left and form == "text":
-        print(*(f"not wanted any more: {visible(str(path))}" for path in left), sep="\n")
-        print("  hint: delete them, or name their device and target in the project file again")
-    is_fine = all(delivery.is_current for delivery in deliveries) and not (check and left)
-    return FINE if is_fine else FINDINGS
+        print(*(f"not in the project file: {visible(str(path))}" for path in left), sep="\n")
+        print("  hint: delete them if nobody needs them, or name their device and target there")
+    return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
 
 
 def _print(delivery: Delivery, *, check: bool) -> None:

@@ -124,7 +124,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
 
 
 def dropped(orders: Collection[Order], languages: Collection[str]) -> list[Path]:
-    """Files in the folders of these orders that were left there for an order of old, and are asked for no more."""
+    """Files in the folders of these orders that are there for none of them, as for one that was dropped."""
     folders = {os.path.realpath(order.out): order.out for order in orders}
     wanted = {(os.path.realpath(order.out), order.name, order.wish.language) for order in orders}
     paths: list[Path] = []
