@@ -257,11 +257,18 @@ int main(void)
     static const uint16_t sent[2] = {0x047FU, 0x4000U};
     uint16_t heard[2] = {0U, 0U};
     float hertz = 0.0F;
+    uint16_t words[2] = {0U, 0U};
+    bool fault = true;
+    int64_t actual = 0;
     script = steps;
     CHECK(maximum_frequency(3U, sent, heard, &hertz));
     CHECK(hertz == 50.0F && heard[0] == 0xFA31U && heard[1] == 0x1234U);
     CHECK(!maximum_frequency(3U, sent, heard, &hertz));
     CHECK(!maximum_frequency(3U, sent, heard, &hertz));
+    CHECK(command(false, 4000000, words) && words[0] == 0x047EU && words[1] == 0x3333U);
+    CHECK(command(true, 4000000, words) && !command(true, 400000000, words));
+    CHECK(exchange(3U, words, &fault, &actual) && !fault && actual == 3999939);
+    CHECK(!exchange(3U, words, &fault, &actual));
     return 0;
 }
 """
@@ -276,7 +283,10 @@ def test_blocks_on_uss(page: Page) -> None:
     asked = bcc("02 0E 03 14 3A 00 00 00 00 00 00 04 7F 40 00")
     answer = bcc("02 0E 03 24 3A 00 00 42 48 00 00 FA 31 12 34")
     refusal = bcc("02 0E 03 74 3A 00 00 00 00 00 00 FA 31 12 34")
-    steps = [(asked, f"02 {answer}"), (asked, refusal), (asked, answer[:-2] + "00")]
+    assert "047E 3333" in text
+    run = bcc("02 0E 03 00 00 00 00 00 00 00 00 04 7F 33 33")
+    runs = bcc("02 0E 03 00 00 00 00 00 00 00 00 FB 34 33 33")
+    steps = [(asked, f"02 {answer}"), (asked, refusal), (asked, answer[:-2] + "00"), (run, runs), (run, "")]
     run_here(page, f'#include "host.h"\n{page.uss}{script_of(steps)}{USS}', board=True)
 
 
