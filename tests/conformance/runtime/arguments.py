@@ -221,7 +221,7 @@ def check_transports(package: Package) -> None:
     }
     blocking, awaiting = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
     exchange = "`exchange` (a method that sends a request and returns the whole reply)"
-    needs = f"a transport has `framing` ('rtu' or 'tcp') and {exchange}"
+    needs = f"a transport has `framing` ('rtu', 'tcp' or 'pdu') and {exchange}"
     for kind in (blocking, awaiting):
         refuses(request, f"{needs}; thing has no framing and no exchange", kind, Thing(), 1)
         assert refusal(kind, type("Half", (Thing,), {"framing": "rtu"})(), 1).status == "bad_transport"

@@ -605,8 +605,15 @@ def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any
         assert error(made, Slave("ascii"), 5).status == "bad_framing"
         limited = type("Limited", (made,), {"PROFILE": made.PROFILE.replaced(framings=("rtu",))})
         failure = error(limited, Slave("tcp"), 5)
-        assert (failure.status, str(failure)) == ("bad_framing", "the device speaks rtu, not 'tcp'")
+        assert (failure.status, str(failure).partition(";")[0]) == ("bad_framing", "the device speaks rtu, not 'tcp'")
         assert limited(Slave(), 5).unit == 5
+    limited = type("Limited", (package.SampleDrive,), {"PROFILE": package.SampleDrive.PROFILE.replaced(framings=())})
+    slave = Slave("pdu")  # whose transport frames as it likes
+    drive = limited(slave, 5)
+    drive.base_frequency.write(50.0)
+    assert drive.base_frequency.read() == 50.0
+    slave.refuses = dict.fromkeys(slave.words, 2)
+    assert error(drive.base_frequency.read).code == 2
 
 
 def test_nothing_is_cut_off_silently(package: Any) -> None:
