@@ -73,7 +73,8 @@ def typed_findings(program: str, folder: Path, package: str, work: Path) -> str:
 class Slave:
     """A device on a line of RTU, TCP or bare PDUs, working on plain dicts.
 
-    `log` says what it was asked (function, address, count). It is written against the protocol and not with the runtime's own functions.
+    `log` says what it was asked (function, address, count). It is written against the protocol and not with
+    the runtime's own functions.
     """
 
     def __init__(self, framing: str = "rtu") -> None:

@@ -132,7 +132,7 @@ def check_what_may_be_written(package: Package) -> None:
     refuses(runtime.RangeError, "float: 6 is not 5", made["float"].encode, 6.0)
     text = "none: 4 Hz is refused, as anything is now: least leave 6..5 Hz"
     refuses(runtime.RangeError, text, made["none"].encode, 4.0, {"least": 60})
-    refuses(runtime.RangeError, "none: raw 40 is outside 45..50", made["none"].check, 40, {"least": 45})
+    refuses(runtime.RangeError, "none: raw 40 is outside 45..50 (set by least)", made["none"].check, 40, {"least": 45})
     huge = "zero: a count of a number of thousands of digits Hz is not 0 Hz"
     refuses(runtime.RangeError, huge, made["zero"].encode_count, 10**5000)
 

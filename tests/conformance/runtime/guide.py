@@ -107,7 +107,7 @@ def check_help(package: Package) -> None:
     assert "What may be written: 0.5..2 V." in kind.number.__doc__.splitlines()
     assert "What may be written" not in kind.free.__doc__
     assert "    free.encode(value) -> raw" in kind.free.__doc__.splitlines()
-    assert "What may be written: 0..9." in kind.bound.__doc__.splitlines()
+    assert "What may be written: 0..9, whole numbers." in kind.bound.__doc__.splitlines()
     assert kind.go.__doc__ == (
         "go, a command: it writes any number (1 if none is given) to holding 0x000B.\n\nOn a device: device.go.send()"
     )

@@ -56,6 +56,11 @@ class Place(Record):
         return f"{self.space} {', '.join(map(notation, self.addresses))}{index}"
 
     @property
+    def label(self) -> str:
+        """The place for messages: the first of several words."""
+        return str(self.replaced(addresses=(self.address,)))
+
+    @property
     def address(self) -> int:
         """The lowest address, which a request names."""
         return min(self.addresses)
@@ -165,6 +170,9 @@ class Facts:
 
     def __init__(self, **facts: Unpack[FactArguments]) -> None:
         self.__dict__.update(facts)
+
+    def __repr__(self) -> str:
+        return f"Facts({', '.join([f'{name}={value!r}' for name, value in self.__dict__.items()])})"
 
     @property
     def where(self) -> str:

@@ -7,6 +7,7 @@ import enum
 from typing import TYPE_CHECKING, Any
 
 from .errors import CodecError
+from .forms import Integer
 from .points import Decoding, Encoding
 from .quantities import Floating
 from .rules import NO_RAWS, Limit
@@ -96,7 +97,8 @@ def _range(point: Point) -> str:
     except CodecError:  # the scale needs other points
         low, high = point.raw_limits
         return f"raw {low}..{high}"
-    return " or ".join([low if low == high else f"{low}..{high}" for low, high in ends]) + unit
+    whole = ", whole numbers" if isinstance(form, Integer) else ""
+    return " or ".join([low if low == high else f"{low}..{high}" for low, high in ends]) + unit + whole
 
 
 def _end(point: Point, bound: Bound) -> str:

@@ -79,6 +79,8 @@ class AsyncSharedCanTransport(AsyncCanTransport, Protocol):
 class CanDevice(CanSession, AnyDevice):
     """A device on a CAN bus."""
 
+    transport: CanTransport
+
     def __init__(self, transport: CanTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)
         super().__init__(unit, variants or {})
@@ -104,6 +106,8 @@ class CanDevice(CanSession, AnyDevice):
 
 class AsyncCanDevice(CanSession, AnyAsyncDevice):
     """A device on a CAN bus, asynchronously."""
+
+    transport: AsyncCanTransport
 
     def __init__(
         self, transport: AsyncCanTransport, unit: int, variants: Mapping[str, str | None] | None = None

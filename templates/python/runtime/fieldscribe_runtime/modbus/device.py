@@ -48,6 +48,8 @@ class AsyncTransport(Protocol):
 class ModbusDevice(ModbusSession, AnyDevice):
     """A device on a Modbus line or network."""
 
+    transport: Transport
+
     def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)
         super().__init__(transport.framing, unit, variants or {})
@@ -67,6 +69,8 @@ class ModbusDevice(ModbusSession, AnyDevice):
 
 class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
     """A device on a Modbus line or network, asynchronously."""
+
+    transport: AsyncTransport
 
     def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)

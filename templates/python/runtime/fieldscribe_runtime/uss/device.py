@@ -56,6 +56,8 @@ class UssDevice(UssSession, AnyDevice):
     Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
     """
 
+    transport: UssTransport
+
     def __init__(
         self, transport: UssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
     ) -> None:
@@ -95,6 +97,8 @@ class AsyncUssDevice(UssSession, AnyAsyncDevice):
 
     Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
     """
+
+    transport: AsyncUssTransport
 
     def __init__(
         self, transport: AsyncUssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
