@@ -342,7 +342,7 @@ def test_what_followed_the_manual_is_explained(
 
 def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(described: Described) -> None:
     new = OLD.replace("kit 4711", "kit 4712")
-    described.edit("- {lines: [15, 19]", "- {lines: 15, why: The kit.}\n- {lines: [15, 19]")
+    described.edit("- {lines: [15, 19]", "- {lines: 15, numbers: [4712], why: The kit.}\n- {lines: [15, 19]")
     assert described.audit(new)[0] == 0
     assert described.audit_alone(new)["uncited"] == []
 
@@ -417,9 +417,11 @@ NOTES = [
     ("bus", "From 550 on it is hot.", ("200-550", "200-600"), None),
     ("bus", "Never above 550 in H05.", ("200-550", "200-600"), None),
     ("bus", "The kit 4711 is needed.", ("kit 4711", "kit 4712"), {"4711": "line 15"}),
-    ("bus", "It keeps the hysteresis small.", ("Hysteresis", "Dead band"), {"Hysteresis": "line 12"}),
+    ("bus", 'It keeps the "hysteresis" small.', ("Hysteresis", "Dead band"), {"Hysteresis": "line 12"}),
+    ("bus", "It keeps the Hysteresis low.", ("Hysteresis", "Dead band"), {"Hysteresis": "line 12"}),
+    ("bus", "The hysteresis stays small.", ("Hysteresis", "Dead band"), None),
     ("bus", "See H05 and H06.", ("| H05 |", "| H07 |"), {"H05": "line 12"}),
-    ("mode", "Cooling needs a kit, see line 15; 2 is rare.", ("2 cooling", "3 cooling"), {"2": "line 11"}),
+    ("mode", "Cooling needs a kit, see line 15; 2 is rare.", ("2 cooling", "3 cooling"), None),
 ]
 
 
@@ -442,7 +444,7 @@ def test_notes_that_say_what_changed_are_told_with_explained_lines_too(
     described: Described, capsys: pytest.CaptureFixture[str]
 ) -> None:
     described.edit("note: Cooling needs a kit, see line 15.", "note: The edition of 2024-03 lacks 4711, see line 15.")
-    described.edit("- {lines: [15, 19]", "- {lines: 15, why: The kit.}\n- {lines: [15, 19]")
+    described.edit("- {lines: [15, 19]", "- {lines: 15, numbers: [4712], why: The kit.}\n- {lines: [15, 19]")
     (described.folder / "new.txt").write_text(OLD.replace("kit 4711", "kit 4712"), "utf-8")
     files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
     assert main(["audit", str(described.folder / "audited"), *files]) == 0

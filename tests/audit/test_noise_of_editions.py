@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.audit.editions import Edition, compare
+from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.report import as_lines
-from fieldscribe.audit.editions.vocabulary import is_respelled
+from fieldscribe.audit.editions.telling import is_prose, turned
+from fieldscribe.audit.editions.vocabulary import is_one_spelling, is_respelled
+from fieldscribe.audit.pages import page_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject
 from support.described import group, head, together, write
@@ -106,6 +109,8 @@ REMARKS = {
         "repeated_heads",
     ),
     "spelling": (_with("frees the ramp", "freed the Ramp"), "wording"),
+    "another word": (_with("frees the ramp", "releases the ramp"), "wording"),
+    "English put into German": (_with("The plant frees the", "Die Anlage gibt die"), "wording"),
 }
 
 
@@ -135,6 +140,15 @@ FINDINGS = {
         _with("| H04 | Delay | 0013h | 0-30 | - |", "| H07 | Boost | 0019h | 0-1 | 1 s |"),
         [("removed", (("H04 | Delay | 0013h | 0-30 | -", ""),)), ("added", (("", "H07 | Boost | 0019h | 0-1 | 1 s"),))],
     ),
+    "a number in words": (
+        _with("The plant frees", "Three plants free"),
+        [("changed", (("The plant frees", "Three plants free"),))],
+    ),
+    "a number in lines that were looked through": (
+        _with("The plant frees", "After 9 it frees"),
+        [("changed", (("The plant", "After 9 it"),))],
+    ),
+    "what turns a sentence round": (_with("frees the", "never frees the"), [("changed", (("", "never"),))]),
     "whole numbers": (_with("0-900 | 0.1 K", "0-900 | 0.5 K"), [("changed", (("0.1", "0.5"),))]),
     "a sentence with a number": (
         _with("The plant frees", "It waits for 20 ms, see page 3.\n\nThe plant frees"),
@@ -177,6 +191,75 @@ def test_a_removed_row_is_told_once(subject: Subject) -> None:
 
 def _told(outcome: Comparison) -> list[str]:
     return ["".join(text for _, text in line) for line in as_lines(outcome, everything=False)]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ("Antwort-Telegramm", "Antworttelegramm", True),
+        ("Tip-Richtung", "Tipprichtung", True),
+        ("Proze\u00dfdaten", "Prozessdaten", True),
+        ("9 - 12", "912", False),
+        ("mode 3", "mode 4", False),
+        ("Ist-Wert", "Soll-Wert", False),
+    ],
+)
+def test_spellings_of_a_text(old: str, new: str, same: bool) -> None:
+    assert is_one_spelling(old, new) == is_one_spelling(new, old) == same
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "told"),
+    [
+        ("drei Codes", "vier Codes", ["vier", "drei"]),
+        ("das Dreifache", "das Dreieinhalbfache", ["Dreieinhalbfache", "Dreifache"]),
+        ("drei Codes", "three codes", []),
+        ("Run right", "Rechtslauf", []),
+        ("even", "ungerade", ["ungerade", "even"]),
+        ("wird gelesen", "wird nicht gelesen", ["nicht"]),
+        ("eine Anlage", "die Anlage", []),
+    ],
+)
+def test_what_words_tell(was: str, now: str, told: list[str]) -> None:
+    assert turned([(was.split(), now.split())]) == told
+
+
+@pytest.mark.parametrize(
+    ("line", "prose"),
+    [
+        ("Die einzelnen Slaves erstellen keine Antwort auf einen Broadcast.", True),
+        ("Beispiel: P0700 auf den Wert 5 setzen (0700= 2BC (hex))", True),
+        ("und Parit\u00e4t", True),
+        ("PZD-Telegramme mit anderer L\u00e4nge", False),
+        ("Index 2 = Ist-Wert 2 (HIW2) als Standardeinstellung von allen Umrichtern", False),
+        ("Bit 4R/WHandbetrieb umschalten (=0x0010) und alles das noch dazu", False),
+        ("| P102 | Die Zeit, in der die Anlage ihre Drehzahl erreicht haben soll. |", False),
+        ("P1062 = Tippen Verrundungszeit", False),
+    ],
+)
+def test_what_is_running_text(line: str, prose: bool) -> None:
+    assert is_prose(line) == prose
+
+
+PAGES = ["1 Words", "Manual, page 7", "2 Registers", *(f"row {row} is 8" for row in range(10))]
+
+
+def test_heads_and_feet_are_lines_that_count_pages_and_what_repeats_beside_them() -> None:
+    lines = [line.replace("page 7", f"page {page}") for page in range(7, 11) for line in (*PAGES, str(page), "")]
+    assert [lines[number - 1] for number in sorted(page_lines(lines))[:4]] == [
+        "1 Words",
+        "Manual, page 7",
+        "2 Registers",
+        "7",
+    ]
+    assert len(page_lines(lines)) == 15  # the last foot counts no page below it
+    assert page_lines([line.replace("page", "entry") for line in lines]) == frozenset()
+
+
+def test_a_section_with_another_number_is_the_one_with_its_title() -> None:
+    was = ["2.8.2 Terminals", "Two wires lead to it.", "", "2.8.3 Loops", "A loop of its own.", "", "Further text."]
+    now = [line.replace("2.8.", "2.9.") for line in was]
+    assert Editions("\n".join(was), "\n".join(now)).changes == ()
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Holding a description against the text of its manual: what it cites must stand where it says.
 
 manual.py      the text: its lines, sections, table rows, and the numbers in them
+pages.py       heads and feet of its pages
 claims.py      what a description takes from the manual: facts of points (claims_of_points.py), of flags
                (claims_of_flags.py) and others (claims_of_bus.py), each with the lines that it cites (citing.py)
 printed_errata.py  what errata say that the manual prints

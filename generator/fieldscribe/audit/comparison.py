@@ -181,9 +181,10 @@ class Comparison(Facts):
 
     def _unused(self) -> None:
         self.used -= {(token.line, token.column) for token in self.added}
+        passed_over = self.empty | self.manual.page_lines
         for extent, subjects in self.subjects.items():
             place = next(iter(subjects.values()))
-            for line in (number for number in range(extent.first, extent.last + 1) if number not in self.empty):
+            for line in (number for number in range(extent.first, extent.last + 1) if number not in passed_over):
                 for column, text in self._without_fact(line):
                     if (line, column) not in self.used:
                         self.used.add((line, column))

@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.pages import page_lines
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -82,6 +83,11 @@ class Manual:
     def line(self, number: int) -> str:
         """The text of a line counted from 1; empty outside."""
         return self.lines[number - 1] if 1 <= number <= len(self.lines) else ""
+
+    @cached_property
+    def page_lines(self) -> frozenset[int]:
+        """The heads and feet of its pages."""
+        return page_lines(self.lines)
 
     @cached_property
     def headings(self) -> list[int]:

@@ -63,7 +63,7 @@ class Places:
         self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
         places = [(place, numbers) for line, numbers in looked_through.items() for place in self._may_be(line)]
         self.empty = {place for place, numbers in places if not numbers}
-        self.no_facts = {place: numbers for place, numbers in places if numbers}
+        self.no_facts = {place: _with_parts(numbers) for place, numbers in places if numbers}
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
@@ -173,3 +173,8 @@ class Places:
             for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
                 self.outcome.moved.append(Moved(name, line, now[line]))
         return now
+
+
+def _with_parts(numbers: frozenset[str]) -> frozenset[str]:
+    """Listed numbers, those of a row that is listed as a whole, too."""
+    return numbers.union(*map(str.split, numbers))

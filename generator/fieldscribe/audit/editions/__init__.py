@@ -5,7 +5,8 @@ matching.py     which words of the old text are which of the new one (swaps.py: 
 changes.py      lines that were changed, added, removed, moved (parting.py: rows that went or came, each by itself)
 citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact
-explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words)
+explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words;
+                telling.py: what running text tells)
 notes.py        which sentences of the description say what changed
 drafts.py       what new rows seem to be: likeness.py (as the rows beside them are written), new_groups.py
                 (the group of a new table), titles.py (English where it is known)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.words import Words, pressed
+from fieldscribe.audit.pages import page_lines
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 Lines = tuple[int, int]
 """The first and the last of some lines."""
+_SECTION = re.compile(r"[\s#]*[0-9]+(?:\.[0-9]+)+\.?\s*([^\W\d][^|\t]*)")
+_LEADERS = re.compile(r"\.{4,}|\s[0-9]+\s*$")
 _NEAR = 12
 """The words of a line stand within so many lines; what stands farther away was matched by chance."""
 
@@ -47,9 +51,11 @@ class Editions:
     """Two editions of one text."""
 
     def __init__(self, old: str, new: str) -> None:
-        self.old, self.new = Words(old), Words(new)
+        self.pages = page_lines(old.splitlines()), page_lines(new.splitlines())
+        self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
+        self._match_headings()
         self._part_unlike_rows()
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
@@ -97,6 +103,15 @@ class Editions:
         for word in range(start, end):
             self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
         return True
+
+    def _match_headings(self) -> None:
+        """A section that has another number now is the one with its title."""
+        was, now = _titles(self.old), _titles(self.new)
+        for title in was.keys() & now.keys():
+            old, new = self.old.of_line(was[title]), self.new.of_line(now[title])
+            texts = [self.old.texts[word] for word in old], [self.new.texts[word] for word in new]
+            if texts[0] != texts[1] and len(old) == len(new):
+                self._matching.take(old, new)
 
     def _part_unlike_rows(self) -> None:
         """A row that shares hardly a word with the one in its place is another row."""
@@ -163,6 +178,15 @@ class Editions:
             count[change.kind] += len(change.new or change.old)
         count["moved"] = sum(move.last - move.first + 1 for move in self.moves)
         return dict(count)
+
+
+def _titles(text: Words) -> dict[str, int]:
+    """The line of each title that one numbered section has, and no other line."""
+    lines: dict[str, list[int]] = {}
+    for number in range(1, len(text.lines) + 1):
+        if (match := _SECTION.fullmatch(text.line(number))) and not _LEADERS.search(match[1]):
+            lines.setdefault(" ".join(match[1].casefold().split()), []).append(number)
+    return {title: places[0] for title, places in lines.items() if len(places) == 1}
 
 
 def _in_place(changes: Iterable[Change]) -> dict[int, int]:

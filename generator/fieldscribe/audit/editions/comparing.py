@@ -78,7 +78,8 @@ class _Comparing:
         self.errata = list(zip(citations.errata, in_old.errata, in_new.errata, strict=True))
         self.drafts = Drafts(subject, self.editions, pairs, glossary)
         self.notes = Notes(subject, self.old, self.editions)
-        self.explaining = Explaining(self.editions, self.old, self.new, pairs, Vocabulary(subject))
+        places = {line: _told(passage.place) for passage in self._looked_through for line in passage.lines}
+        self.explaining = Explaining(self.editions, (self.old, self.new), pairs, Vocabulary(subject), places)
 
     def run(self) -> None:
         """All findings, in the order of the new edition."""
@@ -91,12 +92,15 @@ class _Comparing:
             self._finding(number, change, (*reasons.get(number, ()), *self.explaining.reasons(number, change)))
             for number, change in enumerate(editions.changes)
         ]
-        outcome.notes = self.notes.stale(zip(editions.changes, findings, strict=True))
+        told = list(zip(editions.changes, findings, strict=True))
         findings = joined(sorted((*findings, *map(self._of_move, editions.moves)), key=self._order))
+        findings = list(map(self.explaining.swapped, findings))
         elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
         findings, outcome.void = with_void(findings, self._void())
         outcome.findings, outcome.remarks = Remarks(editions, self.new.manual).sort(findings)
+        passed_over = {place for remark in outcome.remarks if remark.kind != "wording" for place in remark.places}
+        outcome.notes = self.notes.stale((change, one) for change, one in told if one.places[0] not in passed_over)
         outcome.shifted = self._shifted()
         outcome.renumbered = self.citations.all_count_new
 

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.editions.findings import Cite, Reason
-from fieldscribe.audit.editions.vocabulary import is_name, is_respelled
+from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_title, turned
+from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
 from fieldscribe.audit.editions.words import Words
+from fieldscribe.records import replace
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.editions.changes import Change, Editions
+    from fieldscribe.audit.editions.findings import Finding
     from fieldscribe.audit.editions.tracing import Trace
     from fieldscribe.audit.editions.vocabulary import Vocabulary
     from fieldscribe.audit.manual import Token
@@ -40,12 +44,21 @@ class Pair(NamedTuple):
 class Explaining:
     """The claims of a description beside the changes of its manual."""
 
-    def __init__(self, editions: Editions, old: Trace, new: Trace, pairs: list[Pair], words: Vocabulary) -> None:
-        self.editions, self.old, self.new, self.words = editions, old, new, words
+    def __init__(
+        self,
+        editions: Editions,
+        traces: tuple[Trace, Trace],
+        pairs: list[Pair],
+        words: Vocabulary,
+        passed_over: Mapping[int, str],
+    ) -> None:
+        self.old, self.new = traces
+        self.editions, self.words = editions, words
+        self.passed_over = passed_over
         self.pairs_of: dict[int, list[Pair]] = {}
         self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
-        self.headings = frozenset(new.manual.headings)
+        self.headings = frozenset(self.new.manual.headings)
         self.place_of: dict[str, str] = {}
         self.failing_at: dict[int, list[Pair]] = {}
         self.elsewhere: list[Pair] = []
@@ -57,7 +70,7 @@ class Explaining:
             if self.fails(pair):
                 self._note_failing(pair, touched)
         self.subjects_at: dict[int, dict[str, None]] = {}
-        for extent, subjects in new.subjects.items():
+        for extent, subjects in self.new.subjects.items():
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
 
@@ -122,15 +135,73 @@ class Explaining:
         return (*exact, *(cite for cite in whole if cite.subject not in named))
 
     def reasons(self, number: int, change: Change) -> Iterator[Reason]:
-        """Everything that keeps a change from being explained."""
+        """Everything that keeps a change from being explained; what words tell, where nothing else is said."""
+        reasons = list(self._by_facts(number, change))
+        if not reasons and change.kind == "changed":
+            meant = self._without_spellings(change)
+            reasons = [*self._passed_over(meant), *self._turned(meant)]
+        yield from reasons
+
+    def _without_spellings(self, change: Change) -> Change:
+        return replace(change, gaps=tuple(gap for gap in change.gaps if not self._is_spelling(*gap)))
+
+    def _by_facts(self, number: int, change: Change) -> Iterator[Reason]:
         yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
         yield from self._weakened(number, change)
-        for lines in change.new:
-            if lines not in self.new.empty:
-                yield from self._numbers(lines, change)
-                yield from self._names(lines, change)
+        meant = self._without_spellings(change)
+        for line in change.new:
+            if line not in self.new.empty:
+                yield from self._numbers(line, meant)
+                yield from self._names(line, meant)
         yield from self._signs(number, change)
         yield from self._units(number, change)
+
+    def _is_spelling(self, old: range, new: range) -> bool:
+        return bool(old and new) and is_one_spelling(self.editions.old.shown(old), self.editions.new.shown(new))
+
+    def _passed_over(self, change: Change) -> Iterator[Reason]:
+        """Numbers that changed in lines of which the description says that they hold none."""
+        was = Counter(token.text for line in change.old for token in self.old.manual.tokens[line - 1])
+        for line in change.new:
+            if line not in self.new.empty:
+                continue
+            fresh = [token for token, words in self._new_tokens(line, change) if not self._is_known(token, words)]
+            fresh = [token for token in fresh if not is_of_edition(self.editions.new.line(line), token.column)]
+            has = Counter(token.text for place in change.new for token in self.new.manual.tokens[place - 1])
+            if new := [token.text for token in fresh if has[token.text] != was[token.text]]:
+                yield self._list_them(new, line, "number")
+
+    def _turned(self, change: Change) -> Iterator[Reason]:
+        """Numbers in words, and words that turn a sentence round."""
+        olds, news = self.editions.old, self.editions.new
+        gaps = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in change.gaps]
+        listed = set().union(*(self.new.no_facts.get(line, ()) for line in change.new))
+        told = [word for word in turned(gaps) if word not in listed]
+        if told:
+            yield self._list_them(told, change.new[0], "word")
+
+    def _list_them(self, texts: list[str], line: int, what: str) -> Reason:
+        """A reason that goes when `looked_through` lists what is new."""
+        place = self.passed_over.get(line, "")
+        if not place:
+            return self._unknown(texts, line, what)
+        shown = ", ".join(f"`{text}`" for text in dict.fromkeys(texts))
+        said = f"looked_through passes over line {line}, where {shown} changed: list it in `numbers` if it is no fact"
+        return Reason(what, said, place, words=tuple(texts))
+
+    def swapped(self, finding: Finding) -> Finding:
+        """A finding of labels that changed places, which asks for something even where nothing cites them."""
+        if finding.kind != "swapped" or finding.reasons or not finding.new:
+            return finding
+        if any(self._has_taken(cite) for cite in finding.cited_by):
+            return finding
+        listed = set().union(*(self.new.no_facts.get(line, ()) for line in range(finding.new[0], finding.new[1] + 1)))
+        words = [word for pair in finding.words for word in pair if word not in listed]
+        return replace(finding, reasons=(self._list_them(words, finding.new[0], "word"),)) if words else finding
+
+    @staticmethod
+    def _has_taken(cite: Cite) -> bool:
+        return bool(cite.fact)
 
     def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
         """Facts that were printed twice, and once otherwise now, where the new word is no news to the description."""
@@ -160,8 +231,17 @@ class Explaining:
         text = self.editions.new
         line = text.line_of[words[0]]
         shown = text.shown(words)
+        if any(" " in listed and self._lies_within(words, line, listed) for listed in self.new.no_facts.get(line, ())):
+            return True
         kept = (word for word in text.of_line(line) if not self.editions.is_new(word))
         return shown in self.new.no_facts.get(line, ()) and shown not in {text.texts[word] for word in kept}
+
+    def _lies_within(self, words: range, line: int, listed: str) -> bool:
+        """Whether words are part of a row of numbers that is listed as a whole."""
+        text = self.editions.new
+        columns = {text.column_of[word] - 1 for word in words}
+        at = text.line(line).find(listed)
+        return at >= 0 and all(at <= column < at + len(listed) for column in columns)
 
     def _is_known_already(self, words: range, pairs: Iterable[Pair]) -> bool:
         """Whether one of these words bears only facts that stand elsewhere, too, where nothing changed."""
@@ -193,9 +273,14 @@ class Explaining:
 
     def _is_known(self, token: Token, words: range) -> bool:
         line = self.editions.new.line(token.line)
-        if _REFERENCE.search(line, 0, token.column - 1):
+        if _REFERENCE.search(line, 0, token.column - 1) or self._opens_section(token):
             return True
         return self._is_passed_over(words) or (self.new.is_used(token) and self._fits(token, words))
+
+    def _opens_section(self, token: Token) -> bool:
+        """Whether a number is that of the section which its line opens: what stands in it is held by itself."""
+        before = self.editions.new.line(token.line)[: token.column - 1]
+        return token.line in self.headings and not before.strip(" #\t") and "." in token.text
 
     def _fits(self, token: Token, words: range) -> bool:
         """Whether what uses a number means all of it: 50 is not the 50 of 50,03, nor any number beside a frame."""
@@ -232,10 +317,43 @@ class Explaining:
         in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
         fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
         fresh = [word for word in fresh if not self._is_respelled(word, change)]
-        words = [text.texts[word] for word in fresh if word not in in_numbers and is_name(text.texts[word])]
+        fresh = [word for word in fresh if word not in in_numbers or is_title(text.texts[word])]
+        if change.kind == "added" and not subjects and self._is_prose_section(change):
+            return
+        written = text.line(line)
+        is_label = line in self.headings or self._took_words(change) or self._has_new_numbers(line, change)
+        words = [
+            text.texts[word]
+            for word in fresh
+            if is_name(text.texts[word])
+            and (is_label or is_code(text.texts[word]) or not is_prose(written, text.column_of[word]))
+        ]
         unknown = [word for word in words if not self.words.has(word, subjects)]
         if unknown:
             yield self._unknown(unknown, line, "word")
+
+    def _has_new_numbers(self, line: int, change: Change) -> bool:
+        """Whether numbers came with the words: each may be one of a fact by chance."""
+        tokens = (token for token, _ in self._new_tokens(line, change))
+        before = self.editions.new.line(line)
+        return any(not _REFERENCE.search(before, 0, token.column - 1) for token in tokens)
+
+    def _took_words(self, change: Change) -> bool:
+        """Whether words went that a title, a label or another text of the description stood on."""
+        gone = {word for old, _ in change.gaps for word in old}
+        pairs = (
+            pair
+            for line in change.old
+            for number in self._of_old.get(line, ())
+            for pair in self.pairs_of.get(number, ())
+        )
+        return any(pair.old and not self.old.named.get(pair.old, set()).isdisjoint(gone) for pair in pairs)
+
+    def _is_prose_section(self, change: Change) -> bool:
+        """Whether lines are headings and running text without numbers of their own."""
+        lines = [line for line in change.new if line not in self.headings]
+        numbers = any(self.new.manual.tokens[line - 1] for line in lines)
+        return not numbers and not any(self.new.manual.is_row(line) for line in lines)
 
     def _is_respelled(self, word: int, change: Change) -> bool:
         """Whether a word is the one in whose place it stands, in another spelling or form."""

@@ -42,7 +42,11 @@ def with_elsewhere(findings: list[Finding], elsewhere: Iterable[Reason]) -> tupl
 
 
 def _says(finding: Finding, reason: Reason) -> bool:
-    return any((other.said, other.place) == (reason.said, reason.place) for other in finding.reasons)
+    """Whether a finding says the same of the same place, or of a point of the same file that repeats the fact."""
+    return any(
+        other.said == reason.said and other.place.split(":")[0] == reason.place.split(":")[0]
+        for other in finding.reasons
+    )
 
 
 def with_void(findings: list[Finding], void: Iterable[Void]) -> tuple[list[Finding], list[Void]]:

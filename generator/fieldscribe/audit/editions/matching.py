@@ -196,6 +196,14 @@ class Matching:
             self.there[word] = -1
         self.moved.difference_update(words)
 
+    def take(self, olds: range, news: range) -> None:
+        """Take the words of a line for those of another, each for the one in its place."""
+        self.forget(olds)
+        self.forget_new(news)
+        self._match(olds.start, news.start, len(olds))
+        if {olds.start - 1, olds.stop} & self.moved:
+            self.moved.update(olds)
+
     def forget_new(self, words: range) -> None:
         """Let words of the new text have none."""
         for there in (self.back[word] for word in words if self.back[word] >= 0):

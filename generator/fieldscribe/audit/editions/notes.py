@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _NAME = re.compile(r"[^\W\d]\w*(?:\[[0-9/]+\])?")
 _WORD = re.compile(r"[^\W\d_]{4,}")
+_QUOTED = re.compile("[\"\u201c\u201e`][^\"\u201c\u201d\u201e`]{1,80}[\"\u201c\u201d`]|(?<!\\w)'[^']{1,80}'(?!\\w)")
+_OPENS = re.compile(r"(?:^|[.:;!?(])\s*$")
 _TELLING = 4
 """A number of so many digits says by itself what it is about; a shorter one where its subject is named beside it."""
 _IN_QUOTES = ("printed",)
@@ -37,6 +39,7 @@ class Sentence(NamedTuple):
     numbers: dict[str, list[int]]
     names: list[tuple[int, str]]
     words: frozenset[str]
+    marked: frozenset[str]
 
 
 class Gone(NamedTuple):
@@ -75,16 +78,20 @@ class Notes:
         for key, shown in (gone.numbers | gone.words).items():
             for place in self.holders.get(key, ()):
                 sentence = self.sentences[place]
-                if sentence.owner in names or self._is_about(sentence, key, names, is_number=key in gone.numbers):
+                if self._is_about(sentence, key, names, is_number=key in gone.numbers):
                     yield place, shown
         for code in {self.codes[subject] for subject in subjects if subject in self.codes} & gone.words.keys():
             yield from ((place, code) for place in self.holders.get(code, ()))
 
     def _is_about(self, sentence: Sentence, key: str, names: set[str], *, is_number: bool) -> bool:
-        """Whether what another subject's sentence says is what was meant by the line."""
+        """Whether a sentence says what was meant by the line: a number of one digit says little by itself."""
         if not is_number:
-            return key.casefold() not in self.still
-        if len(key) > _TELLING:
+            if any(map(str.isdigit, key)):
+                return sentence.owner in names or key.casefold() not in self.still
+            return key not in self.still and key in sentence.marked
+        written = key.removeprefix("#").removeprefix("x")
+        digits = len(written) + any(map(str.isalpha, written))
+        if digits >= _TELLING or (digits > 1 and sentence.owner in names):
             return True
         beside = (name for at in sentence.numbers[key] for name in _beside(at, sentence.names))
         return any(name in names for name in beside)
@@ -132,7 +139,17 @@ def _sentence(owner: str, key: str, text: str, place: Span) -> Sentence:
     rest = _NAME.sub(lambda match: " " * len(match[0]) if any(map(str.isdigit, match[0])) else match[0], text)
     for token in tokens_of(rest, 1):
         numbers.setdefault(_key(token.text), []).append(token.column)
-    return Sentence(owner, key, place, numbers, names, frozenset(word.casefold() for word in _WORD.findall(text)))
+    words = frozenset(word.casefold() for word in _WORD.findall(text))
+    return Sentence(owner, key, place, numbers, names, words, frozenset(_marked(text)))
+
+
+def _marked(text: str) -> Iterator[str]:
+    """The words of a text that are in quotes, or have a capital within a sentence: they are the manual's."""
+    for match in _QUOTED.finditer(text):
+        yield from (word.casefold() for word in _WORD.findall(match[0]))
+    for match in _WORD.finditer(text):
+        if match[0][0].isupper() and not _OPENS.search(text, 0, match.start()):
+            yield match[0].casefold()
 
 
 def _beside(at: int, names: list[tuple[int, str]]) -> Iterator[str]:

@@ -7,17 +7,17 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.findings import Remark
+from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.vocabulary import are_respelled
+from fieldscribe.audit.editions.telling import DATE, is_code
+from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from fieldscribe.audit.editions.changes import Editions
-    from fieldscribe.audit.editions.findings import Finding
     from fieldscribe.audit.manual import Manual
 
 KINDS = (
@@ -32,12 +32,6 @@ KINDS = (
     "wording",
 )
 _BOTH = 2
-_MONTHS = "jan|feb|m\u00e4r|mar|apr|mai|may|jun|jul|aug|sep|okt|oct|nov|de[zc]"
-_DATE = re.compile(
-    r"\b(?:[0-9]{1,2}[./-][0-9]{1,2}[./-](?:[0-9]{2}){1,2}|(?:19|20)[0-9]{2}-[0-9]{2}(?:-[0-9]{2})?"
-    rf"|[0-9]{{1,2}}/(?:19|20)[0-9]{{2}}|(?:{_MONTHS})[^\W\d]*\.? (?:19|20)[0-9]{{2}})\b",
-    re.IGNORECASE,
-)
 _LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
 """A section's number, its title and its page; sections of sections stand near."""
@@ -49,6 +43,9 @@ _AT = re.compile(
     r"\b(?:Anhang|Kapitel|Abschnitt|Seite|Handbuch|Ende|Appendix|Annex|Chapter|Section|Page|Handbook|End)\b",
     re.IGNORECASE,
 )
+_ALNUM = re.compile(r"[^\W_]+")
+_SECTION = re.compile(r"[\s#]*[0-9]+(?:\.[0-9]+)+")
+_NUMBER = re.compile(r"[0-9]+")
 _SENTENCE = re.compile(r"[^.!?:;]*[.!]?\s*")
 
 
@@ -66,7 +63,7 @@ class Remarks:
             ("references", self._is_reference),
             ("repeated_heads", self._is_repeated),
             ("moved", lambda finding: finding.kind == "moved"),
-            ("wording", _is_wording),
+            ("wording", lambda finding: _is_wording(finding) and not self._loses_words(finding)),
         )
 
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
@@ -75,20 +72,56 @@ class Remarks:
             id(finding): "heads_and_feet"
             for finding in heads_and_feet(findings, self.editions.old.lines, self.editions.new.lines)
         }
+        kind_of |= {id(finding): "heads_and_feet" for finding in findings if self._is_of_pages(finding)}
         for finding in findings:
             if id(finding) not in kind_of and (kind := self._kind(finding)):
                 kind_of[id(finding)] = kind
         by_kind = {kind: [finding for finding in findings if kind_of.get(id(finding)) == kind] for kind in KINDS}
+        by_kind["heads_and_feet"] += self._pages()
         remarks = [Remark(kind, tuple(group)) for kind, group in by_kind.items() if group]
         return [finding for finding in findings if id(finding) not in kind_of], remarks
 
+    def _is_of_pages(self, finding: Finding) -> bool:
+        """Whether its lines are a head or foot that the text of another page lies between."""
+        lines = _written((*finding.was, *finding.now))
+        return bool(lines) and finding.kind != "moved" and not finding.cited_by and self._page_texts.issuperset(lines)
+
+    @cached_property
+    def _page_texts(self) -> set[str]:
+        both = zip((self.editions.old.lines, self.editions.new.lines), self.editions.pages, strict=True)
+        return {_plain(text[line - 1]) for text, pages in both for line in pages}
+
+    def _pages(self) -> Iterator[Finding]:
+        """The heads and feet that only one of the editions has."""
+        texts = self.editions.old.lines, self.editions.new.lines
+        had, has = (
+            {_plain(text[line - 1]) for line in pages} for text, pages in zip(texts, self.editions.pages, strict=True)
+        )
+        for line in sorted(self.editions.pages[0]):
+            if (shown := _plain(texts[0][line - 1])) not in has:
+                yield Finding("removed", (Place((line, line), None),), (shown,), (), (0,), (), ((shown, ""),), (), ())
+        for line in sorted(self.editions.pages[1]):
+            if (shown := _plain(texts[1][line - 1])) not in had:
+                yield Finding("added", (Place(None, (line, line)),), (), (shown,), (), (0,), (("", shown),), (), ())
+
     def _kind(self, finding: Finding) -> str:
         """The kind of a finding that holds no fact; "" if it may hold one."""
-        if finding.void or finding.drafts or any(cite.fact for cite in finding.cited_by):
+        if finding.void or finding.drafts:
+            return ""
+        if finding.explained and finding.kind == "changed" and (is_spelling(finding) or _has_same_words(finding)):
+            return "wording"
+        if any(cite.fact for cite in finding.cited_by):
             return ""
         if any(reason.kind not in ("number", "word") for reason in finding.reasons):
             return ""
         return next((kind for kind, fits in self._kinds if fits(finding)), "")
+
+    def _loses_words(self, finding: Finding) -> bool:
+        """Whether a row says less, with nothing in its place: what it says of may be less now."""
+        lost = (name for old, new in finding.words if not new.strip() for name in _ALNUM.findall(old))
+        if finding.old is None or not any(is_name(name) or is_code(name) for name in lost):
+            return False
+        return any(is_row(self.editions.old.line(line)) for line in range(finding.old[0], finding.old[1] + 1))
 
     def _second_line(self) -> int:
         """Where the second line of the old edition that has words stands now."""
@@ -124,7 +157,7 @@ class Remarks:
         """Whether rows below a heading or a row without numbers have a date each."""
         lines = _written(finding.now or finding.was)
         rows = [line for line in lines if any(map(str.isdigit, line)) and not line.startswith("#")]
-        return finding.kind in ("added", "removed") and bool(rows) and all(map(_DATE.search, rows))
+        return finding.kind in ("added", "removed") and bool(rows) and all(map(DATE.search, rows))
 
     def _is_heading(self, finding: Finding) -> bool:
         """Whether it is a heading over text that was there before."""
@@ -147,7 +180,8 @@ class Remarks:
             return False
         lines = _written(finding.now or finding.was)
         other = self._lines_of_old if finding.kind == "added" else self._lines_of_new
-        return all(is_row(line) and _words_of(line) in other for line in lines)
+        may_be = finding.kind == "removed" and len(lines) > 1
+        return all((may_be or is_row(line)) and _words_of(line) in other for line in lines)
 
     @cached_property
     def _lines_of_old(self) -> set[tuple[str, ...]]:
@@ -160,16 +194,38 @@ class Remarks:
 
 def is_spelling(finding: Finding) -> bool:
     """Whether words are only spelt otherwise, or signs between them."""
-    return all(are_respelled(old, new) for old, new in finding.words)
+    return all(
+        are_respelled(old, new) or is_one_spelling(old, new) or _letters(old) == _letters(new)
+        for old, new in finding.words
+    )
+
+
+def _has_same_words(finding: Finding) -> bool:
+    """Whether only cells and signs stand otherwise."""
+    was, now = (sorted(_ALNUM.findall(" ".join(pair[at] for pair in finding.words))) for at in (0, 1))
+    return was == now
+
+
+def _letters(text: str) -> str:
+    return "".join(filter(str.isalnum, text))
 
 
 def _is_wording(finding: Finding) -> bool:
-    """Whether it is explained, and no erratum speaks of its lines, or of the same words."""
-    return finding.explained and (is_spelling(finding) or not any(cite.is_erratum for cite in finding.cited_by))
+    """Whether it is explained, and no line with numbers came or went, nor one of which an erratum speaks."""
+    if not finding.explained:
+        return False
+    was, now = (sorted(_NUMBER.findall(" ".join(pair[at] for pair in finding.words))) for at in (0, 1))
+    if finding.kind != "changed":
+        return not any(_NUMBER.search(_SECTION.sub("", line, 1)) for line in (*finding.was, *finding.now))
+    return was == now or not any(cite.is_erratum for cite in finding.cited_by)
 
 
 def _written(lines: Iterable[str]) -> list[str]:
     return [line for line in lines if any(map(str.isalnum, line))]
+
+
+def _plain(line: str) -> str:
+    return " ".join(line.split())
 
 
 def _words_of(line: str) -> tuple[str, ...]:

@@ -16,6 +16,13 @@ _SMALL_WORDS = re.compile(
     "eine?[nr]?|ist|im|mit|oder|sind|und|vom|von|wird|zu[mr]?|\u00fcber|f\u00fcr"
 )
 """What says nothing by itself; `not`, `nicht` and `kein` do."""
+_HYPHEN = re.compile(
+    r"(?<=[^\W\d_])\s?[-\u00ad\u2010-\u2013]\s?(?=[^\W\d_])"
+    r"|(?<=[0-9])[-\u00ad\u2010-\u2013](?=[^\W\d_]{2})|(?<=[^\W\d_])['\u2019](?=[^\W\d_])"
+)
+"""What only sets a word: `16-Bit`, `ID's`."""
+_DOUBLED = re.compile(r"([^\W\d_])\1+")
+_LONG = 6
 _STEM, _ENDING = 4, 2
 """Forms of a word have so many letters alike at the start, and differ in length by so many at most."""
 _OF_ACCESS = {
@@ -45,6 +52,17 @@ def are_respelled(old: str, new: str) -> bool:
     """Whether the same words stand in two pieces of text, in other spellings, or nothing but signs."""
     was, now = _WORD.findall(old), _WORD.findall(new)
     return len(was) == len(now) and all(map(is_respelled, was, now))
+
+
+def is_one_spelling(old: str, new: str) -> bool:
+    """Whether two pieces of text differ in spelling alone: hyphens within words, capitals, accents, doubled letters."""
+    was, now = (_WORD.findall(_HYPHEN.sub("", _spelled(text))) for text in (old, new))
+    return bool(was) and list(map(_with_single, was)) == list(map(_with_single, now))
+
+
+def _with_single(word: str) -> str:
+    """A long word with each doubled letter once: `Schiffahrt`, `Schifffahrt`; numbers stay."""
+    return _DOUBLED.sub(r"\1", word) if len(word) > _LONG else word
 
 
 def _spelled(word: str) -> str:

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from typing import TYPE_CHECKING
 from unicodedata import normalize
+
+if TYPE_CHECKING:
+    from collections.abc import Container
 
 LINE_BREAK = " \u23ce "
 """Stands for the end of a line where words of several lines are shown."""
@@ -23,14 +27,15 @@ _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 class Words:
     """The words of a text with the place of each: a name, a number, or one sign of punctuation."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, without: Container[int] = ()) -> None:
+        """The words of all lines but some: heads and feet of pages part what belongs together."""
         self.lines = text.splitlines()
         self.texts: list[str] = []
         self.line_of: list[int] = []
         self.column_of: list[int] = []
         self._first: list[int] = [0]
         for number, line in enumerate(self.lines, 1):
-            if not _RULE.fullmatch(line):
+            if number not in without and not _RULE.fullmatch(line):
                 self._add(number, line)
             self._first.append(len(self.texts))
 
