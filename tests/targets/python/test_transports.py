@@ -5,11 +5,9 @@ from __future__ import annotations
 
 import asyncio
 import importlib
-import os
 import socket
 import threading
 import time
-import tty
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +16,7 @@ import pytest
 from fieldscribe import __version__
 from pymodbus import FramerType
 from pymodbus.client import AsyncModbusTcpClient, ModbusTcpClient
+from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import ROOT
 from support.python_package import error, imported
@@ -103,31 +102,6 @@ def test_a_serial_line_by_url(l200: Any) -> None:
                 await use_async(l200.HitachiL200Async(line, unit=1))
 
         asyncio.run(asynchronous())
-
-
-@contextmanager
-def pty_end(answer: Any) -> Iterator[str]:
-    """The port of a line whose other end answers each request by a function; None is silence."""
-    near, far = os.openpty()
-    for end in (near, far):
-        tty.setraw(end)
-
-    def serve() -> None:
-        while True:
-            try:
-                request = os.read(near, 256)
-            except OSError:
-                return
-            for reply in answer(request):
-                os.write(near, reply)
-
-    thread = threading.Thread(target=serve, daemon=True)
-    thread.start()
-    try:
-        yield os.ttyname(far)
-    finally:
-        os.close(far)
-        os.close(near)
 
 
 def test_what_came_too_late_is_not_the_next_answer(l200: Any) -> None:
