@@ -8,6 +8,7 @@ import importlib
 import socket
 import threading
 import time
+import tomllib
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
@@ -273,7 +274,8 @@ def socket_end(answer: Any) -> Iterator[int]:
 def with_word(request: bytes, word: int) -> bytes:
     """An RTU answer to a request of one register."""
     body = request[:2] + bytes((2, 0, word))
-    return body + importlib.import_module("fieldscribe_runtime.modbus").crc(body).to_bytes(2, "little")
+    crc: int = importlib.import_module("fieldscribe_runtime.modbus").crc(body)
+    return body + crc.to_bytes(2, "little")
 
 
 def test_a_reply_that_comes_twice(l200: Any) -> None:
@@ -453,3 +455,7 @@ def test_async_devices_share_a_can_line(mpu2s: Any) -> None:
 def test_the_runtime_has_the_version_of_the_compiler() -> None:
     project = (ROOT / "templates/python/runtime/fieldscribe_runtime/pyproject.toml").read_text("utf-8")
     assert f'version = "{__version__}"' in project
+    own = tomllib.loads(project)["project"]["optional-dependencies"]
+    passed_on = tomllib.loads((GENERATED / "hitachi_l200/pyproject.toml").read_text("utf-8"))["project"]
+    expected = {name: [f"fieldscribe-runtime[{name}]=={__version__}"] for name in own}
+    assert passed_on["optional-dependencies"] == expected

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 FOR_PEOPLE = False
 _RUNTIME = "fieldscribe_runtime"
-_EXTRAS = ("serial", "pymodbus", "can")
-"""What the runtime can bring along for its transports."""
 
 NEEDS_FAMILY = True
 KEEPS_NAMES = True
@@ -47,7 +45,6 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
         "version": toml_string(device.version + (f"+{device.digest[:8]}" if device.asked else "")),
         "description": toml_string(f"{device.vendor} {device.model}"),
         "runtime": __version__,
-        "extras": _EXTRAS,
     }
     yield f"{folder}/pyproject.toml", render("python/pyproject.toml.j2", {**head, **project})
     if enums.classes:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         variant: NotRequired[tuple[str, str]]
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
+        conditions: NotRequired[tuple[str, ...]]
         name: NotRequired[str]
 
 
@@ -146,7 +147,7 @@ class Facts:
     with how many decimals people see its value, if the description says so. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
-    it too, such as another point or a firmware.
+    it too, such as another point or a firmware. `conditions` name what has to hold before it is written.
     """
 
     at: Place
@@ -165,6 +166,7 @@ class Facts:
     variant: tuple[str, str] | None = None
     only_for: tuple[str, tuple[str, ...]] | None = None
     uncertain: bool = False
+    conditions: tuple[str, ...] = ()
     name: str = ""
     item: str = ""
 

@@ -45,6 +45,8 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Special codes", f"{', '.join(point.special)} (as {name}.special.{next(iter(point.special))})"
     if isinstance(point, Encoding) and (text := _range(point)):
         yield "What may be written", text
+    if facts.conditions:
+        yield "To write it takes", ", ".join([condition.replace("_", " ") for condition in facts.conditions])
     yield from _values(point, name)
     if facts.fixed is not None:
         yield "Bits that are always written", f"{facts.fixed[1]:04X}h in {facts.fixed[0]:04X}h"
