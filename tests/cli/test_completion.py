@@ -14,26 +14,10 @@ from pathlib import Path
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.cli.completing import candidates
-from support.described import write
+from support.described import described, write
 from support.places import ROOT
 from support.toolchains import tool
 
-OWN = """fieldscribe: 1
-device: odd
-version: 1.0.0
-vendor: Example
-model: Odd
-title: {en: Odd}
-family: modbus
-documents: {manual: {title: Odd, language: en}}
-bus: {framings: [rtu], units: 1..247, functions: {03h: read_holding_registers}}
----
-group: main
-access: r
-space: holding
-source: {document: manual, section: "1"}
-points:
-"""
 ENVIRONMENT = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "TERM": "dumb"}
 LINES = [
     ("fieldscribe dec", ["decode"]),
@@ -84,9 +68,9 @@ HOSTILE = ["Z$(touch pwned)", "$(touch pwned2);x", "a'b\"c `touch pwned`"]
 def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with a description of these codes, and folders of devices that no shell should be given."""
     points = "".join(f"- {{name: p{at}, code: {json.dumps(code)}, at: {at}}}\n" for at, code in enumerate(HOSTILE))
-    write(tmp_path / "odd", OWN + points)
+    write(tmp_path / "odd", described(points, device="odd"))
     for folder in ("$(touch pwned)", "a\nb; touch pwned", "-x", "Odd One"):
-        write(tmp_path / folder, OWN + points)
+        write(tmp_path / folder, described(points, device="odd"))
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

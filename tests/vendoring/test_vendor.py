@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.asked import UnclearError
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
 from fieldscribe.vendoring.choosing import chosen
 from fieldscribe.vendoring.files import LICENCE, Wish, files_of
 from support.c_device import WARNINGS
-from support.described import made, shipped
+from support.described import described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
@@ -172,6 +174,31 @@ def test_points_alone_need_no_frames(tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A020", "--no-frames") == 0
     assert sorted(path.name for path in tmp_path.glob("*.h")) == ["fieldscribe.h", "hitachi_l200.h"]
     compiles(tmp_path, "hitachi_l200.h")
+
+
+@pytest.mark.parametrize(
+    ("code", "in_head"),
+    [
+        ("A020", dict.fromkeys(("c", "python", "rust"), "A020")),
+        ("$(touch /x)", dict.fromkeys(("c", "python", "rust"), "'$(touch /x)'")),
+        ("a;b`c`", dict.fromkeys(("c", "python", "rust"), "'a;b`c`'")),
+        ("x*/y", {"c": "...", "python": "'x*/y'", "rust": "'x*/y'"}),
+        ("it's #1", {"c": """'it'"'"'s #1'""", "python": "...", "rust": """'it'"'"'s #1'"""}),
+        ("A,B", dict.fromkeys(("c", "python", "rust"), "...")),
+        ("a  b", dict.fromkeys(("c", "python", "rust"), "...")),
+    ],
+)
+def test_the_command_in_a_head_can_be_pasted(code: str, in_head: dict[str, str], tmp_path: Path) -> None:
+    """Whatever a code holds: a shell gets the same words, or three dots."""
+    place = write(tmp_path, described(f"- {{name: odd_one, code: {json.dumps(code)}, at: 1}}\n"))
+    device = load_device(place, Report())
+    assert device is not None
+    for language, points in in_head.items():
+        wanted = f"fieldscribe vendor {language} made_up --points {points}\n"
+        texts = [text for path, text in files_of(device, Wish(language, (code,))) if "made_up" in path]
+        heads = [text for text in texts if "egenerate" in text]
+        assert heads
+        assert all(wanted in text for text in heads)
 
 
 def test_points_from_a_file(tmp_path: Path) -> None:
