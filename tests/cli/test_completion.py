@@ -125,7 +125,9 @@ def test_fish() -> None:
 
 @pytest.mark.full(seconds=3)
 def test_zsh(tmp_path: Path) -> None:
-    in_zsh(tmp_path, ROOT, [(line, f"{known[0]} " if len(known) == 1 else min(known, key=len)) for line, known in LINES])
+    in_zsh(
+        tmp_path, ROOT, [(line, f"{known[0]} " if len(known) == 1 else min(known, key=len)) for line, known in LINES]
+    )
 
 
 @pytest.mark.full(seconds=3)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.asked import UnclearError
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
+from fieldscribe.output.manifests import VENDORED, carries_head
 from fieldscribe.pipeline import load_device
 from fieldscribe.vendoring.choosing import chosen
 from fieldscribe.vendoring.files import LICENCE, Wish, files_of
@@ -254,6 +256,51 @@ def test_what_nobody_took_changes_nothing(tmp_path: Path, capsys: pytest.Capture
     assert vendor(*order, "--check") == 0, capsys.readouterr()
 
 
+def test_a_code_may_have_a_sharp_in_a_file(tmp_path: Path) -> None:
+    place = write(tmp_path / "made_up", described('- {name: odd_one, code: "P#1", at: 1}\n'))
+    (tmp_path / "points.txt").write_text("P#1 # this\n#and that\n", "utf-8")
+    assert vendor("c", place, "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
+    asked = json.loads((tmp_path / "out/made_up.manifest.json").read_text("utf-8"))["asked"]
+    assert asked["c"]["points"] == ["P#1"]
+
+
+def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A manifest may name what it likes: files go by our head or by a name that only ours have."""
+    order = ("c", "hitachi_l200", "--out", tmp_path, "--points", "A020")
+    assert vendor(*order) == 0
+    (tmp_path / "main.c").write_text("int main(void) { return 0; }\n", "utf-8")
+    shutil.copy(tmp_path / "fieldscribe.h", tmp_path / "fieldscribe_older.h")
+    head = (tmp_path / "hitachi_l200.h").read_text("utf-8").partition("*/")[0]
+    (tmp_path / "hitachi_l200_older.h").write_text(f"{head}*/\n", "utf-8")
+    manifest = tmp_path / "hitachi_l200.manifest.json"
+    said = json.loads(manifest.read_text("utf-8"))
+    for name in ("main.c", "fieldscribe_older.h", "hitachi_l200_older.h"):
+        said["targets"]["c"][name] = sha256((tmp_path / name).read_bytes()).hexdigest()
+    manifest.write_text(json.dumps(said), "utf-8")
+    capsys.readouterr()
+    assert vendor(*order) == 0
+    told = capsys.readouterr().out
+    assert (tmp_path / "main.c").is_file()
+    assert not list(tmp_path.glob("*_older.h"))
+    assert [line.split(": ")[0] for line in told.splitlines()[:3]] == [
+        "removed",
+        "removed",
+        "left in place, as it was edited by hand or is not ours",
+    ]
+    assert "main.c" not in manifest.read_text("utf-8")
+
+
+def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
+    """All that is left of one wish goes when another takes its place."""
+    for language in ("c", "python", "rust"):
+        order = (language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020")
+        assert vendor(*order) == 0
+        known = {path for path in (tmp_path / language).rglob("*") if path.is_file()}
+        for path in known:
+            name = path.relative_to(tmp_path / language).as_posix()
+            assert VENDORED.names(name, "hitachi_l200") or carries_head("hitachi_l200", path.read_bytes()), name
+
+
 def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "D001") == 0
     assert vendor("c", "jumo_controller", "--out", tmp_path) == 0
@@ -270,6 +317,9 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
         (("c",), "DEVICE is missing"),
         (("d", "hitachi_l200", "--out", "x"), "`d` is no language"),
         (("--points", "A001"), "LANGUAGE and DEVICE are missing"),
+        (("--points", ""), "LANGUAGE and DEVICE are missing"),
+        (("--as", ""), "LANGUAGE and DEVICE are missing"),
+        (("--wheel",), "LANGUAGE and DEVICE are missing"),
         ((), "there is no project file fieldscribe.toml"),
         (("python", "hitachi_l200", "--out", "x", "--single-file"), "--single-file is for c"),
         (("rust", "hitachi_l200", "--out", "x", "--no-frames"), "--no-frames is for c"),
@@ -278,6 +328,7 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
         (("c", "hitachi_l200", "--out", "x", "--points", "A0Z1"), "no point, group or command `A0Z1`"),
         (("c", "hitachi_l200", "--out", "x", "--as", "../x"), "`../x` is no name"),
         (("c", "hitachi_l200", "--out", "x", "--as", "stdint"), "hides the one of the C library"),
+        (("c", "hitachi_l200", "--out", "x", "--as", "serial"), "`serial` is a library that the runtime"),
         (("c", "hitachi_l2000", "--out", "x"), "did you mean `hitachi_l200`"),
     ],
 )

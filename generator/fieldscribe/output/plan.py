@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.manifests import made_of, manifest_text
+from fieldscribe.output.manifests import carries_head, made_of, manifest_text
 from fieldscribe.output.spool import Kept, kept
 from fieldscribe.reading import kind_of, read_regular, state_of
 from fieldscribe.records import dataclass, field
@@ -45,7 +45,7 @@ class Plan:
     refused: dict[str, str] = field(default_factory=dict)
     """Foreign files in the way, with the reason why they may not be replaced."""
     kept: list[str] = field(default_factory=list)
-    """Files of ours that are no longer generated, but stay because somebody edited them."""
+    """Files that are no longer generated, but stay because somebody edited them, or because they are not ours."""
     asked: Mapping[str, object] | None = None
     """What the manifest also says: how the files were asked for."""
 
@@ -134,12 +134,18 @@ class _Planner:
         known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
         for path in sorted(known - wanted):
             if not self._manifests.is_shared(path, device, files_of_targets) and os.path.lexists(self._out / path):
-                (self._plan.remove if self._is_ours(path) else self._plan.kept).append(path)
+                (self._plan.remove if self._may_go(path) else self._plan.kept).append(path)
 
-    def _is_ours(self, path: str) -> bool:
+    def _may_go(self, path: str) -> bool:
+        """Whether it is ours, by more than the word of a manifest that somebody may have edited."""
+        device = self._plan.device
         try:
-            return self._in_the_way(path, inside(self._out, path)) is None
-        except (UnsafePathError, NotADirectoryError):
+            place = inside(self._out, path)
+            if self._in_the_way(path, place) is not None:
+                return False
+            named = self._manifests.layout.names(path, device)
+            return named or carries_head(device, read_regular(place, _MOST_BYTES).data)
+        except (UnsafePathError, OSError):
             return False
 
     def _in_the_way(self, path: str, place: Path) -> str | None:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 LANGUAGES = ("c", "python", "rust")
 """The languages that a project can take a device in."""
 
+LANGUAGE_OF = {"frames": "c", "single_file": "c", "wheel": "python"}
+"""Switches of a wish, each with the language that has it."""
+
 LICENCE = "LICENSE-fieldscribe.txt"
 _POINTS_IN_A_HEAD = 60
 """A longer list of points stands in the manifest alone."""
