@@ -113,7 +113,12 @@ def test_what_is_no_file_is_called_by_its_kind(
     make: str, said: str, project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = project / "fieldscribe.toml"
-    {"mkdir": place.mkdir, "fifo": lambda: os.mkfifo(place), "link": lambda: place.symlink_to("nothing")}[make]()
+    if make == "mkdir":
+        place.mkdir()
+    elif make == "fifo":
+        os.mkfifo(place)
+    else:
+        place.symlink_to("nothing")
     assert main(["vendor"]) == 2
     assert said in capsys.readouterr().err
 

@@ -301,6 +301,24 @@ def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
             assert VENDORED.names(name, "hitachi_l200") or carries_head("hitachi_l200", path.read_bytes()), name
 
 
+def test_what_is_in_the_way_gets_advice_that_helps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a link out of the folder, a name that is too long and a folder, --force makes no file."""
+    out, order = tmp_path / "out", ("python", "hitachi_l200", "--points", "A020", "--out", tmp_path / "out")
+    (tmp_path / "elsewhere").mkdir()
+    out.mkdir()
+    (out / "hitachi_l200").symlink_to(tmp_path / "elsewhere")
+    for words in ((), ("--force",), ("--as", "a" * 250)):
+        assert vendor(*order, *words) in (1, 2)
+        told = capsys.readouterr().err
+        assert "--force" not in told
+        assert "hint: " in told
+    (out / "hitachi_l200").unlink()
+    (out / ".fieldscribe-new").mkdir()
+    assert vendor(*order) == 2
+    assert "hint: move it away" in capsys.readouterr().err
+    assert not list((tmp_path / "elsewhere").iterdir())
+
+
 def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "D001") == 0
     assert vendor("c", "jumo_controller", "--out", tmp_path) == 0

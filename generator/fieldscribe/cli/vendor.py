@@ -99,7 +99,8 @@ def _delivered(order: Order, arguments: Namespace) -> Delivery:
         raise StopError("--wheel needs hatchling", 'pip install "fieldscribe[wheel]"') from error
     except OSError as error:
         where = error.filename or order.out
-        raise StopError(f"cannot write to {where}: {error.strerror or error}", "choose another folder") from error
+        hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
+        raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
 
 
 def _orders(arguments: Namespace, report: Report) -> list[Order]:
@@ -217,8 +218,7 @@ def _say(arguments: Namespace, deliveries: list[Delivery]) -> int:
         if arguments.format == "text":
             _print(delivery, check=arguments.check)
         for path, reason in delivery.refused.items():
-            hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
-            usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
+            usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.advice[path])
     return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
 
 
