@@ -105,7 +105,8 @@ def page() -> str:
 
 def sheet(name: str) -> list[dict[str, str]]:
     """A table for spreadsheets."""
-    return list(csv.DictReader(io.StringIO(dict(docs.outputs(device(), render))[f"docs/{name}.csv"])))
+    text = dict(docs.outputs(device(), render))[f"docs/{name}.csv"]
+    return list(csv.DictReader(io.StringIO(text.removeprefix("\ufeff"))))
 
 
 def test_page_has_shared_codes_once_and_in_the_manuals_notation() -> None:
@@ -123,14 +124,15 @@ def test_page_has_shared_codes_once_and_in_the_manuals_notation() -> None:
 
 def test_sheets_name_codes_once() -> None:
     points = {row["name"]: row for row in sheet("kitchen_codes")}
-    assert points["voltage"]["specials"] == "FFF4h = transducer_fault (Transducer fault); those of measured_u16"
-    assert points["current"]["specials"] == "those of measured_u16"
-    assert points["upper_limit"]["default"] == "inactive"
-    codes = [row for row in sheet("kitchen_codes_special_codes") if row["of"] == "measured_u16"]
-    assert [(row["code"], row["raw_first"], row["name"]) for row in codes] == [
-        ("FFF8h..FFFFh", "65528", "reserved"),
-        ("7FFEh", "32766", "out_of_order"),
+    assert points["current"]["codes"] == "codes of measured_u16"
+    assert points["voltage"]["codes"] == "voltage"  # it has one of its own besides
+    assert (points["upper_limit"]["default"], points["upper_limit"]["default_raw"]) == ("", "0")  # a code is no value
+    codes = [(row["of"], row["raw_first"], row["raw_last"], row["name"]) for row in sheet("kitchen_codes_meanings")]
+    assert [code[1:] for code in codes if code[0] == "codes of measured_u16"] == [
+        ("65528", "65535", "reserved"),
+        ("32766", "32766", "out_of_order"),
     ]
+    assert [code[3] for code in codes if code[0] == "voltage"] == ["transducer_fault", "reserved", "out_of_order"]
 
 
 def run(capsys: Any, *words: str) -> tuple[int, str]:

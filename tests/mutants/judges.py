@@ -218,7 +218,10 @@ class OfRust(Judge):
 
     def prepare(self) -> None:
         """One workspace of all crates."""
+        from support.rust_crates import without_registry
+
         root = self.work / "rust"
+        without_registry(root)
         crates = sorted(str(path.parent.relative_to(root)) for path in root.glob("*/**/Cargo.toml"))
         members = ", ".join(f'"{crate}"' for crate in crates)
         (self.work / "rust/Cargo.toml").write_text(WORKSPACE.format(members=members), encoding="utf-8")

@@ -34,7 +34,7 @@ KINDS: dict[str, dict[str, str]] = {
         "enums": r"rust/(?P<device>\w+)/src/enums\.rs",
         "flags": r"rust/(?P<device>\w+)/src/flags\.rs",
         "lib": r"rust/(?P<device>\w+)/src/(?!points|with|enums|flags)\w+\.rs",
-        RUNTIME: r"rust/fieldscribe_runtime/src/.*\.rs",
+        RUNTIME: r"rust/fieldscribe_runtime/src/(?!transports/).*\.rs",  # those have tests of their own
     },
 }
 """The kinds of files of each language, by their path; the programs that run the vectors are of no kind."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -57,6 +58,14 @@ def write_crate(device: Device, out: Path) -> Path:
     """Generates the crate, the runtime and the vectors of a device; returns the crate's folder."""
     generate(device, out, rust, vectors)
     return out / "rust" / device.id
+
+
+def without_registry(crates: Path) -> None:
+    """Features of crates that bring nothing: cargo asks a registry even for what no member of a workspace turns on."""
+    for manifest in crates.rglob("Cargo.toml"):
+        own = re.sub(r"^.*optional = true.*\n", "", manifest.read_text("utf-8"), flags=re.MULTILINE)
+        own = re.sub(r'^([\w-]+) = \["(?:std|dep:|fieldscribe_runtime/).*$', r"\1 = []", own, flags=re.MULTILINE)
+        manifest.write_text(own, encoding="utf-8")
 
 
 def rare_device() -> Device:

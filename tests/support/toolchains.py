@@ -25,6 +25,10 @@ _PACKAGES = {
     "arm-none-eabi-objdump": "binutils-arm-none-eabi",
     "arm-none-eabi-size": "binutils-arm-none-eabi",
     "make": "make",
+    "ninja": "ninja-build",
+    "cmake": "cmake",
+    "meson": "meson",
+    "qemu-system-arm": "qemu-system-arm",
     "frama-c": "frama-c-base",
     "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
@@ -33,6 +37,7 @@ _PACKAGES = {
     "zsh": "zsh",
     "fish": "fish",
     "node": "nodejs npm",
+    "soffice": "libreoffice-calc-nogui",
     "chromium-headless-shell": "chromium-headless-shell",
 }
 _LANGUAGE_SERVER = ROOT / ".cache/node/node_modules/yaml-language-server/bin/yaml-language-server"
@@ -66,6 +71,13 @@ def gcc_for_32_bits() -> str:
     if done.returncode != 0:
         _do_without("gcc -m32", "gcc-multilib")
     return path
+
+
+def crates(project: Path) -> None:
+    """Fetches the crates that a project of cargo needs, once; without them the test is skipped or fails, as above."""
+    fetched = run([tool("cargo"), "fetch", "--offline"], cwd=project)
+    if fetched.returncode != 0 and run([tool("cargo"), "fetch"], cwd=project).returncode != 0:
+        _do_without("what cargo fetches from crates.io", "it by `cargo fetch` with the network, which keeps it")
 
 
 def _do_without(name: str, packages: str) -> NoReturn:

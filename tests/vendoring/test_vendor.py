@@ -15,7 +15,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.output.manifests import VENDORED, carries_head
 from fieldscribe.pipeline import load_device
 from fieldscribe.vendoring.choosing import chosen
-from fieldscribe.vendoring.files import LICENCE, Wish, files_of
+from fieldscribe.vendoring.files import LANGUAGES, LICENCE, Wish, files_of
 from support.c_device import WARNINGS
 from support.described import described, made, shipped, write
 from support.places import ROOT
@@ -292,9 +292,11 @@ def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pyte
 
 def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
     """All that is left of one wish goes when another takes its place."""
-    for language in ("c", "python", "rust"):
-        order = (language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020")
-        assert vendor(*order) == 0
+    for language in ("c", "python", "rust", "csv", "markdown"):
+        if language in LANGUAGES:
+            assert vendor(language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020") == 0
+        else:
+            assert main(["docs", "hitachi_l200", "--format", language, "--out", str(tmp_path / language)]) == 0
         known = {path for path in (tmp_path / language).rglob("*") if path.is_file()}
         for path in known:
             name = path.relative_to(tmp_path / language).as_posix()
@@ -361,3 +363,23 @@ def test_wrong_calls(
     assert vendor(*words) == 2
     assert said in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_outputs_are_listed_before_they_are_made_and_a_rule_names_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What a build system asks before it builds, and after."""
+    device, out = ROOT / "tests/devices/kitchen_can", tmp_path / "drivers"
+    (tmp_path / "points.txt").write_text("*\n", "utf-8")
+    words = ("c", device, "--out", out, "--points", f"@{tmp_path / 'points.txt'}")
+    assert vendor(*words, "--list-outputs") == 0
+    listed = capsys.readouterr().out.split()
+    assert not out.exists()
+    assert vendor(*words, "--depfile", tmp_path / "drivers.d") == 0
+    assert sorted(listed) == sorted(map(str, out.iterdir()))
+    rule, *empty = (tmp_path / "drivers.d").read_text("utf-8").replace("\\\n", "").splitlines()
+    outputs, inputs = (part.split() for part in rule.split(":"))
+    assert outputs == listed
+    assert {str(device / "device.yaml"), str(device / "words.yaml"), str(tmp_path / "points.txt")} < set(inputs)
+    assert str(ROOT / "templates/c/device.h.j2") in inputs
+    assert empty == [f"{path}:" for path in inputs]

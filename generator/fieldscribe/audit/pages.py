@@ -26,6 +26,10 @@ _MOSTLY = 0.8
 _DEEP = 3
 """A head or foot has at most so many lines beside the one that counts."""
 _BOTH = 2
+_SURE = 5
+"""At so many pages even what looks like a row is part of a head or foot."""
+_SENTENCE = re.compile(r"[.:;,=]$|(?:\S+\s+){11}")
+"""What no head or foot has: the end of a sentence, many words."""
 _NEAR = 4
 """The bare number of a page stands at most so many lines from a line that counts it in words."""
 
@@ -89,15 +93,21 @@ def _beside(
     """The next lines that belong to the same heads or feet, each with its page."""
     near = {_next(lines, number, step): page for number, page in front.items()}
     near = {place: page for place, page in near.items() if place and place not in pages}
-    texts = Counter(_plain(lines[place - 1]) for place in (*near, *pages))
-    return {place: page for place, page in near.items() if _repeats(lines[place - 1], texts, alike)}
+    pages_of: dict[str, set[int]] = {}
+    for place, page in (*near.items(), *pages.items()):
+        pages_of.setdefault(_plain(lines[place - 1]), set()).add(page)
+    return {place: page for place, page in near.items() if _repeats(lines[place - 1], pages_of, alike)}
 
 
-def _repeats(line: str, texts: Counter[str], alike: Counter[str]) -> bool:
-    """Whether a line stands so at several pages, and seldom elsewhere."""
-    is_row = line.startswith("|") or "\t" in line.strip()
-    same = texts[_plain(line)]
-    return not is_row and _LETTERS.search(line) is not None and same >= _BOTH and same * 2 >= alike[_plain(line)]
+def _repeats(line: str, pages_of: dict[str, set[int]], alike: Counter[str]) -> bool:
+    """Whether a line stands so at several pages, and seldom elsewhere: a title, and no row or sentence of the text."""
+    text = _plain(line)
+    pages, often = pages_of[text], alike[text]
+    if line.startswith("|") or _LETTERS.search(text) is None or _SENTENCE.search(text):
+        return False
+    if len(pages) == _BOTH:
+        return max(pages) - min(pages) == 1 and often <= _BOTH + 1 and "\t" not in line.strip()
+    return len(pages) >= (_SURE if "\t" in line.strip() else _PAGES) and len(pages) * 2 >= often
 
 
 def _next(lines: Sequence[str], number: int, step: int) -> int:

@@ -33,6 +33,7 @@ COMMANDS = {
     "check": "validate descriptions; say everything that is wrong, and where",
     "generate": "compile descriptions into C, Python, Rust, documentation and vectors",
     "vendor": "leave exactly the files that a project needs of a device: all of it, or some points",
+    "docs": "write the documentation of devices: a workbook, tables as CSV, or a page in Markdown",
     "export": "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)",
     "explain": "say everything about one address, code or name",
     "decode": "say what frames from the line mean",

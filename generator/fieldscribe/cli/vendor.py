@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from fieldscribe.diagnostics import Report
+    from fieldscribe.reading import Inputs
     from fieldscribe.vendoring.files import Wish
     from fieldscribe.vendoring.orders import Delivery, Order
     from fieldscribe.vendoring.project import Wanted
@@ -52,23 +53,40 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
     )
     parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
+    parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
+    parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Leave them, or compare; the exit code."""
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError, report_findings
+    from fieldscribe.cli.common import report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.vendoring.orders import refuse_doubles
+    from fieldscribe.reading import Inputs
 
-    report = Report()
-    orders = _orders(arguments, report)
+    report, inputs = Report(), Inputs()
+    orders = _orders(arguments, report, inputs)
     if report.has_errors:
         report_findings(report, arguments.format)
         return FINDINGS
+    missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
+    looks = arguments.check or arguments.list_outputs
+    deliveries = delivered(orders, missing, arguments.format, check=looks, force=arguments.force)
+    if arguments.list_outputs:
+        return _list(deliveries)
+    if not looks:
+        _keep_up(arguments, deliveries, inputs)
+    return say(deliveries, arguments.format, check=arguments.check)
+
+
+def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool) -> list[Delivery]:
+    """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.vendoring.orders import refuse_doubles
+
     deliveries: list[Delivery] = []
     try:
         refuse_doubles(orders)
@@ -76,34 +94,50 @@ def run(arguments: Namespace) -> int:
         raise StopError(error.message, error.hint) from error
     for order in orders:
         try:
-            deliveries.append(_delivered(order, arguments))
+            deliveries.append(_delivered(order, missing, check=check, force=force))
         except StopError:
             if deliveries:
-                _say(arguments, deliveries)  # what is done is done
+                say(deliveries, form, check=check)  # what is done is done
             raise
-    return _say(arguments, deliveries)
+    return deliveries
 
 
-def _delivered(order: Order, arguments: Namespace) -> Delivery:
-    """What became of one order. Raises StopError."""
+def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
     from fieldscribe.asked import UnclearError
     from fieldscribe.cli.common import StopError
     from fieldscribe.cli.generate import say_waiting
     from fieldscribe.vendoring.orders import compare, deliver
 
     try:
-        return compare(order) if arguments.check else deliver(order, say_waiting, force=arguments.force)
+        return compare(order) if check else deliver(order, say_waiting, force=force)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
-        raise StopError("--wheel needs hatchling", 'pip install "fieldscribe[wheel]"') from error
+        raise StopError(*missing) from error
     except OSError as error:
         where = error.filename or order.out
         hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
         raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
 
 
-def _orders(arguments: Namespace, report: Report) -> list[Order]:
+def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
+    """Write the rule for make that was asked for, if all is there. Raises OSError."""
+    from fieldscribe.output.depfile import keep_up
+
+    if arguments.depfile and all(delivery.is_current for delivery in deliveries):
+        outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
+        keep_up(arguments.depfile, outputs, inputs.digests)
+
+
+def _list(deliveries: list[Delivery]) -> int:
+    from fieldscribe.cli import FINE
+    from fieldscribe.report import visible
+
+    print(*(visible(str(delivery.order.out / path)) for delivery in deliveries for path in delivery.files), sep="\n")
+    return FINE
+
+
+def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:
     """What the command line, or the project file, asks for. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.vendoring.project import NAME, read_project
@@ -111,27 +145,27 @@ def _orders(arguments: Namespace, report: Report) -> list[Order]:
     if arguments.language is not None:
         if arguments.project is not None:
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
-        return [_order(arguments, _wish(arguments), arguments.device, arguments.out)]
+        return [_order(arguments, _wish(arguments, inputs), arguments.device, arguments.out, inputs)]
     of_one = (arguments.out, arguments.points, arguments.name)
     if any(said is not None for said in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     try:
-        wanted = read_project(file, report)
+        wanted = read_project(file, report, inputs)
     except OSError as error:
         missing = isinstance(error, FileNotFoundError)
         hint = "write one, or say `fieldscribe vendor LANGUAGE DEVICE --out DIR`"
         raise StopError(f"there is no project file {file}" if missing else f"{file}: {error.strerror}", hint) from error
-    return _orders_of_project(arguments, wanted, report)
+    return _orders_of_project(arguments, wanted, report, inputs)
 
 
-def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Report) -> list[Order]:
+def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Report, inputs: Inputs) -> list[Order]:
     from fieldscribe.cli.common import StopError
 
     orders: list[Order] = []
     for wanted in project:
         try:
-            orders.append(_order(arguments, wanted.wish, wanted.device, wanted.out))
+            orders.append(_order(arguments, wanted.wish, wanted.device, wanted.out, inputs))
         except StopError as error:
             if not error.message:
                 raise  # the description's own findings are told
@@ -139,7 +173,7 @@ def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Repo
     return orders
 
 
-def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None) -> Order:
+def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inputs: Inputs) -> Order:
     """One order, its device loaded and its points known to be there. Raises StopError."""
     import re
     from argparse import Namespace as Asked
@@ -158,7 +192,8 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None) -> O
         taken = bad or next(reasons(wish.name), None)
         if taken:
             raise StopError(f"`{wish.name}` {taken}")
-    opened = open_device(Asked(device=device, descriptions=arguments.descriptions, format=arguments.format))
+    asked = Asked(device=device, descriptions=arguments.descriptions, format=arguments.format)
+    opened = open_device(asked, inputs)
     try:
         chosen(opened, wish.points)
     except UnclearError as error:
@@ -169,7 +204,7 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None) -> O
 _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 
 
-def _wish(arguments: Namespace) -> Wish:
+def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
     """What the options ask for. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
@@ -183,13 +218,13 @@ def _wish(arguments: Namespace) -> Wish:
         if switches[switch] is (switch != "frames") and language != of_language:
             option = "no-frames" if switch == "frames" else switch.replace("_", "-")
             raise StopError(f"--{option} is for {of_language}")
-    points = _points(arguments.points)
+    points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
     return Wish(language, points, arguments.name, **switches)
 
 
-def _points(said: str | None) -> tuple[str, ...]:
+def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     """The words of `--points`, or of the file that it names. Raises StopError."""
     import re
 
@@ -200,7 +235,9 @@ def _points(said: str | None) -> tuple[str, ...]:
         return ()
     if said.startswith("@"):
         try:
-            text = read_regular(said[1:], 1 << 20).data.decode("utf-8-sig")
+            content = read_regular(said[1:], 1 << 20)
+            inputs.note(Path(said[1:]), content)
+            text = content.data.decode("utf-8-sig")
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or "it is no UTF-8 text"
             raise StopError(f"cannot read {said[1:]}: {why}") from error
@@ -208,15 +245,16 @@ def _points(said: str | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def _say(arguments: Namespace, deliveries: list[Delivery]) -> int:
+def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
+    """Print what was done, or what is not as it should be; the exit code."""
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
 
-    if arguments.format == "json":
+    if form == "json":
         print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
     for delivery in deliveries:
-        if arguments.format == "text":
-            _print(delivery, check=arguments.check)
+        if form == "text":
+            _print(delivery, check=check)
         for path, reason in delivery.refused.items():
             usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.advice[path])
     return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS

@@ -64,7 +64,8 @@ VENDORED = Layout(
     "",
     ".manifest.json",
     by_target=False,
-    named=r"fieldscribe(_\w+)?\.h|fieldscribe_runtime/.*|LICENSE-fieldscribe\.txt|@/py\.typed|@-[\d.]+-py3-none-any\.whl",
+    named=r"fieldscribe(_\w+)?\.h|fieldscribe_runtime/.*|LICENSE-fieldscribe\.txt"
+    r"|@/py\.typed|@-[\d.]+-py3-none-any\.whl|@(_meanings)?\.csv|@\.xlsx",
 )
 
 

@@ -59,17 +59,16 @@ class Wish:
         said |= {} if self.frames else {"frames": False}
         return said | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
 
+    def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
+        """The files, as bytes. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
+        texts = dict(files_of(device, self))
+        if self.wheel:
+            from fieldscribe.vendoring.wheel import wheel_of
 
-def contents_of(device: Device, wish: Wish) -> Iterator[tuple[str, bytes]]:
-    """The files that the wish asks for. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
-    texts = dict(files_of(device, wish))
-    if wish.wheel:
-        from fieldscribe.vendoring.wheel import wheel_of
-
-        yield wheel_of(texts, wish.name or device.id)
-        texts = {LICENCE: texts[LICENCE]}
-    for path, text in texts.items():
-        yield path, text.encode()
+            yield wheel_of(texts, self.name or device.id)
+            texts = {LICENCE: texts[LICENCE]}
+        for path, text in texts.items():
+            yield path, text.encode()
 
 
 def files_of(device: Device, wish: Wish) -> Iterator[tuple[str, str]]:

@@ -11,24 +11,41 @@ from fieldscribe.output.manifests import VENDORED, Manifests
 from fieldscribe.output.plan import plan_of
 from fieldscribe.reading import read_regular
 from fieldscribe.records import dataclass, field
-from fieldscribe.vendoring.files import contents_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
+    from typing import Protocol
 
     from fieldscribe.model import Device
     from fieldscribe.output.plan import Made, Plan
-    from fieldscribe.vendoring.files import Wish
+
+    class Wanted(Protocol):
+        """What a project wants of a device."""
+
+        @property
+        def language(self) -> str:
+            """The language or the format of the files."""
+
+        @property
+        def name(self) -> str | None:
+            """What the device is called in the project, where that is not its id."""
+
+        def as_data(self, device: str) -> Mapping[str, object]:
+            """What a manifest says of it."""
+
+        def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
+            """The files: path below the folder, and bytes."""
+
 
 _MOST_BYTES = 512 << 20
 
 
 class Order(NamedTuple):
-    """A device in a language, for a folder of a project."""
+    """A device in a language or a format, for a folder of a project."""
 
     device: Device
-    wish: Wish
+    wish: Wanted
     out: Path
 
     @property
@@ -112,7 +129,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
 def _made(order: Order) -> Made:
     from fieldscribe.output.spool import kept
 
-    return {order.wish.language: {path: kept(data) for path, data in contents_of(order.device, order.wish)}}
+    return {order.wish.language: {path: kept(data) for path, data in order.wish.contents(order.device)}}
 
 
 def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -46,12 +48,12 @@ def package(device: Device, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 
 def test_nothing_is_made_up(device: Device, texts: dict[str, str]) -> None:
     """Neither a type nor a range stands where nobody says them; two reasons are told apart."""
-    rows = {line.split(",")[1]: line for line in texts["docs/made_up.csv"].splitlines()}
-    assert '"48-bit counter, the high word first",3,' in rows["energy"]
-    assert ",not settled by the manual,1," in rows["open_size"]
+    rows = {row["name"]: row for row in csv.DictReader(io.StringIO(texts["docs/made_up.csv"]))}
+    assert (rows["energy"]["words"], rows["open_size"]["words"]) == ("3", "1")
+    assert rows["energy"]["remarks"] == "type: 48-bit counter, the high word first"
     for name in ("energy", "open_size"):
-        assert "65535" not in rows[name]
-        assert "u16" not in rows[name]
+        assert not any(rows[name][key] for key in ("type", "factor", "offset", "raw_min", "raw_max", "min", "max"))
+    assert (rows["open_scale"]["type"], rows["open_scale"]["factor"], rows["open_scale"]["max"]) == ("u32", "", "")
     reasons = {one.name: one.reason for one in device.points}
     assert reasons["energy"] == "no type says its encoding"
     assert reasons["open_size"] == "the manual does not settle its type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import tomllib
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -27,7 +28,7 @@ from support.described import kitchen_sink, made, shipped
 from support.made_once import made_once
 from support.models import changed, entry, point, sample_device, titles, trip_device
 from support.places import ROOT, TESTS
-from support.rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
+from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
 from support.toolchains import run, succeed, tool
 from support.vector_file import counts_of
 
@@ -92,6 +93,7 @@ def write_workspace(out: Path) -> None:
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
         shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
     devices = [*MODELS, *SHIPPED]
+    without_registry(out / "rust")
     members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
     (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
 
@@ -281,6 +283,14 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     versions = {int(found[1]) for text in texts if (found := re.search(r'rust-version = "1\.(\d+)"', text))}
     assert len(versions) == 1
     assert max(versions) <= 85
+
+
+def test_a_crate_asks_for_the_runtime_that_lies_beside_it() -> None:
+    """Cargo refuses to package another."""
+    manifest = dict(rust.outputs(sample_device(), render))["rust/sample_drive/Cargo.toml"]
+    asked = tomllib.loads(manifest)["dependencies"]["fieldscribe_runtime"]["version"]
+    beside = (templates_dir() / "rust/runtime/fieldscribe_runtime/Cargo.toml").read_text("utf-8")
+    assert tomllib.loads(beside)["package"]["version"] == asked
 
 
 def test_a_device_needs_the_runtime_alone(tmp_path: Path) -> None:

@@ -6,9 +6,24 @@
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
 //! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
-//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
+//! [`LocalTransport`] (async on one thread): one of [`runtime::transports`], or yours. [`POINTS`] lists the points at
+//! run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //! [`runtime::modbus::reply_length`] tells a transport when a reply is complete.
+//!
+//! A first program, with the feature `std`:
+//!
+#![cfg_attr(feature = "std", doc = "```no_run")]
+#![cfg_attr(not(feature = "std"), doc = "```ignore")]
+//! use jumo_controller::{points as p, runtime::transports::tcp::TcpLine, Client, Framing, PROFILE};
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let line = TcpLine::new("192.168.0.20:502");
+//!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+//!     println!("{:?}", client.read::<p::ProgramStatus>()?);
+//!     Ok(())
+//! }
+//! ```
 //!
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!

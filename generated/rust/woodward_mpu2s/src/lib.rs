@@ -6,7 +6,8 @@
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
 //! [`Client`], [`AsyncClient`] and [`LocalClient`] do it over a [`Transport`], an [`AsyncTransport`] or a
-//! [`LocalTransport`] (async on one thread) that you bring. [`POINTS`] lists the points at run time.
+//! [`LocalTransport`] (async on one thread): one of [`runtime::transports`], or yours. [`POINTS`] lists the points at
+//! run time.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 //!
 //! Many points are called as types of Rust are, so import their module and not all of them:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.telling import DATE
-from fieldscribe.audit.editions.vocabulary import are_respelled, is_one_spelling
+from fieldscribe.audit.editions.telling import DATE, is_code
+from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class Remarks:
             ("references", self._is_reference),
             ("repeated_heads", self._is_repeated),
             ("moved", lambda finding: finding.kind == "moved"),
-            ("wording", _is_wording),
+            ("wording", lambda finding: _is_wording(finding) and not self._loses_words(finding)),
         )
 
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
@@ -115,6 +115,13 @@ class Remarks:
         if any(reason.kind not in ("number", "word") for reason in finding.reasons):
             return ""
         return next((kind for kind, fits in self._kinds if fits(finding)), "")
+
+    def _loses_words(self, finding: Finding) -> bool:
+        """Whether a row says less, with nothing in its place: what it says of may be less now."""
+        lost = (name for old, new in finding.words if not new.strip() for name in _ALNUM.findall(old))
+        if finding.old is None or not any(is_name(name) or is_code(name) for name in lost):
+            return False
+        return any(is_row(self.editions.old.line(line)) for line in range(finding.old[0], finding.old[1] + 1))
 
     def _second_line(self) -> int:
         """Where the second line of the old edition that has words stands now."""

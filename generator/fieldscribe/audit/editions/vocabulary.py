@@ -16,7 +16,11 @@ _SMALL_WORDS = re.compile(
     "eine?[nr]?|ist|im|mit|oder|sind|und|vom|von|wird|zu[mr]?|\u00fcber|f\u00fcr"
 )
 """What says nothing by itself; `not`, `nicht` and `kein` do."""
-_HYPHEN = re.compile(r"(?<=[^\W\d_])\s?[-\u00ad\u2010-\u2013]\s?(?=[^\W\d_])")
+_HYPHEN = re.compile(
+    r"(?<=[^\W\d_])\s?[-\u00ad\u2010-\u2013]\s?(?=[^\W\d_])"
+    r"|(?<=[0-9])[-\u00ad\u2010-\u2013](?=[^\W\d_]{2})|(?<=[^\W\d_])['\u2019](?=[^\W\d_])"
+)
+"""What only sets a word: `16-Bit`, `ID's`."""
 _DOUBLED = re.compile(r"([^\W\d_])\1+")
 _LONG = 6
 _STEM, _ENDING = 4, 2

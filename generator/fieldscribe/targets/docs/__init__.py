@@ -1,4 +1,4 @@
-"""The documentation target: a Markdown reference, a table of the points and a table of the special codes (CSV)."""
+"""The documentation target: a Markdown reference, and the points and their meanings as tables (CSV, XLSX)."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+    from fieldscribe.targets.docs.subjects import Scope
+    from fieldscribe.targets.docs.tables import Table
     from fieldscribe.targets.identifiers import Names
 
 FOR_PEOPLE = True
@@ -19,16 +21,43 @@ KEEPS_NAMES = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""
-    from fieldscribe.targets.docs.page import page_of
-    from fieldscribe.targets.docs.sheet import sheet_of
-    from fieldscribe.targets.docs.special_codes import sheet_of_codes
     from fieldscribe.targets.docs.subjects import scope_of
 
     scope = scope_of(device)
-    yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
-    yield f"docs/{device.id}.csv", sheet_of(scope)
-    if codes := sheet_of_codes(device):
-        yield f"docs/{device.id}_special_codes.csv", codes
+    for path, text in (*markdown_files(scope, render), *csv_files(scope)):
+        yield f"docs/{path}", text
+
+
+def markdown_files(scope: Scope, render: Render) -> Iterable[tuple[str, str]]:
+    """The reference in Markdown."""
+    from fieldscribe.targets.docs.page import page_of
+
+    yield f"{scope.device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
+
+
+def csv_files(scope: Scope) -> Iterable[tuple[str, str]]:
+    """The points and their meanings as CSV."""
+    from fieldscribe.targets.docs.tables import csv_of
+
+    points, meanings, _ = tables_of(scope)
+    yield f"{scope.device.id}.csv", csv_of(points)
+    yield f"{scope.device.id}_meanings.csv", csv_of(meanings)
+
+
+def xlsx_files(scope: Scope) -> Iterable[tuple[str, bytes]]:
+    """All tables as one workbook. Raises ModuleNotFoundError without XlsxWriter."""
+    from fieldscribe.targets.docs.workbook import workbook_of
+
+    yield f"{scope.device.id}.xlsx", workbook_of(scope.device, tables_of(scope))
+
+
+def tables_of(scope: Scope) -> tuple[Table, Table, Table]:
+    """The points, their meanings, and the errata."""
+    from fieldscribe.targets.docs.errata import errata_table
+    from fieldscribe.targets.docs.meanings import meanings_table
+    from fieldscribe.targets.docs.sheet import points_table
+
+    return points_table(scope), meanings_table(scope.device), errata_table(scope.device)
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:

@@ -25,21 +25,15 @@ from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, refere
 from fieldscribe.targets.docs.words import Words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Group, Point
     from fieldscribe.targets.docs.numbers import ListView
     from fieldscribe.targets.docs.subjects import Scope, Subject
     from fieldscribe.targets.docs.words import WordView
 
-_FACTS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Default", "Remarks", "Source")
-_SAID: Mapping[str, Callable[[Subject], object]] = {
-    "Unit": lambda subject: subject.point.unit.symbol,
-    "Raw range": lambda subject: subject.limits.page[1],
-    "Scale": lambda subject: subject.point.scale,
-    "Default": lambda subject: subject.point.default is not None or subject.point.default_raw is not None,
-}
-"""Which points say something in these columns."""
+_FACTS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
+"""Columns that every device has: the first point that says something there changes no line of others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,15 +100,13 @@ class _Rows:
         self.scope = scope
         self._kins: dict[int, _Kin] = {}
         self._remarks: dict[tuple[int, tuple[bool, ...]], Pattern] = {}
-        silent = {head for head, says in _SAID.items() if not any(map(says, scope.subjects))}
-        self._always = set(_FACTS) - silent
 
     def table(self, subjects: Sequence[Subject], lists: Lists, *, with_space: bool) -> str:
         """The table of a group."""
         references = reference_heads(point for point, *_ in subjects)
         heads = ("Code", "Name", "Space", "Wire address", "Index", numbers_head(references), *_FACTS)
         rows = [self._row(subject, lists, references, with_space) for subject in subjects]
-        return by_rows(heads, rows, always=self._always)
+        return by_rows(heads, rows, always=_FACTS)
 
     def _row(self, subject: Subject, lists: Lists, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
         point, number, limits = subject
@@ -130,13 +122,10 @@ class _Rows:
             "" if point.index is None else str(point.index),
             numbers_text(point, references),
             *kin.meaning,
-            limits.page[0],
+            _with_default(point, limits.page[0]),
             kin.unit,
             limits.page[1],
             kin.scale,
-            ""
-            if point.default is None and point.default_raw is None
-            else narrow(cell(wording.default_text(point, unit=False))),
             self._remarks_cell(point, number, lists),
             source_cell(point.source, self.scope.several),
         )
@@ -153,3 +142,11 @@ class _Rows:
             text = remarks_text(self.scope, point, OwnRemarks(*blanks(own)))
             pattern = self._remarks[kin, form] = Pattern(text)
         return pattern.filled(own)
+
+
+def _with_default(point: Point, allowed: str) -> str:
+    """The range, and below it the factory setting: few points have one, so a column of its own would be empty."""
+    if point.default is None and point.default_raw is None:
+        return allowed
+    default = f"default {narrow(cell(wording.default_text(point, unit=False)))}"
+    return f"{allowed}{LINE_BREAK}{default}" if allowed else default

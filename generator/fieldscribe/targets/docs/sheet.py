@@ -1,164 +1,216 @@
-"""The table of all points for spreadsheets, with a row for each point."""
+"""The table of points: a row for each, with a column for each fact that can be counted, sorted or looked up."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.targets.docs.subjects import reference_heads
-from fieldscribe.text import csv_cell
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.targets.docs.meanings import codes_of, enum_of
+from fieldscribe.targets.docs.quantities import default_of, ends_of, range_of, scale_cells
+from fieldscribe.targets.docs.tables import Column, Table, decimal, original, source_cells
+from fieldscribe.wording.exact import hex_text, number_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
-    from fieldscribe.model import Place, Point, Source
+    from fieldscribe.model import Place, Point
     from fieldscribe.targets.docs.subjects import Scope
+    from fieldscribe.targets.docs.tables import Encode
 
-_PLACE = ("space", "wire_hex", "wire", "words_high_first", "other_places", "index", "telegram")
-_FACTS = (
-    *("type", "words", "bits", "access", "raw_min", "raw_max", "raw_range", "range", "unit", "scale", "resolution"),
-    *("default", "steps", "names", "flags", "specials", "fixed"),
-    *("keeps", "conditions", "when", "since", "until", "changes", "changes_with", "record", "set", "was", "note"),
-    *("errata", "document", "section", "page", "line", "generated", "reason"),
+COLUMNS = (
+    Column("code", "the code that the manual prints"),
+    Column("name", "the name in code"),
+    Column("variant", "for which devices the row holds, where they differ"),
+    Column("group", "the group in the description"),
+    Column("title", "the title in English"),
+    Column("title_original", "the title in the language of the manual"),
+    Column("space", "where the address counts: `coil`, `holding`, `parameter`, `telegram`, ..."),
+    Column("telegram", "in which telegram a word is"),
+    Column("address", "the (lowest) number on the wire", True),
+    Column("address_hex", "the same as manuals print it"),
+    Column("words", "how many 16-bit words (or single bits) it takes", True),
+    Column("word_order", "which of several words comes first"),
+    Column("bit_low", "the lowest bit of a bit group in its word", True),
+    Column("bit_high", "its highest bit", True),
+    Column("index", "the index of an element", True),
+    Column("modicon", "the manual's number that counts from 1", True),
+    Column("reference", "the manual's number whose first digit says the space (4: holding registers)", True),
+    Column("other_references", "other numbers that the manual prints"),
+    Column("type", "the wire type; empty where the manual does not settle it"),
+    Column("access", "`r`, `w`, `rw`; `none` if no bus reaches it"),
+    Column("unit", "the unit of values"),
+    Column("factor", "value = number of that type * factor + offset, exact", True),
+    Column("offset", "see factor", True),
+    Column("scale", "the rule as text, where other points or a fraction are in it"),
+    Column("raw_min", "the least raw number that can ever be written (or read, if it is only read)", True),
+    Column("raw_max", "the greatest", True),
+    Column("min", "the least value, in the unit", True),
+    Column("max", "the greatest value", True),
+    Column("range", "the whole rule as text, where least and greatest do not say all"),
+    Column("default", "the factory setting, in the unit", True),
+    Column("default_raw", "the factory setting as raw number", True),
+    Column("enum", "the names of its numbers: `of` in the meanings"),
+    Column("flags", "the flags of its bits: `of` in the meanings"),
+    Column("codes", "its special codes: `of` in the meanings"),
+    Column("keeps", "whether a written value survives switching off: `yes` (each write wears the memory), `no`, how"),
+    Column("conditions", "what must hold to write it"),
+    Column("changes", "how often it changes"),
+    Column("record", "the record that it belongs to"),
+    Column("set", "the number of its parameter set", True),
+    Column("remarks", "what else holds"),
+    Column("note", "what the manual adds"),
+    Column("errata", "where the manual is wrong, unclear or silent: ids of errata"),
+    Column("document", "the manual"),
+    Column("section", "the section of the manual"),
+    Column("page", "the page", True),
+    Column("line", "the line of the manual's text", True),
+    Column("generated", "whether code has it"),
+    Column("reason", "why not"),
 )
+_KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
 
 
 class _Kin(NamedTuple):
-    """The cells that points have alike, those side by side as one text."""
+    """The cells that points have alike; `remarks` is plain text, to which points may add."""
 
     group: str
-    space: str
-    telegram: str
-    meaning: str
-    scale: str
-    behaviour: str
-    generated: str
+    space: tuple[str, str]
+    words: str
+    bits: tuple[str, str]
+    meaning: tuple[str, ...]
+    behaviour: tuple[str, str, str]
+    remarks: tuple[str, ...]
+    remarks_cell: str
+    generated: tuple[str, str]
 
 
-def sheet_of(scope: Scope) -> str:
-    """The lines of the table, its head first."""
-    points = scope.device.points
-    languages = tuple(dict.fromkeys(key for point in points for key in point.title))
-    references = reference_heads(points)
-    heads = ("code", "name", "variant", "group", *(f"title_{key}" for key in languages), *_PLACE, *references, *_FACTS)
-    lines = [_joined(heads), *_lines(scope, languages, references)]
-    return "\n".join(lines) + "\n"
+def points_table(scope: Scope) -> Table:
+    """The points of a device."""
+    return Table("points", COLUMNS, partial(_rows, scope))
 
 
-def _lines(scope: Scope, languages: tuple[str, ...], references: tuple[str, ...]) -> Iterator[str]:
+def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
     kins: dict[int, _Kin] = {}
+    limits_by_id: dict[int, tuple[str, ...]] = {}
     for point, number, limits in scope.subjects:
         kin = kins.get(number)
         if kin is None:
-            kin = kins[number] = _kin(scope, point)
-        titles, printed = point.title, point.place.references
-        cells = (
-            csv_cell(point.code) if point.code else "",
-            csv_cell(point.name),
-            csv_cell(str(point.variant)) if point.variant else "",
+            kin = kins[number] = _kin(scope, point, encode)
+        ends = limits_by_id.get(id(limits))
+        if ends is None:
+            ends = limits_by_id[id(limits)] = (*ends_of(point), encode(range_of(point, scope.by_name)))
+        enum = enum_of(point)
+        yield (
+            encode(point.code or ""),
+            encode(point.name),
+            encode(str(point.variant)) if point.variant else "",
             kin.group,
-            *[csv_cell(titles.get(key, "")) for key in languages],
-            kin.space,
-            _place(point.place),
-            "" if point.write_place is None else _written(point, point.write_place),
+            encode(point.title["en"]),
+            encode(original(point.title)),
+            *kin.space,
+            *_address(point.place),
+            kin.words,
+            encode(_word_order(point)) if len(point.place.addresses) > 1 else "",
+            *kin.bits,
             "" if point.index is None else str(point.index),
-            kin.telegram,
-            *[_number(printed.get(key, "")) for key in references],
-            kin.meaning,
-            limits.sheet,
-            kin.scale,
-            "" if point.default is None and point.default_raw is None else _default(point),
-            kin.behaviour,
-            _own(point),
-            _source(point.source),
-            kin.generated,
+            *_references(point.place, encode),
+            *kin.meaning,
+            *ends,
+            default_of(point),
+            "" if point.default_raw is None else str(point.default_raw),
+            "" if enum is None else encode(enum.name),
+            encode(point.item) if point.flags else "",
+            encode(codes_of(point)),
+            *kin.behaviour,
+            encode(point.record or ""),
+            "" if point.set is None else str(point.set),
+            _remarks(point, kin, encode),
+            encode(wording.title_text(point.note)) if point.note else "",
+            encode("; ".join(point.errata)),
+            *source_cells(point.source, encode),
+            *kin.generated,
         )
-        yield ",".join(cells)
 
 
-def _kin(scope: Scope, point: Point) -> _Kin:
+def _kin(scope: Scope, point: Point, encode: Encode) -> _Kin:
+    remarks = tuple(text for text in _common_remarks(scope, point) if text)
     return _Kin(
-        csv_cell(point.group),
-        csv_cell(point.space),
-        csv_cell(point.telegram or ""),
-        _joined(_meaning(point)),
-        _joined((point.unit.symbol, wording.scale_text(point, scope.by_name), wording.resolution_text(point))),
-        _joined((wording.steps_text(point), *_names(point), *_behaviour(scope, point))),
-        _joined(("yes" if point.generated else "no", point.reason or "")),
+        group=encode(point.group),
+        space=(encode(point.space), encode(point.telegram or "")),
+        words=str(point.words),
+        bits=(str(point.bits[1]), str(point.bits[0])) if point.bits else ("", ""),
+        meaning=(
+            point.type if point.untyped is None else "",
+            point.access,
+            encode(point.unit.symbol),
+            *scale_cells(point, scope.by_name, encode),
+        ),
+        behaviour=(_keeps(point, encode), encode("; ".join(point.conditions)), encode(point.changes or "")),
+        remarks=remarks,
+        remarks_cell=encode("; ".join(remarks)),
+        generated=("yes" if point.generated else "no", encode(point.reason or "")),
     )
 
 
-def _joined(texts: Iterable[str]) -> str:
-    return ",".join(map(csv_cell, texts))
-
-
-def _number(number: int | str) -> str:
-    return csv_cell(number) if isinstance(number, str) else str(number)
-
-
-def _place(place: Place) -> str:
-    """The lowest address in both notations, and all if there are several."""
+def _address(place: Place) -> tuple[str, str]:
+    """The lowest address in both notations."""
     addresses = place.addresses
-    if len(addresses) == 1:
-        return f"{hex_text(addresses[0])},{addresses[0]},"
-    return f"{hex_text(min(addresses))},{min(addresses)},{_hexes(place)}" if addresses else ",,"
+    return (str(min(addresses)), hex_text(min(addresses))) if addresses else ("", "")
 
 
-def _written(point: Point, place: Place) -> str:
-    return csv_cell(f"write: {point.space} {_hexes(place)}") if point.addresses else ""
+def _word_order(point: Point) -> str:
+    first, *others = point.addresses
+    steps = {address - first - number for number, address in enumerate(others, 1)}
+    rising, falling = steps == {0}, all(address == first - number for number, address in enumerate(others, 1))
+    what = "characters" if point.text is not None else "word"
+    if rising or falling:
+        names = ("first", "last") if point.text is not None else ("high", "low")
+        return f"{names[falling]} {what} first"
+    words = " ".join(map(hex_text, point.addresses))
+    return f"{words}, {'first' if point.text is not None else 'high'} {what} first"
 
 
-def _hexes(place: Place) -> str:
-    return " ".join(map(hex_text, place.addresses))
+def _references(place: Place, encode: Encode) -> tuple[str, str, str]:
+    """Modicon's two numberings, and all others as one text."""
+    others, known = [], {"modicon": "", "reference": ""}
+    for name, number in place.references.items():
+        if name in known and isinstance(number, int):
+            known[name] = str(number)
+        else:
+            others.append(f"{name} {number}")
+    return known["modicon"], known["reference"], encode(", ".join(others))
 
 
-def _meaning(point: Point) -> tuple[str, ...]:
-    bits = f"{point.bits[0]}..{point.bits[1]}" if point.bits else ""
-    return point.type if point.untyped is None else wording.type_text(point), str(point.words), bits, point.access
+def _keeps(point: Point, encode: Encode) -> str:
+    return _KEEPS[point.keeps] if point.keeps in _KEEPS else encode(f"after {point.keeps}")
 
 
-def _names(point: Point) -> tuple[str, ...]:
-    enum = point.enum or (point.digits and point.digits.enum)
-    names = "; ".join(map(wording.entry_text, enum.entries)) if enum else ""
-    flags = "; ".join(wording.flag_text(flag, point) for flag in point.flags)
-    codes = [wording.special_text(special, point.width) for special in point.specials if special.own]
-    specials = "; ".join((*codes, f"those of {point.specials_of}") if point.specials_of else codes)
-    return names, flags, specials, wording.fixed_text(point)
+def _common_remarks(scope: Scope, point: Point) -> Iterator[str]:
+    """What else is to be said of all points of a kin; much of it may be empty."""
+    terms = point.terms
+    yield f"type: {terms.untyped}" if terms.untyped else ""
+    yield wording.type_text(point) if point.form in ("text", "digits") else ""
+    yield f"steps: {wording.steps_text(point)}" if point.steps else ""
+    yield wording.fixed_text(point)
+    yield wording.display_text(point)
+    yield from wording.width_texts(point)
+    yield f"exists when {wording.condition_text(terms.when, scope.by_name)}" if terms.when else ""
+    yield f"since {terms.since}" if terms.since else ""
+    yield f"until {terms.until}" if terms.until else ""
+    yield f"read it again after writing {', '.join(terms.changes_with)}" if terms.changes_with else ""
 
 
-def _behaviour(scope: Scope, point: Point) -> tuple[str, ...]:
-    return (
-        wording.keeps_text(scope.device, point),
-        "; ".join(point.conditions),
-        wording.condition_text(point.when, scope.by_name),
-        point.since or "",
-        point.until or "",
-        point.changes or "",
-        " ".join(point.changes_with),
-    )
+def _remarks(point: Point, kin: _Kin, encode: Encode) -> str:
+    own = [*_own_remarks(point)]
+    return encode("; ".join([*kin.remarks, *own])) if own else kin.remarks_cell
 
 
-def _default(point: Point) -> str:
-    return csv_cell(wording.default_text(point, unit=False))
-
-
-def _own(point: Point) -> str:
-    """What tells few points from others of their kin: record, set, former names, note and errata."""
-    if not (point.record or point.was or point.note or point.errata) and point.set is None:
-        return ",,,,"
-    number = "" if point.set is None else str(point.set)
-    note = wording.title_text(point.note) if point.note else ""
-    return _joined((point.record or "", number, "; ".join(point.was), note, "; ".join(point.errata)))
-
-
-def _source(source: Source) -> str:
-    page = _page(source.document, source.section or "", source.page or "")
-    return page if source.line is None else f"{page}{source.line}"
-
-
-@lru_cache(maxsize=256)
-def _page(*parts: str) -> str:
-    """Where in which document, up to the number of the line."""
-    return f"{_joined(parts)},"
+def _own_remarks(point: Point) -> Iterator[str]:
+    """What else is to be said of one point alone."""
+    if point.write_place is not None and point.addresses:
+        yield f"written at {wording.write_place_text(point)}"
+    if point.default is not None and point.default_raw is None and not decimal(number_text(point.default)):
+        yield f"default {wording.default_text(point)}"
+    if point.was:
+        yield f"was {', '.join(point.was)}"

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe import wording
 from fieldscribe.model import Shape
 from fieldscribe.targets.docs.cells import cell, narrow, number_cell
-from fieldscribe.text import csv_cell
 from fieldscribe.wording.exact import fixed_rule
 from fieldscribe.wording.rules import Called
 
@@ -22,10 +21,9 @@ _UNNAMED = attrgetter(*(name for name in Shape.__annotations__ if name != "enum"
 
 
 class Limits(NamedTuple):
-    """What rows say of limits: the page range and raw range, the sheet the outermost raw numbers and both ranges."""
+    """What rows of the page say of limits: range and raw range. Points that say the same have the same object."""
 
     page: tuple[str, str]
-    sheet: str
 
 
 class Subject(NamedTuple):
@@ -51,7 +49,7 @@ def scope_of(device: Device) -> Scope:
     """The points of a device for its rows."""
     by_name = {point.name: point for point in device.points}
     by_code = Called(by_name, _codes(device.points))
-    return Scope(device, by_name, by_code, tuple(_subjects(device.points, by_name, by_code)), len(device.documents) > 1)
+    return Scope(device, by_name, by_code, tuple(_subjects(device.points, by_code)), len(device.documents) > 1)
 
 
 def _codes(points: Iterable[Point]) -> dict[str, str]:
@@ -84,7 +82,7 @@ def numbers_text(point: Point, keys: Sequence[str]) -> str:
     return " / ".join([number_cell(references.get(key, "-")) for key in keys])
 
 
-def _subjects(points: Iterable[Point], by_name: Mapping[str, Point], by_code: Called) -> Iterator[Subject]:
+def _subjects(points: Iterable[Point], by_code: Called) -> Iterator[Subject]:
     shapes, kins = dict[int, object](), dict[object, int]()
     known_limits: dict[object, Limits] = {}
     for point in points:
@@ -95,7 +93,7 @@ def _subjects(points: Iterable[Point], by_name: Mapping[str, Point], by_code: Ca
         key = limits_of(point, kin)
         limits = known_limits.get(key)
         if limits is None:
-            limits = known_limits[key] = _limits(point, by_name, by_code)
+            limits = known_limits[key] = _limits(point, by_code)
         yield Subject(point, kin, limits)
 
 
@@ -114,20 +112,11 @@ def limits_of(point: Point, kin: int) -> object:
     return kin, id(point.allowed)
 
 
-def _limits(point: Point, by_name: Mapping[str, Point], by_code: Called) -> Limits:
-    span, raw = wording.range_text(point, by_name), wording.raw_range_text(point)
-    outer = None if point.info.floating else wording.outer_raw(point)
-    ends = f"{outer[0]},{outer[1]}" if outer else ","
-    return Limits(_page_limits(point, by_code, span, raw), f"{ends},{csv_cell(raw)},{csv_cell(span)}")
-
-
-def _page_limits(point: Point, by_code: Called, span: str, raw: str) -> tuple[str, str]:
+def _limits(point: Point, by_code: Called) -> Limits:
     """The range without its unit, and the raw range where it says more; both call other points by their codes."""
-    if point.allowed.moves:
-        raw = wording.raw_range_text(point, Called({}, by_code.called))
-    if point.allowed.moves or point.unit.symbol:
-        span = wording.range_text(point, by_code, unit=False)
-    return "" if point.flags else narrow(cell(span)), narrow(cell(raw)) if _has_rule(point) else ""
+    raw = wording.raw_range_text(point, Called({}, by_code.called) if point.allowed.moves else None)
+    span = wording.range_text(point, by_code, unit=False)
+    return Limits(("" if point.flags else narrow(cell(span)), narrow(cell(raw)) if _has_rule(point) else ""))
 
 
 def _has_rule(point: Point) -> bool:

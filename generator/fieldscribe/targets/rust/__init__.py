@@ -68,6 +68,7 @@ def _crate(
     from fieldscribe.targets.rust.device import texts_of
 
     yield f"{device.id}/Cargo.toml", render("rust/Cargo.toml.j2", context)
+    yield f"{device.id}/README.md", render("rust/README.md.j2", context)
     yield f"{device.id}/src/lib.rs", render(f"rust/{device.family}.rs.j2", context)
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         texts = texts_of(name, device, scope, render)

@@ -9,7 +9,7 @@ from fieldscribe.model import Version
 from fieldscribe.names import upper
 from fieldscribe.targets.heads import command
 from fieldscribe.targets.rust.documentation import left_out
-from fieldscribe.targets.rust.example import example_of, example_uses
+from fieldscribe.targets.rust.example import example_of, example_uses, first_program
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import Item, binding
@@ -17,7 +17,7 @@ from fieldscribe.targets.rust.literals import integer
 from fieldscribe.targets.rust.points import point_texts
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_texts, word_texts
-from fieldscribe.text import line, rust_code, rust_string
+from fieldscribe.text import line, markdown, rust_code, rust_string, toml_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -64,6 +64,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     version = Version.of(device.version)
     of_family, example = in_rust(device.family), example_of(device, scope)
     heard, received = of_family.heard(scope)
+    family_context = of_family.context(device)
     return {
         "head": head(device, "//"),
         "table": tuple(subject.name for subject in scope.subjects),
@@ -88,7 +89,12 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "version_number": integer(version.number),
         "digest_literal": rust_string(device.digest),
         "package_head": head(device, "#"),
-        "title_literal": rust_string(f"{device.vendor} {device.model}"),
+        "head_lines": head(device, "").replace("\n ", "\n")[1:],
+        "version_toml": toml_string(device.version),
+        "description_toml": toml_string(f"{device.vendor} {device.model}: points, exact conversions and frames"),
+        "title_markdown": markdown(f"{device.vendor} {device.model}"),
+        "transports": of_family.transports,
+        "first_program": first_program(device.id, scope, of_family, str(family_context["example_link"])),
         "family": device.family,
-        **of_family.context(device),
+        **family_context,
     }

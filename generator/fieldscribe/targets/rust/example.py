@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device
+    from fieldscribe.targets.rust.families import OfFamily
     from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
@@ -32,7 +33,7 @@ class Snippet:
 
 def example_of(device: Device, scope: CrateScope) -> Snippet:
     """What a function that talks to the device does; nothing if no point is read by itself alone."""
-    asked = sorted((one for one in scope.subjects if one.point.telegram is None), key=lambda one: one.point.rank)
+    asked = _asked(scope)
     read = _first(one for one in _plain(asked) if one.form == "scaled") or _first(_plain(asked))
     if read is None:
         return Snippet()
@@ -40,10 +41,37 @@ def example_of(device: Device, scope: CrateScope) -> Snippet:
     return first + _writes(asked) + _special(asked) + _blocks(device, asked) + _command(device)
 
 
+def first_program(device: str, scope: CrateScope, family: OfFamily, link: str) -> Lines:
+    """A whole program over a transport of the runtime; nothing if there is none, or no point read by itself alone."""
+    asked = _asked(scope)
+    only_read = (subject for subject in _plain(asked) if subject.form == "scaled" and not subject.point.writable)
+    read = _first(only_read) or _first(_plain(asked))
+    if read is None or not family.line:
+        return ()
+    names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names, "PROFILE")
+    written = _first(subject for subject in asked if not subject.arguments and _takes_a_value(subject))
+    return (
+        *filled(f"use {device}::{{", ", ", names, "};"),
+        "",
+        "fn main() -> Result<(), Box<dyn std::error::Error>> {",
+        f"    let line = {family.line};",
+        f"    let mut client = Client::new(line, &PROFILE, {link});",
+        f'    println!("{{:?}}", client.read::<p::{read.name}>()?);',
+        *((f"    client.write::<p::{written.name}>({_inside(written)})?;",) if written else ()),
+        "    Ok(())",
+        "}",
+    )
+
+
 def example_uses(device: str, snippet: Snippet, names: Sequence[str]) -> Lines:
     """What the example imports: what each does, the family's `names`, and what its lines name."""
     named = sorted((*_ALWAYS, *names, *snippet.names), key=lambda name: (name[0].isupper(), name))
     return filled(f"use {device}::{{", ", ", named, "};")
+
+
+def _asked(scope: CrateScope) -> list[CratePoint]:
+    """Points outside of telegrams, the lowest address first, so that a new point rarely takes an example over."""
+    return sorted((one for one in scope.subjects if one.point.telegram is None), key=lambda one: one.point.rank)
 
 
 def _writes(asked: list[CratePoint]) -> Snippet:

@@ -23,7 +23,7 @@ pub use error::{BuildError, ReplyError};
 pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};
 pub use reply::{reply_length, Reply};
-pub use request::Request;
+pub use request::{framing_of, Request};
 
 /// The longest frame of both framings, in bytes.
 pub const LONGEST: usize = 260;

@@ -5,6 +5,13 @@ use super::function::{is_read, read_function, write_function};
 use super::{crc, Block, BuildError, Command, Framing, Profile};
 use crate::{BitGroup, Readable, Whole, Writable};
 
+/// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
+///
+/// Of RTU only writes of several items are as long. From address 0 their count of `n` items stands where a length
+/// would, for frames of `9 + 2 n` bytes (words) or `9 + (n + 7) / 8` (bits, perhaps one more). That is `6 + n` for
+/// four or five bits alone, whose frames are shorter.
+const SHORTEST_TCP: usize = 12;
+
 /// What a request writes.
 #[derive(Clone, Copy, Debug)]
 enum Values<'a> {
@@ -221,6 +228,27 @@ impl<'a> Request<'a> {
             (5, Some(_)) => 0xFF00,
             (_, Some(value)) => *value,
         }
+    }
+}
+
+/// The framing of a request that was built: over TCP it says its own length, and no request of RTU looks as if it did.
+///
+/// ```
+/// use fieldscribe_runtime::modbus::{framing_of, Framing};
+///
+/// assert_eq!(framing_of(b"\x01\x03\x10\x28\x00\x01\x00\xC2"), Framing::Rtu);
+/// assert_eq!(framing_of(b"\x00\x07\x00\x00\x00\x06\x01\x03\x10\x28\x00\x01"), Framing::Tcp);
+/// ```
+#[must_use]
+pub fn framing_of(request: &[u8]) -> Framing {
+    match *request {
+        [_, _, 0, 0, high, low, ..]
+            if request.len() >= SHORTEST_TCP
+                && usize::from(u16::from_be_bytes([high, low])) + 6 == request.len() =>
+        {
+            Framing::Tcp
+        }
+        _ => Framing::Rtu,
     }
 }
 

@@ -196,5 +196,6 @@ IN_RUST = OfFamily(
     tables_of_frames=tables_of_frames,
     refusals="constant",
     names=("Frame",),
+    transports=("embedded-can",),
     heard=heard,
 )

@@ -91,4 +91,10 @@ def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
         yield f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 
-IN_RUST = OfFamily(context, names=("Framing",))
+IN_RUST = OfFamily(
+    context,
+    names=("Framing",),
+    transports=("std", "tokio-modbus", "embedded-io", "embedded-io-async"),
+    line='TcpLine::new("192.168.0.20:502")',
+    line_names="tcp::TcpLine",
+)

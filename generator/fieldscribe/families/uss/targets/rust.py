@@ -104,4 +104,13 @@ def _process_ways(subject: CratePoint, direction: str) -> Iterator[Way]:
         yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
 
 
-IN_RUST = OfFamily(context, traits, identifiers, ways, names=("Link",))
+IN_RUST = OfFamily(
+    context,
+    traits,
+    identifiers,
+    ways,
+    names=("Link",),
+    transports=("std", "embedded-io", "embedded-io-async"),
+    line='TcpLine::speaking(Protocol::Uss, "192.168.0.20:4001")',
+    line_names="{tcp::TcpLine, Protocol}",
+)

@@ -71,7 +71,8 @@ class OfFamily:
     traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to
     read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
     for the codes of refusals. The first page of a crate imports these `names`; `heard` is the telegram to which it
-    listens, as a type, and the lines that use points of it.
+    listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features of the
+    runtime; its first program talks over `line` (none: it has none), and imports `line_names` of the runtime.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -82,6 +83,9 @@ class OfFamily:
     tables_of_frames: Callable[[Device], Iterable[Table]] = nothing
     refusals: str = "code"
     names: tuple[str, ...] = ()
+    transports: tuple[str, ...] = ()
+    line: str = ""
+    line_names: str = ""
     heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: 0BSD
-//! Transports of families that ask and answer, which the caller brings. Nothing here does input or output itself.
+//! Transports of families that ask and answer, which the caller brings. Nothing here does input or output itself;
+//! [`crate::transports`] has some that do.
 //!
 //! The clients of the other families are in [`crate::uss`] and [`crate::can`].
 

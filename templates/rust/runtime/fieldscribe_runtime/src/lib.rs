@@ -2,10 +2,13 @@
 //! What the modules that fieldscribe generates have in common: the traits of a point, exact arithmetic, and for each
 //! family of buses a module with its frames and its clients: [`modbus`], [`can`], [`uss`].
 //!
-//! Nothing here allocates, does input or output, or panics.
+//! Nothing here allocates, does input or output, or panics. Transports that do are features of [`transports`].
 
 #![no_std]
 #![forbid(unsafe_code)]
+
+#[cfg(feature = "std")]
+extern crate std;
 
 // x87 arithmetic rounds twice, and values would not be exact to the bit.
 #[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
@@ -31,6 +34,7 @@ mod rule;
 mod scale;
 mod special;
 pub mod text;
+pub mod transports;
 pub mod uss;
 
 pub use client::{AsyncTransport, LocalTransport, Transport};

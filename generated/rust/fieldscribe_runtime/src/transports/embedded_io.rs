@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: 0BSD
+//! Ports of embedded-io 0.7, as a UART. Needs the feature `embedded-io`.
+
+use ::embedded_io::{Read, ReadReady, Write};
+
+use super::{Answer, LineError, Protocol, NOISE};
+use crate::Transport;
+
+/// A port that tells whether bytes have come, and what is done meanwhile.
+///
+/// `wait` is called while nothing comes, with how often that was so in a row; it gives whether to go on waiting:
+///
+/// ```
+/// use fieldscribe_runtime::transports::embedded_io::Line;
+/// # use embedded_io::{ErrorType, Read, ReadReady, Write};
+/// # struct Uart;
+/// # impl ErrorType for Uart { type Error = embedded_io::ErrorKind; }
+/// # impl Read for Uart { fn read(&mut self, _: &mut [u8]) -> Result<usize, Self::Error> { Ok(0) } }
+/// # impl ReadReady for Uart { fn read_ready(&mut self) -> Result<bool, Self::Error> { Ok(false) } }
+/// # impl Write for Uart {
+/// #     fn write(&mut self, bytes: &[u8]) -> Result<usize, Self::Error> { Ok(bytes.len()) }
+/// #     fn flush(&mut self) -> Result<(), Self::Error> { Ok(()) }
+/// # }
+/// # struct Delay;
+/// # impl Delay { fn delay_us(&mut self, _: u32) {} }
+/// # let (uart, mut delay) = (Uart, Delay);
+///
+/// let line = Line::new(uart, |waited| {
+///     delay.delay_us(100);
+///     waited < 5_000 // half a second
+/// });
+/// ```
+#[derive(Debug)]
+pub struct Line<P, W> {
+    port: P,
+    wait: W,
+    protocol: Protocol,
+}
+
+impl<P, W: FnMut(u32) -> bool> Line<P, W> {
+    /// A line of Modbus.
+    pub const fn new(port: P, wait: W) -> Self {
+        Self::speaking(Protocol::Modbus, port, wait)
+    }
+
+    /// A line of that protocol.
+    pub const fn speaking(protocol: Protocol, port: P, wait: W) -> Self {
+        Self {
+            port,
+            wait,
+            protocol,
+        }
+    }
+
+    /// The port, as for its settings.
+    pub fn port(&mut self) -> &mut P {
+        &mut self.port
+    }
+}
+
+impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Line<P, W> {
+    /// Waits until bytes have come.
+    fn until_ready(&mut self) -> Result<(), LineError<P::Error>> {
+        let mut waited = 0_u32;
+        while !self.port.read_ready()? {
+            if !(self.wait)(waited) {
+                return Err(LineError::TimedOut);
+            }
+            waited = waited.saturating_add(1);
+        }
+        Ok(())
+    }
+}
+
+impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Transport for Line<P, W> {
+    type Error = LineError<P::Error>;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        let mut thrown_away = [0; 16];
+        for _ in 0..NOISE {
+            if !self.port.read_ready()? || self.port.read(&mut thrown_away)? == 0 {
+                break;
+            }
+        }
+        self.port.write_all(request)?;
+        self.port.flush()?;
+        let mut answer = Answer::new(self.protocol, request, reply);
+        while let Some(space) = answer.space() {
+            self.until_ready()?;
+            match self.port.read(space)? {
+                0 => return Err(LineError::Closed),
+                count => answer.took(count),
+            }
+        }
+        Ok(answer.length())
+    }
+}

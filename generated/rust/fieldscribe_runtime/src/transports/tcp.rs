@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: 0BSD
+//! TCP by the standard library. Needs the feature `std`.
+
+use std::io::{Error, ErrorKind, Read, Result, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::{Duration, Instant};
+
+use super::stream::is_silence;
+use super::{Answer, Protocol};
+use crate::Transport;
+
+/// A connection over TCP: Modbus TCP, or the frames of a serial line behind a serial server.
+///
+/// It connects when it is used first, and anew after a failure: whoever tries again needs to do nothing else.
+///
+/// ```no_run
+/// use std::time::Duration;
+///
+/// use fieldscribe_runtime::transports::tcp::TcpLine;
+///
+/// let line = TcpLine::new("192.168.0.20:502").timeout(Duration::from_millis(300));
+/// ```
+#[derive(Debug)]
+pub struct TcpLine<A> {
+    address: A,
+    timeout: Duration,
+    protocol: Protocol,
+    stream: Option<TcpStream>,
+}
+
+impl<A: ToSocketAddrs> TcpLine<A> {
+    /// A connection to that address, for Modbus, with a second for each answer.
+    pub const fn new(address: A) -> Self {
+        Self::speaking(Protocol::Modbus, address)
+    }
+
+    /// A connection for that protocol.
+    pub const fn speaking(protocol: Protocol, address: A) -> Self {
+        Self {
+            address,
+            timeout: Duration::from_secs(1),
+            protocol,
+            stream: None,
+        }
+    }
+
+    /// The same with another time for connecting, and for each whole answer. At least a millisecond is waited.
+    #[must_use]
+    pub fn timeout(self, timeout: Duration) -> Self {
+        Self {
+            timeout: timeout.max(Duration::from_millis(1)),
+            ..self
+        }
+    }
+
+    /// The connection that there is, if nothing says that it has ended; else a new one.
+    fn connection(&mut self) -> Result<TcpStream> {
+        let old = self.stream.take();
+        match old.filter(|stream| drained(stream).unwrap_or(false)) {
+            Some(stream) => Ok(stream),
+            None => self.connected(),
+        }
+    }
+
+    fn connected(&self) -> Result<TcpStream> {
+        let mut failure = Error::from(ErrorKind::AddrNotAvailable);
+        for address in self.address.to_socket_addrs()? {
+            match TcpStream::connect_timeout(&address, self.timeout) {
+                Ok(stream) => {
+                    stream.set_nodelay(true)?;
+                    stream.set_write_timeout(Some(self.timeout))?;
+                    return Ok(stream);
+                }
+                Err(error) => failure = error,
+            }
+        }
+        Err(failure)
+    }
+}
+
+impl<A: ToSocketAddrs> Transport for TcpLine<A> {
+    type Error = Error;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize> {
+        let mut stream = self.connection()?;
+        let started = Instant::now();
+        stream.write_all(request)?;
+        let mut answer = Answer::new(self.protocol, request, reply);
+        while let Some(space) = answer.space() {
+            let left = self.timeout.checked_sub(started.elapsed());
+            let left = left.filter(|left| !left.is_zero());
+            stream.set_read_timeout(Some(left.ok_or(ErrorKind::TimedOut)?))?;
+            match stream.read(space) {
+                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+                Ok(count) => answer.took(count),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) if is_silence(error.kind()) => return Err(ErrorKind::TimedOut.into()),
+                Err(error) => return Err(error),
+            }
+        }
+        if answer.is_clean() {
+            self.stream = Some(stream);
+        }
+        Ok(answer.length())
+    }
+}
+
+/// Throws away what came; whether the other end is still there.
+fn drained(mut stream: &TcpStream) -> Result<bool> {
+    stream.set_nonblocking(true)?;
+    let mut thrown_away = [0; 256];
+    let is_there = loop {
+        match stream.read(&mut thrown_away) {
+            Ok(0) => break false,
+            Ok(_) => {}
+            Err(error) => break error.kind() == ErrorKind::WouldBlock,
+        }
+    };
+    stream.set_nonblocking(false)?;
+    Ok(is_there)
+}

@@ -1,0 +1,67 @@
+"""`fieldscribe docs`: the documentation of devices, in the form that one works with."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.vendoring.orders import Order
+
+HELP = "write the documentation of devices: a workbook, tables as CSV, or a page in Markdown"
+EXAMPLE = """examples:
+  fieldscribe docs hitachi_l200 --format xlsx --out tables
+  fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables
+  fieldscribe docs nord_sk5xxe --format markdown --out manuals
+  fieldscribe docs hitachi_l200 --format xlsx --out tables --check
+
+a workbook has the points, their meanings (names of numbers, flags, special codes), the errata, and what its columns say
+--check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
+ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_descriptions, some_path
+    from fieldscribe.vendoring.documents import FORMATS
+
+    parser.add_argument(
+        "devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml"
+    )
+    add_descriptions(parser)
+    told = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
+    parser.add_argument("--format", choices=tuple(FORMATS), required=True, help=told)
+    parser.add_argument("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
+    parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
+    parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
+
+
+def run(arguments: Namespace) -> int:
+    """Write it, or compare; the exit code."""
+    from fieldscribe.cli.vendor import delivered, say
+
+    orders, code = _orders(arguments)
+    missing = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
+    deliveries = delivered(orders, missing, "text", check=arguments.check, force=arguments.force)
+    return max(code, say(deliveries, "text", check=arguments.check))
+
+
+def _orders(arguments: Namespace) -> tuple[list[Order], int]:
+    """An order for each device that has no errors, and the exit code of the others."""
+    from argparse import Namespace as Asked
+
+    from fieldscribe.cli import FINE
+    from fieldscribe.cli.common import StopError, open_device
+    from fieldscribe.vendoring.documents import DocumentsWish
+    from fieldscribe.vendoring.orders import Order
+
+    orders, code = [], FINE
+    for asked in arguments.devices:
+        try:
+            device = open_device(Asked(device=asked, descriptions=arguments.descriptions))
+        except StopError as stop:
+            code = max(code, stop.tell())
+        else:
+            orders.append(Order(device, DocumentsWish(arguments.format), arguments.out))
+    return orders, code

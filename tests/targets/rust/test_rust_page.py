@@ -1,0 +1,262 @@
+"""Transports of Rust, and the page on them: vendored crates with all features, on real servers and buses in memory."""
+
+from __future__ import annotations
+
+import os
+import re
+import select
+import shutil
+import socket
+import threading
+import tty
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.cli import main
+from pymodbus import FramerType
+from support.made_once import made_once
+from support.modbus_server import server
+from support.places import ROOT, TESTS
+from support.toolchains import crates, run, succeed, tool
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+PAGE = (ROOT / "descriptions/using/rust.md").read_text("utf-8")
+BLOCK = re.compile(r"(?:`(?P<name>[\w./]+)`:\n\n)?^```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCKS = {
+    kind: [match for match in BLOCK.finditer(PAGE) if match["kind"] == kind and not match["name"]]
+    for kind in ("rust", "toml", "sh")
+}
+FILES = {match["name"]: match["text"] for match in BLOCK.finditer(PAGE) if match["name"]}
+DEVICES = {
+    "hitachi_l200": (),
+    "siemens_mm4": ("P1082",),
+    "woodward_mpu2s": ("generator_frequency*", "voltage_controller", "operating_hours", "telegram_identification"),
+    "jumo_controller": ("process_data",),
+    "nord_sk5xxe": ("P102",),
+}
+"""What is vendored: a whole device, and points of the others."""
+
+AROUND = """\
+#![allow(unused)]
+use hitachi_l200::{points as p, Client, Framing, PROFILE};
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let line = hitachi_l200::runtime::transports::tcp::TcpLine::new("192.168.0.20:4001");
+    let mut drive = hitachi_l200::Client::new(line, &hitachi_l200::PROFILE, hitachi_l200::Framing::Rtu, 1);
+@BLOCK@
+    @CALL@
+    Ok(())
+}
+"""
+CALLS = {
+    "struct Recorder": """let stream = std::net::TcpStream::connect("192.168.0.20:4001")?;
+    let mut drive = Client::new(Recorder(stream), &PROFILE, Framing::Rtu, 1);
+    println!("{}", drive.read::<p::OutputFrequency>()?);""",
+    "fn slow_down": """let uart = programs::uart::Uart::new(&[&programs::uart::word(7)]);
+    println!("{:?}", slow_down(uart, || ()));""",
+    "fn watch": """println!("{:?}", watch(programs::bus::Controller { speaks: true, ..Default::default() }));""",
+}
+"""How a block that only declares a function or a type is used."""
+
+PLACES = {"192.168.0.20:4001": "RTU", "192.168.0.20:502": "TCP", "/dev/ttyUSB0": "TTY"}
+"""The addresses on the page, and where a program finds those of the test."""
+
+
+def program(block: str) -> str:
+    """A block of the page as a whole program."""
+    if "fn main()" not in block:
+        call = next((call for mark, call in CALLS.items() if mark in block), "")
+        block = AROUND.replace("@BLOCK@", block).replace("@CALL@", call)
+    for address, variable in PLACES.items():
+        block = block.replace(f'"{address}"', f'std::env::var("{variable}").unwrap()')
+    return block
+
+
+@pytest.fixture(scope="session")
+def project(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
+    """A project with vendored devices and all programs, built; what cargo builds stays in pytest's cache."""
+    target = request.config.cache.mkdir("transports") if request.config.cache else None
+    made = made_once(tmp_path_factory, "transports", partial(write_project, target))
+    return made / "project"
+
+
+def write_project(target: Path | None, out: Path) -> None:
+    project = out / "project"
+    shutil.copytree(TESTS / "rust/transports", project)
+    for device, points in DEVICES.items():
+        chosen = ("--points", ",".join(points)) if points else ()
+        assert main(["vendor", "rust", device, "--out", str(project / "drivers"), *chosen]) == 0
+    for number, block in enumerate(BLOCKS["rust"]):
+        (project / f"src/bin/page_{number:02}.rs").write_text(program(block["text"]), "utf-8")
+    if target:
+        (project / ".cargo").mkdir()
+        (project / ".cargo/config.toml").write_text(f"build.target-dir = {str(target)!r}\n", "utf-8")
+    crates(project)
+    succeed([tool("cargo"), "build", "--offline", "--quiet", "--bins"], cwd=project)
+    shutil.copytree(target / "debug" if target else project / "target/debug", out / "built", ignore=only_programs)
+
+
+def only_programs(folder: str, names: list[str]) -> list[str]:
+    """What is no program in the folder that cargo fills."""
+    return [name for name in names if "." in name or os.path.isdir(os.path.join(folder, name))]
+
+
+@contextmanager
+def serial_line(port: int) -> Iterator[str]:
+    """A pseudo terminal whose other end is a server; its path."""
+    near, far = os.openpty()
+    tty.setraw(near)
+    tty.setraw(far)
+    stop = threading.Event()
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+
+        def pump() -> None:
+            while not stop.is_set():
+                ready = select.select([near, connection.fileno()], [], [], 0.05)[0]
+                if connection.fileno() in ready:
+                    os.write(near, connection.recv(512))
+                if near in ready:
+                    connection.sendall(os.read(near, 512))
+
+        thread = threading.Thread(target=pump, daemon=True)
+        thread.start()
+        try:
+            yield os.ttyname(far)
+        finally:
+            stop.set()
+            thread.join(2)
+            os.close(near)
+            os.close(far)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("tcp", marks=pytest.mark.full(seconds=25)),  # builds them all
+        *(pytest.param(name, marks=pytest.mark.full(seconds=1)) for name in ("stream", "tokio", "embedded", "can")),
+    ],
+)
+def test_transports(project: Path, name: str) -> None:
+    built = project.parent / "built" / name
+    with server(FramerType.RTU) as rtu, server() as tcp, server(FramerType.RTU) as behind, serial_line(behind) as path:
+        ports: tuple[str | int, ...] = (path,) if name == "stream" else (rtu, tcp)
+        assert succeed([built, *map(str, ports)]) == ""
+
+
+@pytest.mark.full(seconds=1)
+def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    programs = sorted((project.parent / "built").glob("page_??"))
+    assert len(programs) == len(BLOCKS["rust"])
+    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp, serial_line(rtu) as path:
+        for variable, value in (("RTU", f"127.0.0.1:{rtu}"), ("TCP", f"127.0.0.1:{tcp}"), ("TTY", path)):
+            monkeypatch.setenv(variable, value)
+        printed = [succeed([place]).splitlines() for place in programs]
+    first, serial, gateway, own, tokio, many, values, by_address, by_name, failing, uart, genset = printed
+    assert first == serial == ["0.1 Hz"]
+    assert gateway == tokio == ["0.1"]
+    assert own == ["> [01, 03, 10, 01, 00, 01, D1, 0A]", "0.1"]
+    assert many == ["0.1 Hz", "0.1 A"]
+    assert values == ["Modbus 500", "50 Ok(500)", "500", "inactive"]
+    assert by_address == ["Some(500)"]
+    assert by_name == ["base_frequency at 1028h in Hz"]
+    assert failing[0] == "0.1"
+    assert failing[1].startswith("base_frequency: ")
+    assert failing[2].endswith(" A")
+    assert uart == ["Ok(0.7)"]
+    assert genset == ["49.98 Hz", "Ok(())"]
+
+
+def test_the_readme_has_the_first_program() -> None:
+    assert BLOCKS["rust"][0]["text"] in (ROOT / "README.md").read_text("utf-8")
+
+
+@pytest.mark.full(seconds=25)
+def test_vendored_crates_are_clean_with_all_features(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tool("rustfmt")
+    members = [word for name in ("fieldscribe_runtime", *DEVICES) for word in ("--package", name)]
+    cargo = partial(succeed, cwd=project)
+    flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
+    assert cargo([tool("cargo"), "clippy", "--offline", "--quiet", *members, "--all-features", *flags]) == ""
+    assert cargo([tool("cargo"), "fmt", *members, "--check"]) == ""
+    monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
+    for features in ((), ("--all-features",)):
+        cargo([tool("cargo"), "doc", "--offline", "--quiet", "--no-deps", *members, *features])
+
+
+@pytest.mark.full(seconds=11)
+def test_first_pages_run_with_all_features(project: Path) -> None:
+    some = [word for name in ("fieldscribe_runtime", "hitachi_l200", "siemens_mm4") for word in ("--package", name)]
+    said = succeed([tool("cargo"), "test", "--offline", "--quiet", "--doc", "--all-features", *some], cwd=project)
+    assert "failed" not in said.replace("0 failed", "")
+    assert "```no_run" in (project / "drivers/hitachi_l200/src/lib.rs").read_text("utf-8")
+
+
+@pytest.mark.full(seconds=8)
+def test_cargo_packages_the_crates(project: Path) -> None:
+    """Together, since no registry has the runtime; the only thing missing is where the sources are."""
+    version = re.search(r"cargo 1\.(\d+)", succeed([tool("cargo"), "--version"]))
+    if version is None or int(version[1]) < 90:
+        pytest.skip("cargo before 1.90 packages one crate at a time, with what it needs in a registry")
+    members = [word for name in ("fieldscribe_runtime", *DEVICES) for word in ("--package", name)]
+    done = run([tool("cargo"), "package", "--offline", "--allow-dirty", *members], cwd=project)
+    assert done.returncode == 0, done.stderr
+    assert set(re.findall("^warning: (.*)$", done.stderr, re.MULTILINE)) == {
+        "manifest has no documentation, homepage or repository"
+    }
+    assert done.stderr.count("Verifying ") == len(DEVICES) + 1
+
+
+@pytest.mark.full(seconds=9)
+def test_firmware_builds(project: Path) -> None:
+    target = "thumbv6m-none-eabi"
+    libraries = succeed([tool("rustc"), "--print", "target-libdir", "--target", target]).strip()
+    if not os.path.isdir(libraries):
+        pytest.skip(f"the library for {target} is missing: rustup target add {target}")
+    for device, features in (
+        ("hitachi_l200", "embedded-io,embedded-io-async"),
+        ("siemens_mm4", "embedded-io"),
+        ("woodward_mpu2s", "embedded-can"),
+    ):
+        words = ["check", "--offline", "--quiet", "--target", target, "--package", device, "--features", features]
+        assert succeed([tool("cargo"), *words], cwd=project) == ""
+
+
+@pytest.mark.full(seconds=12)
+def test_a_description_is_compiled_on_build(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Anew when it changed, and only then; without a registry."""
+    assert main(["vendor", "rust", "hitachi_l200", "--out", str(tmp_path / "drivers"), "--points", "A020"]) == 0
+    device = tmp_path / "device"
+    shutil.copytree(ROOT / "descriptions/hitachi_l200", device / "descriptions/hitachi_l200")
+    manifest = next(match["text"] for match in BLOCKS["toml"] if "[package]" in match["text"])
+    for name, text in ({"Cargo.toml": manifest} | FILES).items():
+        (device / name).parent.mkdir(exist_ok=True)
+        (device / name).write_text(text, "utf-8")
+    monkeypatch.setenv("FIELDSCRIBE", str(ROOT / ".venv/bin/fieldscribe"))
+    monkeypatch.setenv("CARGO_TARGET_DIR", str(tmp_path / "target"))
+    check = partial(run, [tool("cargo"), "check", "--offline", "--verbose", "--features", "std"], cwd=device)
+    assert re.search("Running `.*rustc --crate-name hitachi_l200 ", check().stderr)
+    assert "Fresh hitachi_l200" in check().stderr
+    part = device / "descriptions/hitachi_l200/standard_a.yaml"
+    good = part.read_text("utf-8")
+    part.write_text(good.replace("name: base_frequency\n", "name: basic_frequency\n"), "utf-8")
+    assert part.read_text("utf-8") != good
+    assert "Dirty hitachi_l200" in check().stderr
+    made = list((tmp_path / "target").rglob("rust/hitachi_l200/src/points.rs"))
+    assert ["BasicFrequency: u16" in place.read_text("utf-8") for place in made] == [True]
+    part.write_text(good.replace("at: 1028h", "at: 1028g"), "utf-8")
+    refused = check()
+    assert refused.returncode != 0
+    assert "fieldscribe did not compile the description" in refused.stderr
+
+
+def test_the_page_says_what_is_vendored() -> None:
+    """The command and the dependency are those of the project that the test builds."""
+    [command] = [match["text"].strip() for match in BLOCKS["sh"]]
+    assert command == "fieldscribe vendor rust hitachi_l200 --out drivers"
+    manifest = (TESTS / "rust/transports/Cargo.toml").read_text("utf-8")
+    assert 'hitachi_l200 = { path = "drivers/hitachi_l200", features = ["std"' in BLOCKS["toml"][0]["text"]
+    assert 'hitachi_l200 = { path = "drivers/hitachi_l200", features = ["std"' in manifest
