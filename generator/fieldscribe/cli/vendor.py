@@ -47,7 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     parser.add_argument("--single-file", action="store_true", help="c: all in one header")
-    parser.add_argument("--wheel", action="store_true", help="python: one wheel with the device and the runtime")
+    parser.add_argument("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
     parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
     parser.add_argument(
         "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
