@@ -466,7 +466,7 @@ def drip(listening: socket.socket, gap: float, data: bytes) -> None:
     with suppress(OSError):
         connection = listening.accept()[0]
         connection.recv(256)
-        for byte in data:
+        for number in data:
             connection.sendall(bytes((number,)))
             time.sleep(gap)
 
@@ -486,7 +486,8 @@ def test_a_reply_that_drips_takes_no_longer_than_the_timeout(l200: Any) -> None:
 def test_a_line_that_babbles_holds_up_nobody(l200: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transport("serial"), "_BABBLE", 0.2)
 
-    def babble(_: bytes) -> Iterator[bytes]:
+    def babble(request: bytes) -> Iterator[bytes]:
+        del request
         for _ in range(300):
             yield b"\x01\x03\xff"
             time.sleep(0.01)
