@@ -347,6 +347,40 @@ def test_lines_that_hold_nothing_stay_so_beside_numbers_that_are_no_facts(descri
     assert described.audit_alone(new)["uncited"] == []
 
 
+FLAGS = "{8: lamp, 9: pump, 10: fan, 11: door}"
+
+
+@pytest.mark.parametrize("new", ["11 + 10 + 2 + 8", "11 + 10 + 9", "11 + 9 + 10 + 8"])
+def test_a_row_that_lists_the_bits_of_flags_lists_all_of_them(new: str, described: Described) -> None:
+    """Though each of the bits stands beside its name, too."""
+    row = "\n## Inputs\n\nInputs 0031h\nBits 11 + 10 + 9 + 8\nBit 8 lamp 1\nBit 9 pump 2\nBit 10 fan\nBit 11 door\n"
+    (described.folder / "old.txt").write_text(OLD + row, "utf-8")
+    point = f"- {{name: inputs, at: 0031h, line: 28, lines: {{flags: 29..33}}, flags: {FLAGS}}}\n"
+    described.file.write_text(described.text + point, "utf-8")
+    assert described.audit(OLD + row)[0] == 0
+    code, report = described.audit(OLD + row.replace("11 + 10 + 9 + 8", new))
+    reasons = [reason["text"] for finding in report["findings"] for reason in finding["reasons"]]
+    assert (code, "inputs: list of bits 11, 10, 9, 8 is not there" in reasons) == (1, True), reasons
+
+
+WAYS_OUT = [
+    # what looked_through has of the row, what the finding says to write; nothing when it is explained
+    ("", "add `numbers: [7], words: [Delta, Kelvin]` there"),
+    ("numbers: [7], ", "looked_through has the line: add `words: [Delta, Kelvin]` there"),
+    ("numbers: [7], words: [Delta], ", "looked_through has the line: add `words: [Kelvin]` there"),
+    ("numbers: [7], words: [Delta Kelvin], ", ""),
+    ("numbers: [7, Delta, Kelvin], ", ""),
+]
+
+
+@pytest.mark.parametrize(("listed", "said"), WAYS_OUT)
+def test_a_row_that_was_looked_through_says_what_to_list(listed: str, said: str, described: Described) -> None:
+    described.edit("- {lines: [15, 19]", f"- {{lines: 12, {listed}why: x}}\n- {{lines: [15, 19]")
+    code, report = described.audit(OLD.replace("| 1-50 |", "| 1-50 (Delta 7 Kelvin) |"))
+    reasons = [reason["text"] for finding in report["findings"] for reason in finding["reasons"]]
+    assert (code, [said in reason for reason in reasons]) == ((1, [True]) if said else (0, []))
+
+
 def test_the_words_of_a_long_value_may_stand_in_two_rows(described: Described) -> None:
     rows = "| H07 (low) | Hours | 0017h | R | | |\n| H07 (high) | | 0018h | R | | |\n"
     point = "{code: H07, name: hours, at: 0017h, type: u32, words: low first, access: r, line: 26, printed: PRINTED}"
