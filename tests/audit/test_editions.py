@@ -363,6 +363,31 @@ def test_a_row_that_lists_the_bits_of_flags_lists_all_of_them(new: str, describe
     assert (code, "inputs: list of bits 11, 10, 9, 8 is not there" in reasons) == (1, True), reasons
 
 
+LINE = [
+    # what the new text says, what is not there then; the settings that follow it
+    ("8 data bits, no parity, 1 stop bit", "bus: parity even", "parity: none, stop_bits: 1"),
+    ("8 data bits, even parity, 2 stop bits", "bus: stop_bits 1", "parity: even, stop_bits: 2"),
+]
+
+
+@pytest.mark.parametrize(("now", "missing", "settings"), LINE)
+def test_the_settings_of_the_line_are_held(now: str, missing: str, settings: str, described: Described) -> None:
+    old = OLD + "\n## Line\n\n8 data bits, even parity, 1 stop bit\n"
+    (described.folder / "old.txt").write_text(old, "utf-8")
+    line = "06h: write_register}, serial: {parity: even, stop_bits: 1}, lines: {parity: 28, stop_bits: 28}}"
+    described.edit("06h: write_register}}", line)
+    described.edit("- {lines: 24, why", "- {lines: 28, numbers: [8], why: x}\n- {lines: 24, why")
+    new = old.replace("8 data bits, even parity, 1 stop bit", now)
+    code, report = described.audit(new)
+    [reason, *_] = [reason for finding in report["findings"] for reason in finding["reasons"]]
+    assert (code, reason["text"]) == (1, f"{missing} is not there")
+    assert f"device.yaml:{described.line_of('serial:')}:" in reason["place"]
+    described.edit("parity: even, stop_bits: 1", settings)
+    _, report = described.audit(new)
+    assert [reason["text"] for finding in report["findings"] for reason in finding["reasons"]] == []
+    assert (report["explained"], report["elsewhere"]) == (True, [])
+
+
 WAYS_OUT = [
     # what looked_through has of the row, what the finding says to write; nothing when it is explained
     ("", "add `numbers: [7], words: [Delta, Kelvin]` there"),

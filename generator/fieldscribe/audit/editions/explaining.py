@@ -151,7 +151,7 @@ class Explaining:
         reasons = list(self._by_facts(number, change))
         if not reasons and change.kind == "changed":
             meant = self._without_spellings(change)
-            reasons = [*self._passed_over(meant), *self._turned(meant)]
+            reasons = [*self._passed_over(meant), *self._turned(number, meant)]
         yield from reasons
 
     def _without_spellings(self, change: Change) -> Change:
@@ -184,12 +184,15 @@ class Explaining:
                 names = (word for reason in self._names(line, change) for word in reason.words)
                 yield self._list_them(new, line, "number", list(names))
 
-    def _turned(self, change: Change) -> Iterator[Reason]:
-        """Numbers in words, and words that turn a sentence round."""
+    def _turned(self, number: int, change: Change) -> Iterator[Reason]:
+        """Numbers in words, and words that turn a sentence round, but for those that the description followed."""
         olds, news = self.editions.old, self.editions.new
-        gaps = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in change.gaps]
+        claims = [pair.new for pair in self.pairs_of.get(number, ()) if pair.new and pair.old in self.old.missed]
+        followed = set().union(*(self.new.named[claim] for claim in claims if claim not in self.new.missed))
+        gaps = [(old, new) for old, new in change.gaps if followed.isdisjoint(new)]
+        texts = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in gaps]
         listed = set().union(*(self.new.no_facts.get(line, ()) for line in change.new))
-        told = [word for word in turned(gaps) if word not in listed]
+        told = [word for word in turned(texts) if word not in listed]
         if told:
             yield self._list_them(told, change.new[0], "word")
 
