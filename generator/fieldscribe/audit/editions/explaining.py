@@ -239,7 +239,7 @@ class Explaining:
     def _was_whole(self, pair: Pair, change: Change) -> bool:
         """Whether the changed lines had the label of a number, too: another place with the number is not its own."""
         if not pair.claim.beside or pair.old is None:
-            return pair.claim.entry is None
+            return True
         words = {word for line in change.old for word in self.editions.old.of_line(line)}
         return not self.old.named[pair.old].isdisjoint(words)
 
