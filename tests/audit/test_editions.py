@@ -483,7 +483,14 @@ NOTES = [
     ("bus", "It keeps the Hysteresis low.", ("Hysteresis", "Dead band"), {"Hysteresis": "line 12"}),
     ("bus", "The hysteresis stays small.", ("Hysteresis", "Dead band"), None),
     ("bus", "See H05 and H06.", ("| H05 |", "| H07 |"), {"H05": "line 12"}),
-    ("mode", "Cooling needs a kit, see line 15; 2 is rare.", ("2 cooling", "3 cooling"), None),
+    ("mode", "Cooling needs a kit, see line 15; 2 is rare.", ("2 cooling", "3 cooling"), {"2": "line 11"}),
+    ("bus", "Never write 2 there.", ("2 cooling", "3 cooling"), None),
+    (
+        "bus",
+        "Never write 0015h, which H02 shadows.",
+        ("| H05 | Hysteresis | 0015h | R/W | 1-50 | 0.1 °C |\n", ""),
+        {"0015h": "line 12"},
+    ),
 ]
 
 
