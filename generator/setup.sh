@@ -43,6 +43,11 @@ if [ "$purpose" = tests ]; then
     need_that "g++ libc6-dev" links g++ -x c++
     need_that "clang $(clang_libraries)" links clang -fsanitize=address,undefined
     need arm-none-eabi-gcc gcc-arm-none-eabi
+    need qemu-system-arm qemu-system-arm
+    need make make
+    need ninja ninja-build
+    need cmake cmake
+    need meson meson
     need avr-gcc "gcc-avr avr-libc"
     need_that gcc-multilib links gcc -m32
     need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h

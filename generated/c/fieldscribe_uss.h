@@ -6,7 +6,8 @@
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
- * Reading a parameter over a serial line; `sent` and `heard` are words of process data:
+ * Reading a parameter over a serial line; `sent` and `heard` are words of process data. `receive` is yours: false when
+ * the line stays silent.
  *
  *     const fieldscribe_uss_rw *const point = &siemens_mm4_maximum_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_USS_MOST];
@@ -15,17 +16,18 @@
  *     fieldscribe_uss_reply reply = {heard, link.pzd, 0U, 0U, 0U, 0U};
  *     request = fieldscribe_uss_read(unit, &point->read);
  *     status = fieldscribe_uss_build(&profile, &link, &request, &process, buffer, sizeof buffer, &length);
- *     discard();      (what has come in: one byte of noise would spoil this answer and all behind it)
+ *     discard();      (what has come in: a late answer would be taken for this one)
  *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
- *     got = 0U;
- *     while ((left = fieldscribe_uss_left(&link, buffer, sizeof buffer, got)) > 0U) {
- *         got += receive(buffer + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *     receiver = fieldscribe_uss_await(&link, &request, buffer, sizeof buffer);
+ *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
+ *         (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
  *     }
- *     status = fieldscribe_uss_parse(&profile, &link, &request, buffer, got, &reply);
+ *     status = fieldscribe_uss_parse(&profile, &link, &request, buffer, receiver.length, &reply);
  *     status = fieldscribe_uss_words_of_reply(&reply, &point->read, words, FIELDSCRIBE_COUNT(words));
  *     fits = fieldscribe_take_u32(point->layout, words, FIELDSCRIBE_COUNT(words), &raw);
  *
- * Whatever went wrong: wait until the line is silent before you ask again, or a late answer is taken for the next one.
+ * WRONG_START and WRONG_LENGTH then say that no answer came. Whatever went wrong: wait until the line is silent before
+ * you ask again, or a late answer is taken for the next one.
  *
  * Writing one: ..._encode says whether the number may be written, and the macro of a special code is such a raw number
  * as it stands; fieldscribe_put_u32(point->layout, raw, words, count) puts any that fits into the words, then
@@ -250,6 +252,32 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
     const fieldscribe_uss_link *link, const uint8_t *buffer, size_t size, size_t length);
 
 /*
+ * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
+ * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, a telegram
+ * of another unit or length, a wrong check. If nothing came and nothing was dropped, nobody answers.
+ */
+typedef struct fieldscribe_uss_receiver {
+    uint8_t *buffer;
+    size_t size;
+    size_t length;
+    size_t dropped;
+    bool done;
+    uint8_t unit;
+    size_t least; /* the bytes of the shortest answer */
+    bool longer;  /* whether there are longer ones */
+} fieldscribe_uss_receiver;
+
+/* A receiver for the answer to a request; it is done at once where `size` bytes are too few for any. */
+FIELDSCRIBE_CHECKED fieldscribe_uss_receiver fieldscribe_uss_await(
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, uint8_t *buffer, size_t size);
+
+/*
+ * Gives a receiver bytes, one or many, and says how many of them it took: all, but for those that came behind the whole
+ * answer. Those belong to the next one.
+ */
+size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t count);
+
+/*
  * Reads the answer to `request`. The words of process data, as many as the link has, come with every good telegram,
  * also with one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they
  * were if it is not good. What an answer does not say is 0 in the reply.
@@ -257,6 +285,27 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
     fieldscribe_uss_reply *reply);
+
+/*
+ * A line that telegrams go over. `send` drops what has come in and sends; `receive` waits for a byte, and says false
+ * when the line stays silent. Both are yours and get `context`. `buffer` has room for the longest telegram.
+ */
+typedef struct fieldscribe_uss_line {
+    const fieldscribe_uss_profile *profile;
+    const fieldscribe_uss_link *link;
+    uint8_t *buffer;
+    size_t size;
+    void (*send)(void *context, const uint8_t *bytes, size_t length);
+    bool (*receive)(void *context, uint8_t *byte);
+    void *context;
+} fieldscribe_uss_line;
+
+/*
+ * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
+ * WRONG_START and WRONG_LENGTH say that none came.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);
 
 /*
  * The words of the value that an answer brings, the high one first, where `count` are room enough; WRONG_RESPONSE when
@@ -613,6 +662,95 @@ uint32_t fieldscribe_uss_left(
         whole = (uint32_t)size;
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
+}
+
+fieldscribe_uss_receiver fieldscribe_uss_await(
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, uint8_t *buffer, size_t size)
+{
+    fieldscribe_uss_receiver receiver;
+    receiver.buffer = buffer;
+    receiver.size = size;
+    receiver.length = 0U;
+    receiver.dropped = 0U;
+    receiver.unit = request->unit;
+    receiver.least = (size_t)fieldscribe_uss_reply_length(link);
+    receiver.longer = link->pkw == FIELDSCRIBE_USS_VARIABLE;
+    receiver.done = receiver.least > size;
+    return receiver;
+}
+
+/* Whether an answer may have so many bytes. */
+static bool fieldscribe_uss_expects(const fieldscribe_uss_receiver *receiver, size_t whole)
+{
+    const bool longer = receiver->longer && (whole > receiver->least) && ((whole % 2U) == 0U);
+    return (longer && (whole <= receiver->size)) || (whole == receiver->least);
+}
+
+/* How many bytes the answer has that begins so; 0 where none does, or where it is whole and its check is wrong. */
+static size_t fieldscribe_uss_likely(const fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t length)
+{
+    const size_t whole = (length > 1U) ? (2U + (size_t)bytes[1]) : receiver->least;
+    bool begins = (bytes[0] == 0x02U) && fieldscribe_uss_expects(receiver, whole);
+    if (length > 2U) {
+        begins = begins && (bytes[2] == receiver->unit);
+    }
+    if (begins && (whole <= length)) {
+        begins = fieldscribe_uss_check(bytes, whole) == 0U; /* the last byte is such that all of them give 0 */
+    }
+    return begins ? whole : 0U;
+}
+
+/* Drops bytes until the rest may be the answer; whether that is whole is told, and what came behind it dropped. */
+static void fieldscribe_uss_settle(fieldscribe_uss_receiver *receiver)
+{
+    const size_t length = receiver->length;
+    size_t whole = 0U;
+    size_t from;
+    size_t to = 0U;
+    for (from = 0U; from < length; ++from) {
+        whole = fieldscribe_uss_likely(receiver, &receiver->buffer[from], length - from);
+        if (whole != 0U) {
+            break;
+        }
+    }
+    receiver->done = (whole != 0U) && ((length - from) >= whole);
+    receiver->length = receiver->done ? whole : (length - from);
+    receiver->dropped += length - receiver->length;
+    for (; (to < from) && (from < length); ++from) {
+        receiver->buffer[to] = receiver->buffer[from];
+        ++to;
+    }
+}
+
+size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t count)
+{
+    size_t taken = 0U;
+    while ((taken < count) && (receiver->length < receiver->size) && (!receiver->done)) {
+        receiver->buffer[receiver->length] = bytes[taken];
+        ++receiver->length;
+        ++taken;
+        fieldscribe_uss_settle(receiver);
+    }
+    return taken;
+}
+
+fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
+    const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply)
+{
+    size_t length;
+    fieldscribe_uss_status status =
+        fieldscribe_uss_build(line->profile, line->link, request, process, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_USS_OK) {
+        fieldscribe_uss_receiver receiver = fieldscribe_uss_await(line->link, request, line->buffer, line->size);
+        uint8_t byte = 0U;
+        line->send(line->context, line->buffer, length);
+        while ((!receiver.done) && line->receive(line->context, &byte)) {
+            (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
+        }
+        status =
+            fieldscribe_uss_parse(line->profile, line->link, request, line->buffer, receiver.length, reply);
+    }
+    return status;
 }
 
 fieldscribe_uss_status fieldscribe_uss_words_of_reply(

@@ -77,9 +77,9 @@ def _may_exist(path: Path) -> bool:
     return True
 
 
-def load_device(device_file: Path, report: Report) -> Device | None:
+def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
     """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
-    models = load_models(device_file, report)
+    models = load_models(device_file, report, inputs)
     return None if models is None else models.whole
 
 

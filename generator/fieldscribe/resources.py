@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache"})
 _PACKAGE = Path(__file__).resolve().parent
@@ -19,6 +24,14 @@ def templates_dir() -> Path:
 def descriptions_dir() -> Path:
     """The folder of the descriptions that come with the compiler."""
     return _shipped("descriptions")
+
+
+def compiler_files() -> Iterator[str]:
+    """The compiler's own files and its templates, in a fixed order: what they are is in all that is made."""
+    for root in (_PACKAGE, templates_dir()):
+        for folder, folders, files in os.walk(root):
+            folders[:] = sorted(set(folders) - _LEFT_BEHIND)
+            yield from (os.path.join(folder, name) for name in sorted(files))
 
 
 def runtime_files(folder: str) -> tuple[str, ...]:

@@ -31,7 +31,7 @@ LOADED: dict[Path, Device] = {}
 def _loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     load = pipeline.load_device
 
-    def load_once(device_file: Path, report: Report) -> Device | None:
+    def load_once(device_file: Path, report: Report, _inputs: object = None) -> Device | None:
         device = LOADED.get(device_file.resolve()) or load(device_file, report)
         if device is not None and not report.findings:
             LOADED[device_file.resolve()] = device

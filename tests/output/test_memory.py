@@ -66,8 +66,8 @@ def test_the_state_of_the_compiler_has_its_files_and_not_what_python_keeps_of_th
     from fieldscribe.output.memory import _compiler
 
     parts = _compiler()
-    assert any("'pipeline.py' (" in part for part in parts)
-    assert any("'fieldscribe.h' (" in part for part in parts)
+    assert any("/pipeline.py' (" in part for part in parts)
+    assert any("/fieldscribe.h' (" in part for part in parts)
     assert not any("__pycache__" in part or ".pyc" in part for part in parts)
 
 

@@ -7,6 +7,7 @@
 #include "arbitrary.h"
 #include "fieldscribe_modbus.h"
 
+#define STEPS 6U /* bytes that a receiver has got: each way through them is followed alone */
 #define KNOWN 3U    /* functions of a profile: each is looked at alone */
 #define FRAMES 300U /* longer than the longest frame */
 #define SHORT 32U   /* where build is followed with exact arrays; put_values, which fills in the data, for all lengths */
@@ -24,6 +25,9 @@ static fieldscribe_modbus_reply reply;
 static fieldscribe_modbus_reading reading;
 static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
+static fieldscribe_modbus_receiver receiver;
+static fieldscribe_modbus_beginning beginning;
+static fieldscribe_modbus_line line;
 static volatile uint8_t number;
 
 /* A profile that knows any functions; `count` of them, and no room for more. */
@@ -532,5 +536,128 @@ void prove_words_in(uint16_t count)
             (void)found[0];
             (void)found[reading.count - 1U];
         }
+    }
+}
+
+void prove_begin(uint8_t function, uint32_t whole)
+{
+    ask_any();
+    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_RTU, &request, function, whole);
+    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_TCP, &request, function, whole);
+}
+
+void prove_await(size_t size)
+{
+    ask_any();
+    receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, size);
+    receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, size);
+}
+
+void prove_begun(size_t length)
+{
+    if (length <= FRAMES && beginning.known <= sizeof beginning.head) {
+        //@ split length;
+        (void)fieldscribe_modbus_begun(&beginning, EXACTLY(length, frame), length);
+    }
+}
+
+/* As fieldscribe_modbus_begin makes them: no more of the head is known than there is. */
+#define KNOWN_HEADS (receiver.answer.known <= 9U && receiver.refusal.known <= 9U)
+
+/* A receiver of any kind, which so many bytes have come to. */
+static void has(uint8_t *buffer, size_t size, size_t length)
+{
+    receiver.buffer = buffer;
+    receiver.size = size;
+    receiver.length = length;
+    receiver.done = number % 2U != 0U;
+    receiver.framing = number % 2U != 0U ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
+}
+
+void prove_likely(size_t size, size_t length)
+{
+    if (length > 0U && length <= SHORT && KNOWN_HEADS) {
+        //@ split length;
+        has(frame, size, length);
+        (void)fieldscribe_modbus_likely(&receiver, EXACTLY(length, frame), length);
+    }
+}
+
+void prove_settle(size_t size, size_t length)
+{
+    if (length <= STEPS && KNOWN_HEADS) {
+        //@ split length;
+        has(EXACTLY(length, frame), size, length);
+        fieldscribe_modbus_settle(&receiver);
+    }
+}
+
+void prove_receive(size_t size, size_t length, size_t count)
+{
+    if (size <= STEPS && length <= STEPS && count <= 2U && KNOWN_HEADS) {
+        //@ split size;
+        //@ split length;
+        //@ split count;
+        has(EXACTLY(size, frame), size, length);
+        (void)fieldscribe_modbus_receive(&receiver, EXACTLY(count, long_frame), count);
+    }
+}
+
+/* A line that stays silent; what a receiver makes of bytes is followed above. */
+static void send_nothing(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    (void)bytes;
+    (void)length;
+}
+
+static bool receive_nothing(void *context, uint8_t *byte)
+{
+    (void)context;
+    *byte = number;
+    return false;
+}
+
+static void link(uint8_t *buffer, size_t size)
+{
+    line.profile = &profile;
+    line.buffer = buffer;
+    line.size = size;
+    line.send = &send_nothing;
+    line.receive = &receive_nothing;
+    line.context = NULL;
+    know(KNOWN);
+    ask_any();
+    request.put = &fieldscribe_modbus_put_reading;
+    request.take = &fieldscribe_modbus_take_words;
+}
+
+void prove_exchange(size_t size, size_t length)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_RTU, &request, length);
+        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_TCP, &request, length);
+    }
+}
+
+void prove_ask_rtu(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        into(items, ITEMS);
+        (void)fieldscribe_modbus_ask_rtu(&line, &request, &reply);
+    }
+}
+
+void prove_ask_tcp(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        link(EXACTLY(size, frame), size);
+        into(items, ITEMS);
+        (void)fieldscribe_modbus_ask_tcp(&line, &request, &reply);
     }
 }

@@ -10,6 +10,7 @@
 #define FRAMES 300U /* longer than the longest telegram */
 #define SHORT 48U   /* where build is followed with exact arrays; assemble, which fills them, for all lengths */
 #define WORDS 256U  /* more than a link can be set to */
+#define STEPS 6U    /* bytes that a receiver has got: each way through them is followed alone */
 #define KNOWN 3U    /* tasks and lengths that a profile knows: each is looked at alone */
 
 static uint8_t frame[FRAMES];
@@ -28,6 +29,8 @@ static fieldscribe_uss_reading reading;
 static fieldscribe_uss_writing writing;
 static fieldscribe_uss_heard heard;
 static fieldscribe_uss_sent sent;
+static fieldscribe_uss_receiver receiver;
+static fieldscribe_uss_line line;
 static volatile uint8_t number;
 
 /* A profile of any tasks and lengths, so many of both, and no room for more. */
@@ -121,6 +124,56 @@ void prove_left(size_t size, size_t length)
     if (length <= FRAMES) {
         //@ split length;
         (void)fieldscribe_uss_left(&link, EXACTLY(length, frame), size, length);
+    }
+}
+
+void prove_await(size_t size)
+{
+    receiver = fieldscribe_uss_await(&link, &request, frame, size);
+}
+
+/* A receiver of any kind, which so many bytes have come to. */
+static void has(uint8_t *buffer, size_t size, size_t length)
+{
+    receiver.buffer = buffer;
+    receiver.size = size;
+    receiver.length = length;
+    receiver.longer = number % 2U != 0U;
+    receiver.done = number % 2U != 0U;
+}
+
+void prove_expects(size_t size, size_t whole)
+{
+    has(frame, size, 0U);
+    (void)fieldscribe_uss_expects(&receiver, whole);
+}
+
+void prove_likely(size_t size, size_t length)
+{
+    if (length > 0U && length <= SHORT) {
+        //@ split length;
+        has(frame, size, length);
+        (void)fieldscribe_uss_likely(&receiver, EXACTLY(length, frame), length);
+    }
+}
+
+void prove_settle(size_t size, size_t length)
+{
+    if (length <= STEPS) {
+        //@ split length;
+        has(EXACTLY(length, frame), size, length);
+        fieldscribe_uss_settle(&receiver);
+    }
+}
+
+void prove_receive(size_t size, size_t length, size_t count)
+{
+    if (size <= STEPS && length <= STEPS && count <= 2U) {
+        //@ split size;
+        //@ split length;
+        //@ split count;
+        has(EXACTLY(size, frame), size, length);
+        (void)fieldscribe_uss_receive(&receiver, EXACTLY(count, part), count);
     }
 }
 
@@ -341,5 +394,46 @@ void prove_parse__words(size_t length, size_t room)
         into(EXACTLY(stored, words), stored);
         (void)fieldscribe_uss_parse(
             &profile, &link, &request, frame, length, &reply);
+    }
+}
+
+/* A line that stays silent; what a receiver makes of bytes is followed above. */
+static void send_nothing(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)context;
+    (void)bytes;
+    (void)length;
+}
+
+static bool receive_nothing(void *context, uint8_t *byte)
+{
+    (void)context;
+    *byte = number;
+    return false;
+}
+
+void prove_ask(size_t size, size_t pzd_count)
+{
+    if (size <= SHORT && pzd_count <= WORDS) {
+        //@ split size;
+        line.profile = &profile;
+        line.link = &link;
+        line.buffer = EXACTLY(size, frame);
+        line.size = size;
+        line.send = &send_nothing;
+        line.receive = &receive_nothing;
+        line.context = NULL;
+        know(KNOWN);
+        send(words, pzd_count);
+        into(words, WORDS);
+        if (link.pkw == 0U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else if (link.pkw < 3U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else if (link.pkw == 3U) {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        } else {
+            (void)fieldscribe_uss_ask(&line, &request, &process, &reply);
+        }
     }
 }

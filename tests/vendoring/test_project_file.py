@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from typing import TYPE_CHECKING
 
 import pytest
@@ -111,18 +113,28 @@ def test_vendored_python_needs_no_compiler(project: Path) -> None:
 
 
 @pytest.mark.full(seconds=3)
-def test_a_wheel_is_the_same_every_time_and_installs(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wheels_are_the_same_every_time_and_install(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     order = ["vendor", "python", "hitachi_l200", "--out", "wheels", "--points", "A020", "--wheel"]
     assert main(order) == 0
-    [wheel] = (project / "wheels").glob("*.whl")
-    assert wheel.name == "hitachi_l200-1.0.0-py3-none-any.whl"
+    runtime, wheel = sorted((project / "wheels").glob("*.whl"))
+    assert re.fullmatch(r"fieldscribe_runtime-[\d.]+-py3-none-any.whl", runtime.name)
+    assert re.fullmatch(r"hitachi_l200-1\.0\.0\+[0-9a-f]{8}-py3-none-any.whl", wheel.name)
+    names = {device: zipfile.ZipFile(device).namelist() for device in (wheel, runtime)}
+    assert not {path for path in names[wheel] if path in names[runtime]}, "each can be uninstalled without the other"
+    metadata = zipfile.ZipFile(wheel).read(next(path for path in names[wheel] if path.endswith("METADATA"))).decode()
+    for extra in ("serial", "pymodbus", "can"):
+        assert f"Requires-Dist: fieldscribe-runtime[{extra}]" in metadata
     assert main([*order, "--check"]) == 0, capsys.readouterr().out
-    install = [sys.executable, "-m", "pip", "install", "-q", "--no-index", "--target", "site", str(wheel)]
+    pip = (sys.executable, "-m", "pip", "install", "-q", "--no-index")
+    install = [*pip, "--target", "site", "--find-links", "wheels", "hitachi_l200"]
     subprocess.run(install, check=True, capture_output=True)
     assert not (project / "site/hitachi_l200/pyproject.toml").exists()
     program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500))"
     said = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
     assert subprocess.run(said, capture_output=True, text=True, check=True).stdout == "50.0\n"
+    assert main([*order[:-2], "A020,D001", "--wheel"]) == 0
+    [other] = (project / "wheels").glob("hitachi_l200-*.whl")
+    assert other.name != wheel.name, "pip takes other points for another version"
     assert main(["vendor", "c", "hitachi_l200", "--out", "x", "--wheel"]) == 2
 
 

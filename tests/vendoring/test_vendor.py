@@ -265,3 +265,23 @@ def test_wrong_calls(
     assert vendor(*words) == 2
     assert said in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_outputs_are_listed_before_they_are_made_and_a_rule_names_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What a build system asks before it builds, and after."""
+    device, out = ROOT / "tests/devices/kitchen_can", tmp_path / "drivers"
+    (tmp_path / "points.txt").write_text("*\n", "utf-8")
+    words = ("c", device, "--out", out, "--points", f"@{tmp_path / 'points.txt'}")
+    assert vendor(*words, "--list-outputs") == 0
+    listed = capsys.readouterr().out.split()
+    assert not out.exists()
+    assert vendor(*words, "--depfile", tmp_path / "drivers.d") == 0
+    assert sorted(listed) == sorted(map(str, out.iterdir()))
+    rule, *empty = (tmp_path / "drivers.d").read_text("utf-8").replace("\\\n", "").splitlines()
+    outputs, inputs = (part.split() for part in rule.split(":"))
+    assert outputs == listed
+    assert {str(device / "device.yaml"), str(device / "words.yaml"), str(tmp_path / "points.txt")} < set(inputs)
+    assert str(ROOT / "templates/c/device.h.j2") in inputs
+    assert empty == [f"{path}:" for path in inputs]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
+    from fieldscribe.reading import Inputs
     from fieldscribe.report import ReadLines
 
 HERE, LOCAL = Path(), Path("descriptions")
@@ -168,15 +169,18 @@ def devices_asked(arguments: Namespace) -> dict[str, Path]:
     return known_devices(_roots_asked(arguments))
 
 
-def open_device(arguments: Namespace) -> Device:
-    """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
+def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
+    """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError.
+
+    `inputs` remembers the files that were read.
+    """
     from fieldscribe.asked import UnclearError
     from fieldscribe.conversation.selection import choose_variants
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_device
 
     report = Report()
-    device = load_device(device_file(arguments), report)
+    device = load_device(device_file(arguments), report, inputs)
     if device is None:
         report_findings(report, getattr(arguments, "format", "text"))
         raise StopError("", code=FINDINGS)

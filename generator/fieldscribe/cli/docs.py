@@ -39,11 +39,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write it, or compare; the exit code."""
-    from fieldscribe.cli.vendor import carried_out
+    from fieldscribe.cli.vendor import delivered, say
 
     orders, code = _orders(arguments)
     missing = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
-    return max(code, carried_out(orders, missing, check=arguments.check, force=arguments.force))
+    deliveries = delivered(orders, missing, check=arguments.check, force=arguments.force)
+    return max(code, say(deliveries, "text", check=arguments.check))
 
 
 def _orders(arguments: Namespace) -> tuple[list[Order], int]:

@@ -123,10 +123,10 @@ def _compiled(
     else:
         generation.write(lambda: say_waiting(arguments.out), memory, force=arguments.force)
         if arguments.depfile and not report.has_errors:
-            from fieldscribe.output.depfile import write_depfile
+            from fieldscribe.output.depfile import keep_up
 
             outputs = (arguments.out / path for path in sorted(generation.result.wanted))
-            write_depfile(arguments.depfile, outputs, generation.inputs.digests)
+            keep_up(arguments.depfile, outputs, generation.inputs.digests)
     return generation.result
 
 

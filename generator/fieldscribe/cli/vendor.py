@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from fieldscribe.diagnostics import Report
+    from fieldscribe.reading import Inputs
     from fieldscribe.vendoring.files import Wish
     from fieldscribe.vendoring.orders import Delivery, Order
 
@@ -44,12 +45,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     parser.add_argument("--single-file", action="store_true", help="c: all in one header")
-    parser.add_argument("--wheel", action="store_true", help="python: one wheel with the device and the runtime")
+    parser.add_argument("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
     parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
     parser.add_argument(
         "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
     )
     parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
+    parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
+    parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     add_format(parser)
 
@@ -59,39 +62,60 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import report_findings
     from fieldscribe.diagnostics import Report
+    from fieldscribe.reading import Inputs
 
-    report = Report()
-    orders = _orders(arguments, report)
+    report, inputs = Report(), Inputs()
+    orders = _orders(arguments, report, inputs)
     if report.has_errors:
         report_findings(report, arguments.format)
         return FINDINGS
     missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
-    return carried_out(orders, missing, arguments.format, check=arguments.check, force=arguments.force)
+    looks = arguments.check or arguments.list_outputs
+    deliveries = delivered(orders, missing, check=looks, force=arguments.force)
+    if arguments.list_outputs:
+        return _list(deliveries)
+    if not looks:
+        _keep_up(arguments, deliveries, inputs)
+    return say(deliveries, arguments.format, check=arguments.check)
 
 
-def carried_out(orders: list[Order], missing: tuple[str, str], form: str = "text", *, check: bool, force: bool) -> int:
-    """Leave the files, or compare, and say it; the exit code. `missing` is what to say without the library of an extra.
-
-    Raises StopError.
-    """
+def delivered(orders: list[Order], missing: tuple[str, str], *, check: bool, force: bool) -> list[Delivery]:
+    """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
     from fieldscribe.asked import UnclearError
-    from fieldscribe.cli.common import StopError, usage_error
+    from fieldscribe.cli.common import StopError
     from fieldscribe.cli.generate import say_waiting
     from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
 
     try:
         refuse_doubles(orders)
-        deliveries = [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
+        return [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
         raise StopError(*missing) from error
     except OSError as error:
-        return usage_error(f"cannot write to {error.filename or orders[0].out}: {error.strerror or error}")
-    return _say(deliveries, form, check=check)
+        where = error.filename or orders[0].out
+        raise StopError(f"cannot write to {where}: {error.strerror or error}") from error
 
 
-def _orders(arguments: Namespace, report: Report) -> list[Order]:
+def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
+    """Write the rule for make that was asked for, if all is there. Raises OSError."""
+    from fieldscribe.output.depfile import keep_up
+
+    if arguments.depfile and all(delivery.is_current for delivery in deliveries):
+        outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
+        keep_up(arguments.depfile, outputs, inputs.digests)
+
+
+def _list(deliveries: list[Delivery]) -> int:
+    from fieldscribe.cli import FINE
+    from fieldscribe.report import visible
+
+    print(*(visible(str(delivery.order.out / path)) for delivery in deliveries for path in delivery.files), sep="\n")
+    return FINE
+
+
+def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:
     """What the command line, or the project file, asks for. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.vendoring.project import NAME
@@ -99,33 +123,33 @@ def _orders(arguments: Namespace, report: Report) -> list[Order]:
     if arguments.language is not None:
         if arguments.project is not None:
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
-        return [_order(arguments, _wish(arguments), arguments.device, arguments.out, report)]
+        return [_order(arguments, _wish(arguments, inputs), arguments.device, arguments.out, inputs)]
     if arguments.points or arguments.name or arguments.single_file or arguments.no_frames or arguments.out:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     if not file.is_file():
         hint = "write one, or say `fieldscribe vendor LANGUAGE DEVICE --out DIR`"
         raise StopError(f"there is no project file {file}", hint)
-    return _orders_of_project(arguments, file, report)
+    return _orders_of_project(arguments, file, report, inputs)
 
 
-def _orders_of_project(arguments: Namespace, file: Path, report: Report) -> list[Order]:
+def _orders_of_project(arguments: Namespace, file: Path, report: Report, inputs: Inputs) -> list[Order]:
     from fieldscribe.cli.common import StopError
     from fieldscribe.vendoring.project import read_project
 
     orders: list[Order] = []
-    for wanted in read_project(file, report):
+    for wanted in read_project(file, report, inputs):
         path = file.parent / wanted.device
         asked = str(path) if path.exists() and not arguments.descriptions else wanted.device
         try:
-            orders.append(_order(arguments, wanted.wish, asked, wanted.out, report))
+            orders.append(_order(arguments, wanted.wish, asked, wanted.out, inputs))
         except StopError as error:
             if error.message:
                 report.error("bad-project", error.message, wanted.place, error.hint or None)
     return orders
 
 
-def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, report: Report) -> Order:
+def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inputs: Inputs) -> Order:
     """One order, its device loaded and its points known to be there. Raises StopError."""
     import re
     from argparse import Namespace as Asked
@@ -144,19 +168,19 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, repo
         taken = bad or next(reasons(wish.name), None)
         if taken:
             raise StopError(f"`{wish.name}` {taken}")
-    opened = open_device(Asked(device=device, descriptions=arguments.descriptions, format=arguments.format))
+    asked = Asked(device=device, descriptions=arguments.descriptions, format=arguments.format)
+    opened = open_device(asked, inputs)
     try:
         chosen(opened, wish.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    del report
     return Order(opened, wish, out)
 
 
 _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 
 
-def _wish(arguments: Namespace) -> Wish:
+def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
     """What the options ask for. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.vendoring.files import LANGUAGES, Wish
@@ -168,14 +192,14 @@ def _wish(arguments: Namespace) -> Wish:
     for option, of_language in (("single_file", "c"), ("no_frames", "c"), ("wheel", "python")):
         if getattr(arguments, option) and language != of_language:
             raise StopError(f"--{option.replace('_', '-')} is for {of_language}")
-    points = _points(arguments.points)
+    points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
     frames, single = not arguments.no_frames, arguments.single_file
     return Wish(language, points, arguments.name, frames=frames, single_file=single, wheel=arguments.wheel)
 
 
-def _points(said: str | None) -> tuple[str, ...]:
+def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     """The words of `--points`, or of the file that it names. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.reading import read_regular
@@ -184,7 +208,9 @@ def _points(said: str | None) -> tuple[str, ...]:
         return ()
     if said.startswith("@"):
         try:
-            text = read_regular(said[1:], 1 << 20).data.decode("utf-8-sig")
+            content = read_regular(said[1:], 1 << 20)
+            inputs.note(Path(said[1:]), content)
+            text = content.data.decode("utf-8-sig")
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or "it is no UTF-8 text"
             raise StopError(f"cannot read {said[1:]}: {why}") from error
@@ -192,7 +218,8 @@ def _points(said: str | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def _say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
+def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
+    """Print what was done, or what is not as it should be; the exit code."""
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
 

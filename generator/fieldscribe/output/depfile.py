@@ -1,4 +1,9 @@
-"""A rule for make and ninja: the outputs depend on the inputs."""
+"""A rule for make and ninja: the outputs depend on the inputs, and on the compiler itself.
+
+Both compare times, and an output that did not change keeps its own: after a change of an input it would be older for
+ever. So outputs that are older than an input are touched. An input that is gone later has an empty rule, with which it
+counts as changed and stops nobody.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +11,41 @@ import os
 import stat
 from errno import EINVAL
 from pathlib import Path
+from time import time_ns
 from typing import TYPE_CHECKING
 
 from fieldscribe.output.writing import replace
 from fieldscribe.reading import UnfitFileError, kind_of
+from fieldscribe.resources import compiler_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+_BREAK = " \\\n  "
+
+
+def keep_up(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Write the rule, with the compiler among the inputs, and touch outputs that are older than one. Raises OSError.
+
+    Outputs are named as they were asked for, which is how a build knows them.
+    """
+    made = list(outputs)
+    needed = [
+        Path(os.path.abspath(path)) for path in (*inputs, *map(Path, compiler_files()))
+    ]  # builds run elsewhere than we do
+    write_depfile(place, made, needed)
+    newest = max(path.stat().st_mtime_ns for path in needed)
+    for path in made:
+        if path.stat().st_mtime_ns < newest:
+            now = max(newest, time_ns())  # an input may be from the future
+            os.utime(path, ns=(now, now))
+
 
 def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     """Write the rule atomically. Raises OSError."""
-    outputs_escaped = " ".join(map(_escaped, outputs))
-    needed = " \\\n  ".join(map(_escaped, inputs))
-    _put(Path(os.path.realpath(place)), f"{outputs_escaped}: {needed}\n".encode("utf-8", "surrogateescape"))
+    names = list(dict.fromkeys(map(_escaped, inputs)))
+    rules = [f"{' '.join(map(_escaped, outputs))}: {_BREAK.join(names)}", *(f"{name}:" for name in names)]
+    _put(Path(os.path.realpath(place)), ("\n".join(rules) + "\n").encode("utf-8", "surrogateescape"))
 
 
 def _escaped(path: Path) -> str:

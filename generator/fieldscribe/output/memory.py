@@ -11,22 +11,19 @@ import json
 import os
 import sys
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
 from fieldscribe import __version__
 from fieldscribe.output.cache import cache_dir
 from fieldscribe.reading import read_regular, state_of
-from fieldscribe.resources import templates_dir
+from fieldscribe.resources import compiler_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
     from fieldscribe.reading import Inputs, State
-
-PACKAGE = Path(__file__).resolve().parents[1]
-"""The compiler itself; every file below counts as an input."""
 
 _MOST_BYTES = 64 << 20
 _SETTLED = 2_000_000_000
@@ -99,10 +96,4 @@ def _holds(path: str, digest: str) -> bool:
 
 def _compiler() -> list[str]:
     """The versions and the states of the compiler's files: every edit changes one of them."""
-    parts = [__version__, sys.version]
-    for root in (PACKAGE, templates_dir()):
-        for folder, folders, files in os.walk(root):
-            folders[:] = sorted(name for name in folders if name != "__pycache__")
-            parts.append(ascii(folder))
-            parts += [f"{name!a} {state_of(os.stat(os.path.join(folder, name)))}" for name in sorted(files)]
-    return parts
+    return [__version__, sys.version, *(f"{path!a} {state_of(os.stat(path))}" for path in compiler_files())]

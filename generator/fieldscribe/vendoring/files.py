@@ -55,12 +55,12 @@ class Wish:
         return said | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
 
     def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
-        """The files, as bytes. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
+        """The files, as bytes. Raises UnclearError, and ModuleNotFoundError for wheels without hatchling."""
         texts = dict(files_of(device, self))
         if self.wheel:
-            from fieldscribe.vendoring.wheel import wheel_of
+            from fieldscribe.vendoring.wheel import wheels_of
 
-            yield wheel_of(texts, self.name or device.id)
+            yield from wheels_of(texts)
             texts = {LICENCE: texts[LICENCE]}
         for path, text in texts.items():
             yield path, text.encode()

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
+    from fieldscribe.reading import Inputs
+
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20
 _LISTS = {"targets", "points"}
@@ -41,11 +43,17 @@ class Wanted(NamedTuple):
     out: Path
 
 
-def read_project(file: Path, report: Report) -> list[Wanted]:
-    """All that a project wants; what is wrong with the file is in the report. Raises OSError."""
+def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> list[Wanted]:
+    """All that a project wants; what is wrong with the file is in the report. Raises OSError.
+
+    `inputs` remembers the file.
+    """
     import tomllib
 
-    data = read_regular(file, _MOST_BYTES).data
+    content = read_regular(file, _MOST_BYTES)
+    if inputs is not None:
+        inputs.note(file, content)
+    data = content.data
     try:
         text = data.decode("utf-8-sig")
         document = tomllib.loads(text)

@@ -5,7 +5,8 @@
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
- * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer:
+ * Reading a point over a serial line; `words` has as many as the point, and `buffer` room for the longest answer.
+ * `receive` is yours: false when the line stays silent.
  *
  *     const fieldscribe_modbus_rw *const point = &hitachi_l200_base_frequency_frame;
  *     uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
@@ -13,17 +14,18 @@
  *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &point->read);
  *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
- *     discard();      (what has come in: one byte of noise would spoil this answer and all behind it)
+ *     discard();      (what has come in: a late answer would be taken for this one)
  *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
- *     got = 0U;
- *     while ((left = fieldscribe_modbus_left(
- *                 &profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, got)) > 0U) {
- *         got += receive(buffer + got, left);      (at most `left` bytes; give up when the line stays silent)
+ *     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer);
+ *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
+ *         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
  *     }
- *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, got, &reply);
+ *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
  *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
  *
- * Whatever went wrong: wait until the line is silent before you ask again, or a late answer is taken for the next one.
+ * SHORT_FRAME says that no answer came. Whatever went wrong: wait until the line is silent before you ask again, or a
+ * late answer is taken for the next one. Where you can wait for so many bytes at once, and there is no noise (TCP),
+ * fieldscribe_modbus_left tells how many.
  *
  * Reading a block (..._BLOCK_MOST words hold any of the device), in the same way: for each of its points,
  * in = fieldscribe_modbus_words_in(&request, &reply, &point->read), then
@@ -263,6 +265,42 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_pr
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
     size_t length);
 
+/* How an answer begins, as far as that is known before it comes, and how many bytes it has. */
+typedef struct fieldscribe_modbus_beginning {
+    uint8_t head[9];
+    uint8_t known;
+    uint16_t whole;
+} fieldscribe_modbus_beginning;
+
+/*
+ * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
+ * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, an answer
+ * to something else or of another length, a wrong checksum. If nothing came and nothing was dropped, nobody answers.
+ */
+typedef struct fieldscribe_modbus_receiver {
+    uint8_t *buffer;
+    size_t size;
+    size_t length;
+    size_t dropped;
+    bool done;
+    fieldscribe_modbus_framing framing;
+    fieldscribe_modbus_beginning answer;
+    fieldscribe_modbus_beginning refusal;
+} fieldscribe_modbus_receiver;
+
+/*
+ * A receiver for the answer to a request, which it does not need again. It is done at once where nobody answers, and
+ * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
+
+/*
+ * Gives a receiver bytes, one or many, and says how many of them it took: all, but for those that came behind the whole
+ * answer. Those belong to the next one.
+ */
+size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count);
+
 /* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
@@ -291,6 +329,29 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
     return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_parse_tcp(request, bytes, length, reply)
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
+
+/*
+ * A line that requests go over. `send` drops what has come in and sends; `receive` waits for a byte, and is false when
+ * the line stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
+ */
+typedef struct fieldscribe_modbus_line {
+    const fieldscribe_modbus_profile *profile;
+    uint8_t *buffer;
+    size_t size;
+    void (*send)(void *context, const uint8_t *bytes, size_t length);
+    bool (*receive)(void *context, uint8_t *byte);
+    void *context;
+} fieldscribe_modbus_line;
+
+/*
+ * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
+ * came. What goes to all units is OK when it is sent, as nobody answers. Over TCP give each request another
+ * `transaction`: by that a late answer is told from the one that is waited for.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
 
 /* The words of a point, or its coils, in what a block's request brought; NULL when that does not hold all of them. */
 FIELDSCRIBE_CHECKED const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,
@@ -768,6 +829,146 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
         whole = (uint32_t)size;
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
+}
+
+/* How the answer with that function, of so many bytes, begins. */
+static void fieldscribe_modbus_begin(fieldscribe_modbus_beginning *beginning, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, uint8_t function, uint32_t whole)
+{
+    uint8_t *const head = beginning->head;
+    uint8_t at = 0U;
+    if (framing == FIELDSCRIBE_MODBUS_TCP) {
+        fieldscribe_modbus_put(&head[0], request->transaction);
+        fieldscribe_modbus_put(&head[2], 0U);
+        fieldscribe_modbus_put(&head[4], (uint16_t)((whole - 6U) & 0xFFFFU));
+        at = 6U;
+    }
+    head[at] = request->unit;
+    head[at + 1U] = function;
+    head[at + 2U] = (uint8_t)((whole - fieldscribe_modbus_around(framing) - 3U) & 0xFFU);
+    beginning->known = (uint8_t)(at + (fieldscribe_modbus_reads(function) ? 3U : 2U));
+    beginning->whole = (uint16_t)(whole & 0xFFFFU);
+}
+
+fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
+{
+    const uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
+    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U;
+    fieldscribe_modbus_receiver receiver;
+    receiver.buffer = buffer;
+    receiver.size = size;
+    receiver.length = 0U;
+    receiver.dropped = 0U;
+    receiver.done = (whole == 0U) || (whole > size);
+    receiver.framing = framing;
+    fieldscribe_modbus_begin(&receiver.answer, framing, request, request->function, whole);
+    fieldscribe_modbus_begin(&receiver.refusal, framing, request, (uint8_t)(request->function | 0x80U), refusal);
+    return receiver;
+}
+
+/* How many bytes the answer has that so many begin; 0 where it begins in another way. */
+static size_t fieldscribe_modbus_begun(
+    const fieldscribe_modbus_beginning *beginning, const uint8_t *bytes, size_t length)
+{
+    size_t at = 0U;
+    while ((at < length) && (at < beginning->known) && (bytes[at] == beginning->head[at])) {
+        ++at;
+    }
+    return ((at == length) || (at == beginning->known)) ? beginning->whole : 0U;
+}
+
+/* How many bytes the answer has that begins so; 0 where none does, or where it is whole and its checksum is wrong. */
+static size_t fieldscribe_modbus_likely(
+    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
+{
+    size_t whole = fieldscribe_modbus_begun(&receiver->answer, bytes, length);
+    if (whole == 0U) {
+        whole = fieldscribe_modbus_begun(&receiver->refusal, bytes, length);
+    }
+    if ((receiver->framing == FIELDSCRIBE_MODBUS_RTU) && (whole <= length) &&
+        (fieldscribe_modbus_crc(bytes, whole) != 0U)) {
+        whole = 0U; /* with its checksum behind it, every frame has the checksum 0 */
+    }
+    return whole;
+}
+
+/* Drops bytes until the rest may be the answer; whether that is whole is told, and what came behind it dropped. */
+static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver)
+{
+    const size_t length = receiver->length;
+    size_t whole = 0U;
+    size_t from;
+    size_t to = 0U;
+    for (from = 0U; from < length; ++from) {
+        whole = fieldscribe_modbus_likely(receiver, &receiver->buffer[from], length - from);
+        if (whole != 0U) {
+            break;
+        }
+    }
+    receiver->done = (whole != 0U) && ((length - from) >= whole);
+    receiver->length = receiver->done ? whole : (length - from);
+    receiver->dropped += length - receiver->length;
+    for (; (to < from) && (from < length); ++from) {
+        receiver->buffer[to] = receiver->buffer[from];
+        ++to;
+    }
+}
+
+size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count)
+{
+    size_t taken = 0U;
+    while ((taken < count) && (receiver->length < receiver->size) && (!receiver->done)) {
+        receiver->buffer[receiver->length] = bytes[taken];
+        ++receiver->length;
+        ++taken;
+        fieldscribe_modbus_settle(receiver);
+    }
+    return taken;
+}
+
+/* Sends the `length` bytes of a request; how many come back as its answer. */
+static size_t fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, size_t length)
+{
+    fieldscribe_modbus_receiver receiver =
+        fieldscribe_modbus_await(line->profile, framing, request, line->buffer, line->size);
+    uint8_t byte = 0U;
+    line->send(line->context, line->buffer, length);
+    while ((!receiver.done) && line->receive(line->context, &byte)) {
+        (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
+    }
+    return receiver.length;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    size_t length;
+    fieldscribe_modbus_status status =
+        fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_RTU, request, length);
+        if (request->unit != line->profile->broadcast) {
+            status = fieldscribe_modbus_parse_rtu(request, line->buffer, length, reply);
+        }
+    }
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply)
+{
+    size_t length;
+    fieldscribe_modbus_status status =
+        fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_TCP, request, length);
+        if (request->unit != line->profile->broadcast) {
+            status = fieldscribe_modbus_parse_tcp(request, line->buffer, length, reply);
+        }
+    }
+    return status;
 }
 
 const uint16_t *fieldscribe_modbus_words_in(const fieldscribe_modbus_request *request,

@@ -1240,9 +1240,7 @@ README_USE = """
 uint16_t words[2];
 fieldscribe_modbus_request request;
 fieldscribe_modbus_status status;
-uint8_t buffer[FIELDSCRIBE_MODBUS_RTU_MOST];
-size_t length;
-size_t got = 0U;
+fieldscribe_modbus_line line;
 uint32_t raw;
 bool fits;
 int use(void);

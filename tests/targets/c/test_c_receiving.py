@@ -37,7 +37,7 @@ def recipe(family: str) -> str:
     return "\n".join(re.sub(r"(^|\s{2,})\(.*\)$", "", line) for line in lines)
 
 
-# a line on which a byte of noise has come before each request
+# a line on which a byte of noise has come before each request, and another comes before the answer
 SERIAL_LINE = """
 static uint8_t line[600];
 static size_t begin;
@@ -53,23 +53,21 @@ static void send(const uint8_t *bytes, size_t length)
     size_t at;
     (void)bytes;
     (void)length;
+    line[end] = answer[0];
+    ++end;
     for (at = 0U; at < answered; ++at) {
         line[end] = answer[at];
         ++end;
     }
 }
-static size_t receive(uint8_t *bytes, size_t most)
+static bool receive(uint8_t *byte)
 {
-    size_t got = 0U;
-    while (got < most && begin < end) {
-        bytes[got] = line[begin];
-        ++got;
-        ++begin;
-    }
-    if (got == 0U) {
+    if (begin == end) {
         exit(9); /* the line stays silent */
     }
-    return got;
+    *byte = line[begin];
+    ++begin;
+    return true;
 }
 """
 
@@ -92,10 +90,10 @@ int main(void)
     answered += 2U;
     for (times = 0; times < 3; ++times) {
         fieldscribe_modbus_request request;
+        fieldscribe_modbus_receiver receiver;
         fieldscribe_modbus_status status;
         size_t length;
-        size_t got;
-        uint32_t left;
+        uint8_t byte;
         bool fits;
         line[end] = 0xFFU;
         ++end;
@@ -127,10 +125,10 @@ int main(void)
     ++answered;
     for (times = 0; times < 3; ++times) {
         fieldscribe_uss_request request;
+        fieldscribe_uss_receiver receiver;
         fieldscribe_uss_status status;
         size_t length;
-        size_t got;
-        uint32_t left;
+        uint8_t byte;
         bool fits;
         line[end] = 0xFFU;
         ++end;
@@ -176,7 +174,7 @@ int main(void)
 
 @pytest.mark.parametrize("family", sorted(RECIPES))
 def test_the_recipe_of_a_runtime_works(family: str, tmp_path: Path) -> None:
-    """As it stands there, also with a byte of noise before each request; its names are each of one thing."""
+    """As it stands there, also with noise before the request and the answer; its names are each of one thing."""
     name = DEVICES[family]
     device = shipped(name)
     write_headers(device, tmp_path)
@@ -496,3 +494,65 @@ def test_what_is_not_asked_for_is_left_out_by_sections_of_functions_alone(folder
     image = compiled("arm-none-eabi-gcc", (*flags, *sections, *WARNINGS), tmp_path / "reads.c", tmp_path / "reads.elf")
     symbols = succeed([tool("arm-none-eabi-nm"), image])
     assert not re.search("take_bits|take_echo|put_writing|put_values|_tcp", symbols)
+
+
+ASK = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+/* What came late for transaction 1, its end cut off, and the answer to transaction 2. */
+static const uint8_t tcp[] = {0, 1, 0, 0, 0, 5, 1, 3, 2, 0, 9, 0, 1, 0, 0, 0, 5, 1, 3, 0, 2, 0, 0, 0, 5, 1, 3, 2, 1, 2};
+static size_t heard;
+static size_t sent;
+static void send(void *context, const uint8_t *bytes, size_t length)
+{
+    (void)bytes;
+    *(size_t *)context = length;
+}
+static bool receive(void *context, uint8_t *byte)
+{
+    (void)context;
+    if (heard == sizeof tcp) {
+        return false;
+    }
+    *byte = tcp[heard];
+    ++heard;
+    return true;
+}
+int main(void)
+{
+    static const fieldscribe_modbus_function functions[] = {{3U, 9U, false}, {6U, 1U, true}};
+    static const fieldscribe_modbus_profile profile = {functions, 2U, 1U, 9U, 0U, false, true, true};
+    static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
+    static const fieldscribe_modbus_writing to_all = {6U, 100U, 1U};
+    uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
+    const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, &sent};
+    const fieldscribe_modbus_line narrow = {&profile, buffer, 11U, &send, &receive, &sent};
+    uint16_t word = 0U;
+    fieldscribe_modbus_reply reply = {&word, 1U, 0U, 0U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
+    request.transaction = 2U;
+    if (fieldscribe_modbus_ask_tcp(&narrow, &request, &reply) != FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL || sent != 0U) {
+        return 1;
+    }
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || word != 258U || sent != 12U) {
+        return 2;
+    }
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_SHORT_FRAME) {
+        return 3;
+    }
+    heard = 0U;
+    request = fieldscribe_modbus_write(0U, &to_all, &word, 1U);
+    if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || sent != 8U || heard != 0U) {
+        return 4;
+    }
+    return 0;
+}
+"""
+
+
+@pytest.mark.full(seconds=2)
+def test_a_line_is_asked(folder: Path, tmp_path: Path) -> None:
+    """Over TCP an answer to an earlier request is dropped; nobody is waited for who does not answer."""
+    (tmp_path / "ask.c").write_text(ASK, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
+    succeed([compiled("gcc", flags, tmp_path / "ask.c", tmp_path / "ask")])

@@ -1,0 +1,15 @@
+/* The board's serial line, as fieldscribe_modbus_line wants it. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Drops what has come in, then sends. */
+void uart_send(void *context, const uint8_t *bytes, size_t length);
+
+/* Waits for a byte; false when none comes for a second. */
+bool uart_receive(void *context, uint8_t *byte);
+
+#endif
