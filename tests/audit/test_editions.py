@@ -388,6 +388,15 @@ def test_the_settings_of_the_line_are_held(now: str, missing: str, settings: str
     assert (report["explained"], report["elsewhere"]) == (True, [])
 
 
+def test_feet_of_pages_that_look_like_rows_are_no_uncited_rows(described: Described) -> None:
+    text = "x\n" * 9
+    feet = "".join(f"\nMaker\tPage {page} of 9\n{text}" for page in range(1, 10))
+    rows = described.audit_alone(OLD + feet)["uncited"]
+    assert [row["text"] for row in rows if row["kind"] == "row"] == []
+    rows = described.audit_alone(OLD + feet.replace(" of 9", "").replace("Page", "Pump"))["uncited"]
+    assert len([row for row in rows if row["kind"] == "row"]) == 9
+
+
 WAYS_OUT = [
     # what looked_through has of the row, what the finding says to write; nothing when it is explained
     ("", "add `numbers: [7], words: [Delta, Kelvin]` there"),
