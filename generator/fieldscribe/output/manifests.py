@@ -43,6 +43,8 @@ class Layout(NamedTuple):
     folder: str
     ending: str
     by_target: bool
+    named: str = ".*"
+    """The files without our head that a device, `@`, and the runtime have there."""
 
     def manifest(self, device: str) -> str:
         """Where a device's manifest is, relative to the output folder."""
@@ -52,9 +54,19 @@ class Layout(NamedTuple):
         """Whether a manifest may name that path: it may have been edited."""
         return _PLAIN_PATH.fullmatch(path) is not None and (path.startswith(f"{target}/") or not self.by_target)
 
+    def names(self, path: str, device: str) -> bool:
+        """Whether that is the name of a file of ours, whatever it holds."""
+        return re.fullmatch(self.named.replace("@", device), path) is not None
+
 
 GENERATED = Layout(FOLDER, ".json", by_target=True)
-VENDORED = Layout("", ".manifest.json", by_target=False)
+VENDORED = Layout(
+    "",
+    ".manifest.json",
+    by_target=False,
+    named=r"fieldscribe(_\w+)?\.h|fieldscribe_runtime/.*|LICENSE-fieldscribe\.txt"
+    r"|@/py\.typed|(@|fieldscribe_runtime)-[\w.+]+-py3-none-any\.whl|@(_meanings)?\.csv|@\.xlsx",
+)
 
 
 class Manifests:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import importlib
 import inspect
@@ -19,6 +20,7 @@ from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
+from fieldscribe.targets.python.names import LIBRARIES
 from support.models import HERTZ, STATUS_FLAGS, changed, entry, plain_points, point, sample_device, titles, trip_device
 from support.python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
 from support.python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
@@ -794,3 +796,14 @@ def test_reads_of_groups_say_what_failed(drive: Any, slave: Slave) -> None:
     assert (failure.group, failure.status) == ("main", "exception")
     assert "A020 base_frequency" in failure.point
     assert str(failure).startswith(f"group main: {failure.point}: the device answered exception 02h")
+
+
+def test_no_device_may_have_the_name_of_a_library_that_the_runtime_imports() -> None:
+    imported_names: set[str] = set()
+    for file in (templates_dir() / "python/runtime/fieldscribe_runtime").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.Import):
+                imported_names.update(alias.name.split(".")[0] for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module is not None and node.level == 0:
+                imported_names.add(node.module.split(".")[0])
+    assert imported_names - sys.stdlib_module_names - {"fieldscribe_runtime"} == LIBRARIES

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import asyncio
 import socket
+import time
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from typing import Self
 
 MODBUS_PORT = 502
+_OLD = 16
+"""So many pieces of old bytes are read before a connection is given up."""
 _CLOSED = "the other side closed the connection"
 
 
@@ -52,9 +55,10 @@ class _Connection:
         self.socket.setblocking(False)
         with suppress(BlockingIOError):
             with suppress(ConnectionError):
-                while self.socket.recv(4096):
-                    pass
-            self.close()
+                for _ in range(_OLD):
+                    if not self.socket.recv(4096):
+                        break
+            self.close()  # the other side has closed it, or floods it
 
     def opened(self, made: socket.socket) -> socket.socket:
         """Keep a socket that is connected."""
@@ -72,12 +76,13 @@ class _Connection:
 class TcpLine(Line):
     """Connects when it is used first, and anew after a failure. `framing="rtu"` is for RTU frames over TCP.
 
-    A reply has `timeout` seconds to begin, and as many between its parts.
+    The whole exchange has `timeout` seconds.
     """
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
         super().__init__(framing)
         self._connection = _Connection(host, port, timeout)
+        self._until = 0.0
 
     def __str__(self) -> str:
         return str(self._connection)
@@ -88,11 +93,16 @@ class TcpLine(Line):
         if connection.socket is None:
             connection.opened(socket.create_connection((connection.host, connection.port), connection.timeout))
         assert connection.socket is not None
+        self._until = time.monotonic() + connection.timeout
         connection.socket.settimeout(connection.timeout)
         connection.socket.sendall(request)
 
     def _read(self, most: int) -> bytes:
         assert self._connection.socket is not None
+        left = self._until - time.monotonic()
+        if left <= 0:
+            return b""
+        self._connection.socket.settimeout(left)
         received = self._connection.socket.recv(most)
         if not received:
             raise ConnectionError(_CLOSED)

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 _BITS = 11
 """Of a character with start, parity and stop bit."""
 _MODE = re.compile("[78][NEO][12]")
+_BABBLE = 2.0
+"""Seconds after which nobody waits any longer for a line to be silent."""
 _SILENCE = 3.5
 """Characters of silence that part two frames."""
 _PORT = "a device such as '/dev/ttyUSB0' or 'COM3', or a URL such as 'socket://192.168.0.20:4001'"
@@ -103,8 +105,10 @@ class SerialLine(Line):
         if "://" in self.port:
             self.close()  # an answer that a network delays comes to nobody
             return
+        patience = time.monotonic() + _BABBLE
         while self._serial is not None and self._serial.read(64):  # until the line is silent
-            pass
+            if time.monotonic() > patience:  # it never is: whoever babbles must not hold up everybody
+                self.close()
 
     def close(self) -> None:
         """Close the port; the next exchange opens it again."""
