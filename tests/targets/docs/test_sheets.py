@@ -330,6 +330,8 @@ def test_a_workbook_is_typed() -> None:
     for table, frozen in (("points", "C2"), ("meanings", "B2"), ("errata", "B2")):
         assert book[table].freeze_panes == frozen
         assert book[table].auto_filter.ref == book[table].dimensions
+        page = book[table].page_setup
+        assert (page.orientation, page.fitToHeight, book[table].print_title_rows) == ("landscape", 0, "$1:$1")
         assert all(5 < width.width < 51 for width in book[table].column_dimensions.values())
     assert all(isinstance(row["address"], int) for row in points if row["address"] is not None)
 
@@ -341,6 +343,14 @@ def test_a_workbook_has_no_formula_and_no_rounded_number() -> None:
     assert escape["name"] == "a_x1_x5_x0041_b"
     assert (bad["title"], bad["code"]) == ("=cmd()|'x' new", "@x")
     assert (wide["raw_max"], low["raw_min"]) == ("18446744073709551615", -5)
+
+
+@pytest.mark.parametrize(("why", "is_broken"), [("word," * 20, True), ("short", None)])
+def test_long_texts_are_broken(why: str, is_broken: bool | None) -> None:
+    device = sample_device((point("speed", 1),))
+    errata = workbook(replace(device, errata=(replace(device.errata[0], why=why),)))["errata"]
+    assert errata.cell(2, 6).value == why
+    assert (errata.cell(2, 6).alignment.wrap_text, errata.cell(2, 6).alignment.vertical) == (is_broken, "top")
 
 
 def test_a_workbook_has_the_same_bytes_each_time() -> None:
