@@ -314,6 +314,15 @@ def default_text(point: Point, *, unit: bool = True) -> str:
     return with_unit(number, point) if unit else number
 
 
+def default_parts(point: Point) -> str:
+    """The factory setting of a word that is made of numbers, number by number: `source 52, bit 0`; else empty."""
+    raw = point.default_raw
+    if raw is None or not point.flags or any(flag.width == 1 for flag in point.flags):
+        return ""
+    flags = sorted(point.flags, key=lambda flag: -flag.low)
+    return ", ".join(f"{flag.name} {raw >> flag.low & (1 << flag.width) - 1}" for flag in flags)
+
+
 def flag_bits(flag: Flag, point: Point | None = None) -> str:
     """The bits of a flag: `3`, or `5..4`; with the point, as numbered in the whole word."""
     low = flag.low + (point.bits[1] if point is not None and point.bits else 0)

@@ -166,6 +166,20 @@ POINTS: list[tuple[Point, dict[str, str]]] = [
     (point("p", 7, allowed=allowed((0, 100)), **SCALED), {"max": "", "range": "only 0..700/3 Hz"}),
     (point("p", 7, "f32", allowed=units("1/3", 2)), {"min": "", "max": "2", "range": "only 1/3..2"}),
     (point("p", 7, default=Fraction(1, 3)), {"default": "", "remarks": "default 1/3"}),
+    (
+        point("p", 7, flags=tuple(Flag(8 * at, 8, name, titles(name), 1, ()) for at, name in enumerate(("bit", "of")))),
+        {"remarks": ""},
+    ),
+    (
+        point(
+            "p",
+            7,
+            default_raw=0x3402,
+            flags=(Flag(0, 8, "bit", titles("B"), 1, ()), Flag(8, 8, "of", titles("O"), 1, ())),
+        ),
+        {"default_raw": "13314", "remarks": "default: of 52, bit 2"},
+    ),
+    (point("p", 7, default_raw=1, flags=(Flag(0, 1, "on", titles("On"), 1, ()),)), {"remarks": ""}),
     (point("p", 7, default_raw=7), {"default": "", "default_raw": "7", "remarks": ""}),
     (point("p", 7, default_raw=7, default=Fraction(7, 10)), {"default": "0.7", "default_raw": "7"}),
     (point("p", 7, "u32"), {"address": "7", "words": "2", "word_order": "high word first"}),

@@ -148,5 +148,6 @@ def _with_default(point: Point, allowed: str) -> str:
     """The range, and below it the factory setting: few points have one, so a column of its own would be empty."""
     if point.default is None and point.default_raw is None:
         return allowed
-    default = f"default {narrow(cell(wording.default_text(point, unit=False)))}"
+    text = wording.default_parts(point) or wording.default_text(point, unit=False)
+    default = f"default {narrow(cell(text))}"
     return f"{allowed}{LINE_BREAK}{default}" if allowed else default

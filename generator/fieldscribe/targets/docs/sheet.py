@@ -230,5 +230,7 @@ def _own_remarks(point: Point) -> Iterator[str]:
         yield f"written at {wording.write_place_text(point)}"
     if point.default is not None and point.default_raw is None and not decimal(number_text(point.default)):
         yield f"default {wording.default_text(point)}"
+    if parts := wording.default_parts(point):
+        yield f"default: {parts}"
     if point.was:
         yield f"was {', '.join(point.was)}"
