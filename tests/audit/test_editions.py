@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
@@ -541,3 +542,21 @@ def test_an_index_in_brackets_is_no_negative_number(described: Described) -> Non
 )
 def test_lines_of_two_texts(old: str, new: str, kinds: list[str]) -> None:
     assert [change.kind for change in Editions(old, new).changes] == kinds
+
+
+@pytest.mark.full(seconds=4)
+def test_a_large_change_costs_what_it_is_long(described: Described) -> None:
+    """One change of 20,000 equal lines: each line asks nothing that was asked for the whole change."""
+    (described.folder / "old.txt").write_text("x\n" * 20_000, "utf-8")
+    before = time.process_time()
+    code, _ = described.audit("y\n" * 20_000)
+    assert code == 1
+    assert time.process_time() - before < 20
+
+
+def test_a_text_without_its_line_breaks_is_refused(described: Described, capsys: pytest.CaptureFixture[str]) -> None:
+    files = ["--manual", str(described.folder / "new.txt"), "--old", str(described.folder / "old.txt")]
+    (described.folder / "new.txt").write_text("Title\n" + "x " * 50_000, "utf-8")
+    for more in ([], files[2:]):
+        assert main(["audit", str(described.folder / "audited"), *files[:2], *more]) == 2
+        assert "new.txt:2 has more than 20000 characters" in capsys.readouterr().err.replace("`", "")

@@ -3,10 +3,11 @@
 # SPDX-License-Identifier: 0BSD
 """Siemens MICROMASTER 4: a device class, the same with `await`, and the enums of its points.
 
+    from fieldscribe_runtime.uss import Link
     from fieldscribe_runtime.transports.serial import UssLine
 
     with UssLine('/dev/ttyUSB0', 9600) as line:
-        drive = SiemensMm4(line, 1, link, model='mm410', interface='rs485')
+        drive = SiemensMm4(line, 1, Link(pkw=4, pzd=2), model='mm410', interface='rs485')
         print(drive.maximum_frequency.read())
         drive.maximum_frequency.write(value)
         drive.read_many('parameters')

@@ -31,10 +31,11 @@ InterfaceChoice = Literal[
 class SiemensMm4(Points, UssDevice):
     """Siemens MICROMASTER 4 over a transport: `drive.point.read()`.
 
+        from fieldscribe_runtime.uss import Link
         from fieldscribe_runtime.transports.serial import UssLine
 
         with UssLine('/dev/ttyUSB0', 9600) as line:
-            drive = SiemensMm4(line, 1, link, model='mm410', interface='rs485')
+            drive = SiemensMm4(line, 1, Link(pkw=4, pzd=2), model='mm410', interface='rs485')
             print(drive.maximum_frequency.read())
             drive.maximum_frequency.write(value)
             drive.read_many('parameters')
@@ -66,10 +67,11 @@ class SiemensMm4(Points, UssDevice):
 class SiemensMm4Async(Points, AsyncUssDevice):
     """Siemens MICROMASTER 4 over a transport: `await drive.point.read()`.
 
+        from fieldscribe_runtime.uss import Link
         from fieldscribe_runtime.transports.serial import AsyncSerialLine, UssLine
 
         async with AsyncSerialLine(UssLine('/dev/ttyUSB0', 9600)) as line:
-            drive = SiemensMm4Async(line, 1, link, model='mm410', interface='rs485')
+            drive = SiemensMm4Async(line, 1, Link(pkw=4, pzd=2), model='mm410', interface='rs485')
             print(await drive.maximum_frequency.read())
             await drive.maximum_frequency.write(value)
             await drive.read_many('parameters')

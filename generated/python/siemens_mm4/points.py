@@ -240,6 +240,7 @@ class Points(PointTable):
         group="parameters",
         code="P1082",
         unit="Hz",
+        conditions=("stopped",),
     )
     """Maximum frequency: any number. To write it takes: stopped."""
 
@@ -282,6 +283,7 @@ class Points(PointTable):
         group="parameters",
         code="P2009",
         default=0,
+        conditions=("access_level_3",),
         variant=("interface", "rs485"),
         name="uss_normalisation",
     )
@@ -293,6 +295,7 @@ class Points(PointTable):
         group="parameters",
         code="P2009",
         default=0,
+        conditions=("access_level_3",),
         variant=("interface", "rs232"),
         name="uss_normalisation",
     )
@@ -303,6 +306,7 @@ class Points(PointTable):
         at=parameter(2010, index=0),
         group="parameters",
         code="P2010",
+        conditions=("access_level_2",),
     )
     """Uss baud rate index 0: 0..65535. To write it takes: access level 2."""
 
@@ -311,6 +315,7 @@ class Points(PointTable):
         at=parameter(2010, index=1),
         group="parameters",
         code="P2010",
+        conditions=("access_level_2",),
     )
     """Uss baud rate index 1: 0..65535. To write it takes: access level 2."""
 
@@ -319,6 +324,7 @@ class Points(PointTable):
         at=parameter(2011, index=0),
         group="parameters",
         code="P2011",
+        conditions=("access_level_2",),
     )
     """Uss slave address index 0: 0..65535. To write it takes: access level 2."""
 
@@ -327,6 +333,7 @@ class Points(PointTable):
         at=parameter(2011, index=1),
         group="parameters",
         code="P2011",
+        conditions=("access_level_2",),
     )
     """Uss slave address index 1: 0..65535. To write it takes: access level 2."""
 
@@ -337,6 +344,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 4),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm410"),
         name="uss_pzd_length_index_0",
     )
@@ -349,6 +357,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 4),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm420"),
         name="uss_pzd_length_index_0",
     )
@@ -361,6 +370,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 8),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm430"),
         name="uss_pzd_length_index_0",
     )
@@ -373,6 +383,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 8),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm440"),
         name="uss_pzd_length_index_0",
     )
@@ -385,6 +396,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 4),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm410"),
         name="uss_pzd_length_index_1",
     )
@@ -397,6 +409,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 4),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm420"),
         name="uss_pzd_length_index_1",
     )
@@ -409,6 +422,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 8),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm430"),
         name="uss_pzd_length_index_1",
     )
@@ -421,6 +435,7 @@ class Points(PointTable):
         code="P2012",
         allowed=((0, 8),),
         default=2,
+        conditions=("access_level_3",),
         variant=("model", "mm440"),
         name="uss_pzd_length_index_1",
     )
@@ -432,6 +447,7 @@ class Points(PointTable):
         group="parameters",
         code="P2013",
         default=127,
+        conditions=("access_level_3",),
     )
     """Uss pkw length index 0. To write it takes: access level 3."""
 
@@ -441,6 +457,7 @@ class Points(PointTable):
         group="parameters",
         code="P2013",
         default=127,
+        conditions=("access_level_3",),
     )
     """Uss pkw length index 1. To write it takes: access level 3."""
 
@@ -455,6 +472,7 @@ class Points(PointTable):
         unit="ms",
         allowed=((1, 65535),),
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss telegram off time index 0: 1..65535 ms. To write it takes: access level 3.
     Special code: 0 monitoring_off (may be written).
@@ -471,6 +489,7 @@ class Points(PointTable):
         unit="ms",
         allowed=((1, 65535),),
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss telegram off time index 1: 1..65535 ms. To write it takes: access level 3.
     Special code: 0 monitoring_off (may be written).
@@ -482,6 +501,7 @@ class Points(PointTable):
         group="parameters",
         code="P2016",
         default=3407872,
+        conditions=("access_level_3",),
     )
     """Uss rs232 answer source index 0. To write it takes: access level 3."""
 
@@ -491,6 +511,7 @@ class Points(PointTable):
         group="parameters",
         code="P2016",
         default=1376256,
+        conditions=("access_level_3",),
     )
     """Uss rs232 answer source index 1. To write it takes: access level 3."""
 
@@ -500,6 +521,7 @@ class Points(PointTable):
         group="parameters",
         code="P2016",
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss rs232 answer source index 2. To write it takes: access level 3."""
 
@@ -509,6 +531,7 @@ class Points(PointTable):
         group="parameters",
         code="P2016",
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss rs232 answer source index 3. To write it takes: access level 3."""
 
@@ -518,6 +541,7 @@ class Points(PointTable):
         group="parameters",
         code="P2019",
         default=3407872,
+        conditions=("access_level_3",),
     )
     """Uss rs485 answer source index 0. To write it takes: access level 3."""
 
@@ -527,6 +551,7 @@ class Points(PointTable):
         group="parameters",
         code="P2019",
         default=1376256,
+        conditions=("access_level_3",),
     )
     """Uss rs485 answer source index 1. To write it takes: access level 3."""
 
@@ -536,6 +561,7 @@ class Points(PointTable):
         group="parameters",
         code="P2019",
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss rs485 answer source index 2. To write it takes: access level 3."""
 
@@ -545,6 +571,7 @@ class Points(PointTable):
         group="parameters",
         code="P2019",
         default=0,
+        conditions=("access_level_3",),
     )
     """Uss rs485 answer source index 3. To write it takes: access level 3."""
 

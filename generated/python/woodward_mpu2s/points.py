@@ -829,6 +829,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="Hz",
         allowed=((10240, 17920),),
+        conditions=("password",),
     )
     """Generator frequency setpoint: 40..70 Hz. To write it takes: password."""
 
@@ -838,6 +839,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="Hz",
         allowed=((12800, 15360),),
+        conditions=("password",),
     )
     """Generator rated frequency: 50..60 Hz. To write it takes: password."""
 
@@ -847,6 +849,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 125),),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_voltage_transformer_secondary",
     )
@@ -860,6 +863,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 480),),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_voltage_transformer_secondary",
     )
@@ -873,6 +877,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((5, 65000),),
+        conditions=("password",),
     )
     """Generator voltage transformer primary: 5..65000 V. To write it takes:
     password.
@@ -884,6 +889,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 125),),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="busbar_voltage_transformer_secondary",
     )
@@ -897,6 +903,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 480),),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="busbar_voltage_transformer_secondary",
     )
@@ -910,6 +917,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((5, 65000),),
+        conditions=("password",),
     )
     """Busbar voltage transformer primary: 5..65000 V. To write it takes: password."""
 
@@ -919,6 +927,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 125),),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="mains_voltage_transformer_secondary",
     )
@@ -932,6 +941,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((50, 480),),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="mains_voltage_transformer_secondary",
     )
@@ -945,6 +955,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="V",
         allowed=((5, 65000),),
+        conditions=("password",),
     )
     """Mains voltage transformer primary: 5..65000 V. To write it takes: password."""
 
@@ -990,6 +1001,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_voltage_setpoint",
     )
@@ -1020,6 +1032,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_voltage_setpoint",
     )
@@ -1050,6 +1063,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_rated_voltage",
     )
@@ -1080,6 +1094,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_rated_voltage",
     )
@@ -1091,6 +1106,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="A",
         allowed=((10, 7000),),
+        conditions=("password",),
     )
     """Generator current transformer ratio: 10..7000 A. To write it takes: password."""
 
@@ -1099,6 +1115,7 @@ class Points(PointTable):
         at=parameter(21),
         bits=(11, 11),
         group="parameters_general",
+        conditions=("password",),
     )
     """Power measurement phases. To write it takes: password."""
 
@@ -1108,6 +1125,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="kW",
         allowed=((5, 9999),),
+        conditions=("password",),
     )
     """Generator rated power: 5..9999 kW. To write it takes: password."""
 
@@ -1117,6 +1135,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="A",
         allowed=((0, 7000),),
+        conditions=("password",),
     )
     """Generator rated current: 0..7000 A. To write it takes: password."""
 
@@ -1126,6 +1145,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="kW",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Generator power setpoint 1: -9999..9999 kW. To write it takes: password."""
 
@@ -1135,6 +1155,7 @@ class Points(PointTable):
         group="parameters_general",
         unit="kW",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Generator power setpoint 2: -9999..9999 kW. To write it takes: password."""
 
@@ -1187,6 +1208,7 @@ class Points(PointTable):
         at=parameter(19),
         bits=(15, 14),
         group="parameters_controllers",
+        conditions=("password",),
     )
     """Frequency controller. To write it takes: password."""
 
@@ -1196,6 +1218,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="Hz",
         allowed=((0, 17920),),
+        conditions=("password",),
     )
     """Frequency controller start frequency: 0..70 Hz. To write it takes: password."""
 
@@ -1205,6 +1228,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="s",
         allowed=((0, 49950),),
+        conditions=("password",),
     )
     """Frequency controller start delay: 0..999 s. To write it takes: password."""
 
@@ -1214,6 +1238,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="Hz",
         allowed=((5, 256),),
+        conditions=("password",),
     )
     """Frequency controller dead band: 0.01953125..1 Hz. To write it takes: password."""
 
@@ -1223,6 +1248,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="ms",
         allowed=((5, 125),),
+        conditions=("password",),
     )
     """Frequency controller pulse time: 10..250 ms. To write it takes: password."""
 
@@ -1231,6 +1257,7 @@ class Points(PointTable):
         at=parameter(46),
         group="parameters_controllers",
         allowed=((1, 999),),
+        conditions=("password",),
     )
     """Frequency controller proportional gain: 0.1..99.9. To write it takes:
     password.
@@ -1241,6 +1268,7 @@ class Points(PointTable):
         at=parameter(19),
         bits=(11, 10),
         group="parameters_controllers",
+        conditions=("password",),
     )
     """Voltage controller. To write it takes: password."""
 
@@ -1250,6 +1278,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((4, 600),),
+        conditions=("password",),
     )
     """Voltage controller dead band: 0.1..15 %. To write it takes: password."""
 
@@ -1259,6 +1288,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="ms",
         allowed=((10, 125),),
+        conditions=("password",),
     )
     """Voltage controller pulse time: 20..250 ms. To write it takes: password."""
 
@@ -1267,6 +1297,7 @@ class Points(PointTable):
         at=parameter(39),
         group="parameters_controllers",
         allowed=((1, 999),),
+        conditions=("password",),
     )
     """Voltage controller proportional gain: 0.1..99.9. To write it takes: password."""
 
@@ -1275,6 +1306,7 @@ class Points(PointTable):
         at=parameter(19),
         bits=(9, 8),
         group="parameters_controllers",
+        conditions=("password",),
     )
     """Cos phi controller. To write it takes: password."""
 
@@ -1283,6 +1315,7 @@ class Points(PointTable):
         at=parameter(13),
         group="parameters_controllers",
         allowed=((-99, -70), (70, 100)),
+        conditions=("password",),
     )
     """Cos phi controller setpoint: -0.99..-0.7 or 0.7..1. To write it takes:
     password.
@@ -1294,6 +1327,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((5, 250),),
+        conditions=("password",),
     )
     """Cos phi controller dead band: 0.5..25 %. To write it takes: password."""
 
@@ -1302,6 +1336,7 @@ class Points(PointTable):
         at=parameter(42),
         group="parameters_controllers",
         allowed=((1, 999),),
+        conditions=("password",),
     )
     """Cos phi controller proportional gain: 0.1..99.9. To write it takes: password."""
 
@@ -1310,6 +1345,7 @@ class Points(PointTable):
         at=parameter(19),
         bits=(13, 12),
         group="parameters_controllers",
+        conditions=("password",),
     )
     """Active power controller. To write it takes: password."""
 
@@ -1319,6 +1355,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%/s",
         allowed=((0, 100),),
+        conditions=("password",),
     )
     """Active power controller ramp: 0..100 %/s. To write it takes: password."""
 
@@ -1328,6 +1365,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((100, 1200),),
+        conditions=("password",),
     )
     """Active power controller maximum: 10..120 %. To write it takes: password."""
 
@@ -1337,6 +1375,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((0, 500),),
+        conditions=("password",),
     )
     """Active power controller minimum: 0..50 %. To write it takes: password."""
 
@@ -1346,6 +1385,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((1, 250),),
+        conditions=("password",),
     )
     """Active power controller dead band: 0.1..25 %. To write it takes: password."""
 
@@ -1354,6 +1394,7 @@ class Points(PointTable):
         at=parameter(49),
         group="parameters_controllers",
         allowed=((1, 999),),
+        conditions=("password",),
     )
     """Active power controller proportional gain: 0.1..99.9. To write it takes:
     password.
@@ -1364,6 +1405,7 @@ class Points(PointTable):
         at=parameter(50),
         group="parameters_controllers",
         allowed=((10, 99),),
+        conditions=("password",),
     )
     """Active power controller sensitivity reduction: 1..9.9. To write it takes:
     password.
@@ -1375,6 +1417,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="%",
         allowed=((50, 1100),),
+        conditions=("password",),
     )
     """Part load lead setpoint: 5..110 %. To write it takes: password."""
 
@@ -1384,6 +1427,7 @@ class Points(PointTable):
         group="parameters_controllers",
         unit="s",
         allowed=((0, 30000),),
+        conditions=("password",),
     )
     """Part load lead time: 0..600 s. To write it takes: password."""
 
@@ -1394,6 +1438,7 @@ class Points(PointTable):
         at=parameter(201),
         bits=(7, 6),
         group="parameters_breaker",
+        conditions=("password",),
     )
     """Control by interface x1 x5. To write it takes: password."""
 
@@ -1402,6 +1447,7 @@ class Points(PointTable):
         at=parameter(16),
         bits=(11, 8),
         group="parameters_breaker",
+        conditions=("password",),
     )
     """Breaker logic. To write it takes: password."""
 
@@ -1411,6 +1457,7 @@ class Points(PointTable):
         group="parameters_breaker",
         unit="s",
         allowed=((0, 49950),),
+        conditions=("password",),
     )
     """Load ramp maximum time: 0..999 s. To write it takes: password."""
 
@@ -1419,6 +1466,7 @@ class Points(PointTable):
         at=parameter(21),
         bits=(3, 3),
         group="parameters_breaker",
+        conditions=("password",),
     )
     """Generator breaker signal logic. To write it takes: password."""
 
@@ -1427,6 +1475,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(2, 2),
         group="parameters_breaker",
+        conditions=("password",),
     )
     """Generator breaker open relay logic. To write it takes: password."""
 
@@ -1438,6 +1487,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="Hz",
         allowed=((5, 125),),
+        conditions=("password",),
     )
     """Synchronisation frequency difference maximum: 0.01953125..0.48828125 Hz. To
     write it takes: password.
@@ -1449,6 +1499,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="Hz",
         allowed=((0, 125),),
+        conditions=("password",),
     )
     """Synchronisation frequency difference minimum: 0..0.48828125 Hz. To write it
     takes: password.
@@ -1460,6 +1511,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="%",
         allowed=((4, 600),),
+        conditions=("password",),
     )
     """Synchronisation voltage difference maximum: 0.1..15 %. To write it takes:
     password.
@@ -1471,6 +1523,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="%",
         allowed=((4, 600),),
+        conditions=("password",),
     )
     """Synchronisation voltage difference minimum: 0.1..15 %. To write it takes:
     password.
@@ -1482,6 +1535,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="s",
         allowed=((1, 13),),
+        conditions=("password",),
     )
     """Synchronisation pulse time: 0.02..0.26 s. To write it takes: password."""
 
@@ -1491,6 +1545,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="ms",
         allowed=((40, 300),),
+        conditions=("password",),
     )
     """Generator breaker pick up time: 40..300 ms. To write it takes: password."""
 
@@ -1499,6 +1554,7 @@ class Points(PointTable):
         at=parameter(21),
         bits=(0, 0),
         group="parameters_synchronisation",
+        conditions=("password",),
     )
     """Synchronisation time monitoring. To write it takes: password."""
 
@@ -1508,6 +1564,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="s",
         allowed=((10, 999),),
+        conditions=("password",),
     )
     """Synchronisation time monitoring delay: 10..999 s. To write it takes: password."""
 
@@ -1516,6 +1573,7 @@ class Points(PointTable):
         at=parameter(19),
         bits=(5, 4),
         group="parameters_synchronisation",
+        conditions=("password",),
     )
     """Dead bus start. To write it takes: password."""
 
@@ -1525,6 +1583,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="Hz",
         allowed=((13, 1280),),
+        conditions=("password",),
     )
     """Dead bus start frequency difference maximum: 0.05078125..5 Hz. To write it
     takes: password.
@@ -1536,6 +1595,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="%",
         allowed=((4, 800),),
+        conditions=("password",),
     )
     """Dead bus start voltage difference maximum: 0.1..20 %. To write it takes:
     password.
@@ -1547,6 +1607,7 @@ class Points(PointTable):
         group="parameters_synchronisation",
         unit="s",
         allowed=((0, 999),),
+        conditions=("password",),
     )
     """Dead bus start maximum time: 0..999 s. To write it takes: password."""
 
@@ -1555,6 +1616,7 @@ class Points(PointTable):
         at=parameter(17),
         bits=(12, 12),
         group="parameters_synchronisation",
+        conditions=("password",),
     )
     """Generator breaker monitoring. To write it takes: password."""
 
@@ -1563,6 +1625,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(1, 1),
         group="parameters_synchronisation",
+        conditions=("password",),
     )
     """Automatic breaker unlocking. To write it takes: password."""
 
@@ -1573,6 +1636,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(11, 11),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator overload monitoring. To write it takes: password."""
 
@@ -1582,6 +1646,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((800, 1500),),
+        conditions=("password",),
     )
     """Overload threshold parallel operation: 80..150 %. To write it takes: password."""
 
@@ -1591,6 +1656,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((0, 4950),),
+        conditions=("password",),
     )
     """Overload delay parallel operation: 0..99 s. To write it takes: password."""
 
@@ -1600,6 +1666,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((800, 1500),),
+        conditions=("password",),
     )
     """Overload threshold isolated operation: 80..150 %. To write it takes: password."""
 
@@ -1609,6 +1676,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((0, 4950),),
+        conditions=("password",),
     )
     """Overload delay isolated operation: 0..99 s. To write it takes: password."""
 
@@ -1617,6 +1685,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(5, 5),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator reverse power monitoring. To write it takes: password."""
 
@@ -1626,6 +1695,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((-990, 990),),
+        conditions=("password",),
     )
     """Reverse power threshold: -99..99 %. To write it takes: password."""
 
@@ -1635,6 +1705,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((0, 4995),),
+        conditions=("password",),
     )
     """Reverse power delay: 0..99.9 s. To write it takes: password."""
 
@@ -1643,6 +1714,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(10, 10),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator unbalanced load monitoring. To write it takes: password."""
 
@@ -1652,6 +1724,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((0, 1000),),
+        conditions=("password",),
     )
     """Unbalanced load threshold: 0..100 %. To write it takes: password."""
 
@@ -1661,6 +1734,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 4999),),
+        conditions=("password",),
     )
     """Unbalanced load delay: 0.02..99.98 s. To write it takes: password."""
 
@@ -1669,6 +1743,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(4, 4),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator overcurrent monitoring. To write it takes: password."""
 
@@ -1678,6 +1753,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((0, 3000),),
+        conditions=("password",),
     )
     """Overcurrent 1 threshold: 0..300 %. To write it takes: password."""
 
@@ -1687,6 +1763,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 4999),),
+        conditions=("password",),
     )
     """Overcurrent 1 delay: 0.02..99.98 s. To write it takes: password."""
 
@@ -1696,6 +1773,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((0, 3000),),
+        conditions=("password",),
     )
     """Overcurrent 2 threshold: 0..300 %. To write it takes: password."""
 
@@ -1705,6 +1783,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 4999),),
+        conditions=("password",),
     )
     """Overcurrent 2 delay: 0.02..99.98 s. To write it takes: password."""
 
@@ -1713,6 +1792,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(10, 10),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Inverse time overcurrent. To write it takes: password."""
 
@@ -1721,6 +1801,7 @@ class Points(PointTable):
         at=parameter(298),
         bits=(1, 0),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Inverse time overcurrent characteristic. To write it takes: password."""
 
@@ -1730,6 +1811,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((0, 99),),
+        conditions=("password",),
     )
     """Inverse time overcurrent tp: 0..1.98 s. To write it takes: password."""
 
@@ -1738,6 +1820,7 @@ class Points(PointTable):
         at=parameter(300),
         group="parameters_monitoring_generator",
         allowed=((100, 3000),),
+        conditions=("password",),
     )
     """Inverse time overcurrent ip: 0.1..3. To write it takes: password."""
 
@@ -1746,6 +1829,7 @@ class Points(PointTable):
         at=parameter(301),
         group="parameters_monitoring_generator",
         allowed=((1000, 3000),),
+        conditions=("password",),
     )
     """Inverse time overcurrent istart: 1..3. To write it takes: password."""
 
@@ -1754,6 +1838,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(11, 11),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Inverse time overcurrent voltage dependence. To write it takes: password."""
 
@@ -1763,6 +1848,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="%",
         allowed=((10, 90),),
+        conditions=("password",),
     )
     """Inverse time overcurrent voltage knee: 10..90 %. To write it takes: password."""
 
@@ -1771,6 +1857,7 @@ class Points(PointTable):
         at=parameter(310),
         bits=(12, 12),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator overfrequency monitoring. To write it takes: password."""
 
@@ -1780,6 +1867,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="Hz",
         allowed=((10240, 21760),),
+        conditions=("password",),
     )
     """Generator overfrequency 1 threshold: 40..85 Hz. To write it takes: password."""
 
@@ -1789,6 +1877,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator overfrequency 1 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -1798,6 +1887,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="Hz",
         allowed=((10240, 21760),),
+        conditions=("password",),
     )
     """Generator overfrequency 2 threshold: 40..85 Hz. To write it takes: password."""
 
@@ -1807,6 +1897,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator overfrequency 2 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -1815,6 +1906,7 @@ class Points(PointTable):
         at=parameter(310),
         bits=(3, 3),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator underfrequency monitoring. To write it takes: password."""
 
@@ -1824,6 +1916,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="Hz",
         allowed=((10240, 21760),),
+        conditions=("password",),
     )
     """Generator underfrequency 1 threshold: 40..85 Hz. To write it takes: password."""
 
@@ -1833,6 +1926,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator underfrequency 1 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -1842,6 +1936,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="Hz",
         allowed=((10240, 21760),),
+        conditions=("password",),
     )
     """Generator underfrequency 2 threshold: 40..85 Hz. To write it takes: password."""
 
@@ -1851,6 +1946,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator underfrequency 2 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -1859,6 +1955,7 @@ class Points(PointTable):
         at=parameter(310),
         bits=(1, 1),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator overvoltage monitoring. To write it takes: password."""
 
@@ -1887,6 +1984,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_overvoltage_1_threshold",
     )
@@ -1917,6 +2015,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_overvoltage_1_threshold",
     )
@@ -1928,6 +2027,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator overvoltage 1 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -1956,6 +2056,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_overvoltage_2_threshold",
     )
@@ -1986,6 +2087,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_overvoltage_2_threshold",
     )
@@ -1997,6 +2099,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator overvoltage 2 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2005,6 +2108,7 @@ class Points(PointTable):
         at=parameter(310),
         bits=(0, 0),
         group="parameters_monitoring_generator",
+        conditions=("password",),
     )
     """Generator undervoltage monitoring. To write it takes: password."""
 
@@ -2033,6 +2137,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_undervoltage_1_threshold",
     )
@@ -2063,6 +2168,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_undervoltage_1_threshold",
     )
@@ -2074,6 +2180,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator undervoltage 1 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2102,6 +2209,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="generator_undervoltage_2_threshold",
     )
@@ -2132,6 +2240,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="generator_undervoltage_2_threshold",
     )
@@ -2143,6 +2252,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Generator undervoltage 2 delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2189,6 +2299,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(14, 14),
         group="parameters_monitoring_mains",
+        conditions=("password",),
     )
     """Mains frequency monitoring. To write it takes: password."""
 
@@ -2198,6 +2309,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="Hz",
         allowed=((10240, 17920),),
+        conditions=("password",),
     )
     """Mains overfrequency threshold: 40..70 Hz. To write it takes: password."""
 
@@ -2207,6 +2319,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Mains overfrequency delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2216,6 +2329,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="Hz",
         allowed=((10240, 17920),),
+        conditions=("password",),
     )
     """Mains underfrequency threshold: 40..70 Hz. To write it takes: password."""
 
@@ -2225,6 +2339,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Mains underfrequency delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2233,6 +2348,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(15, 15),
         group="parameters_monitoring_mains",
+        conditions=("password",),
     )
     """Mains voltage monitoring. To write it takes: password."""
 
@@ -2278,6 +2394,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="mains_overvoltage_threshold",
     )
@@ -2308,6 +2425,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="mains_overvoltage_threshold",
     )
@@ -2319,6 +2437,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Mains overvoltage delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2347,6 +2466,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "100V"),
         name="mains_undervoltage_threshold",
     )
@@ -2377,6 +2497,7 @@ class Points(PointTable):
                 ),
             ),
         ),
+        conditions=("password",),
         variant=("voltage", "400V"),
         name="mains_undervoltage_threshold",
     )
@@ -2388,6 +2509,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="s",
         allowed=((1, 499),),
+        conditions=("password",),
     )
     """Mains undervoltage delay: 0.02..9.98 s. To write it takes: password."""
 
@@ -2396,6 +2518,7 @@ class Points(PointTable):
         at=parameter(15),
         bits=(1, 1),
         group="parameters_monitoring_mains",
+        conditions=("password",),
     )
     """Phase shift monitoring. To write it takes: password."""
 
@@ -2404,6 +2527,7 @@ class Points(PointTable):
         at=parameter(21),
         bits=(13, 13),
         group="parameters_monitoring_mains",
+        conditions=("password",),
     )
     """Phase shift monitoring phases. To write it takes: password."""
 
@@ -2413,6 +2537,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="°",
         allowed=((3, 30),),
+        conditions=("password",),
     )
     """Phase shift threshold single phase: 3..30 °. To write it takes: password."""
 
@@ -2422,6 +2547,7 @@ class Points(PointTable):
         group="parameters_monitoring_mains",
         unit="°",
         allowed=((3, 30),),
+        conditions=("password",),
     )
     """Phase shift threshold three phase: 3..30 °. To write it takes: password."""
 
@@ -2450,6 +2576,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(12, 12),
         group="parameters_monitoring_power",
+        conditions=("password",),
     )
     """Reactive power monitoring. To write it takes: password."""
 
@@ -2459,6 +2586,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="%",
         allowed=((50, 1000),),
+        conditions=("password",),
     )
     """Reactive power threshold inductive: 5..100 %. To write it takes: password."""
 
@@ -2468,6 +2596,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="s",
         allowed=((0, 49950),),
+        conditions=("password",),
     )
     """Reactive power delay inductive: 0..999 s. To write it takes: password."""
 
@@ -2477,6 +2606,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="%",
         allowed=((50, 1000),),
+        conditions=("password",),
     )
     """Reactive power threshold capacitive: 5..100 %. To write it takes: password."""
 
@@ -2486,6 +2616,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="s",
         allowed=((0, 49950),),
+        conditions=("password",),
     )
     """Reactive power delay capacitive: 0..999 s. To write it takes: password."""
 
@@ -2494,6 +2625,7 @@ class Points(PointTable):
         at=parameter(248),
         bits=(9, 9),
         group="parameters_monitoring_power",
+        conditions=("password",),
     )
     """Earth fault monitoring. To write it takes: password."""
 
@@ -2503,6 +2635,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="%",
         allowed=((50, 1000),),
+        conditions=("password",),
     )
     """Earth fault threshold: 5..100 %. To write it takes: password."""
 
@@ -2512,6 +2645,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="s",
         allowed=((1, 4999),),
+        conditions=("password",),
     )
     """Earth fault delay: 0.02..99.98 s. To write it takes: password."""
 
@@ -2521,6 +2655,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="V",
         allowed=((95, 300),),
+        conditions=("password",),
     )
     """Battery undervoltage threshold: 9.5..30 V. To write it takes: password."""
 
@@ -2530,6 +2665,7 @@ class Points(PointTable):
         group="parameters_monitoring_power",
         unit="s",
         allowed=((1, 4950),),
+        conditions=("password",),
     )
     """Battery undervoltage delay: 0.02..99 s. To write it takes: password.
 
@@ -2543,6 +2679,7 @@ class Points(PointTable):
         at=parameter(125),
         bits=(11, 8),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 1 to 4 logic. To write it takes: password."""
 
@@ -2550,6 +2687,7 @@ class Points(PointTable):
         Digits(U16, enums.InputDelay, count=4),
         at=parameter(404),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 1 to 4 delay. To write it takes: password."""
 
@@ -2558,6 +2696,7 @@ class Points(PointTable):
         at=parameter(127),
         bits=(11, 8),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 1 to 4 engine delay. To write it takes: password."""
 
@@ -2565,6 +2704,7 @@ class Points(PointTable):
         Digits(U16, enums.FaultClass, count=4),
         at=parameter(130),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 1 to 4 fault class. To write it takes: password."""
 
@@ -2573,6 +2713,7 @@ class Points(PointTable):
         at=parameter(125),
         bits=(7, 4),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 5 to 8 logic. To write it takes: password."""
 
@@ -2580,6 +2721,7 @@ class Points(PointTable):
         Digits(U16, enums.InputDelay, count=4),
         at=parameter(405),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 5 to 8 delay. To write it takes: password."""
 
@@ -2588,6 +2730,7 @@ class Points(PointTable):
         at=parameter(127),
         bits=(7, 4),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 5 to 8 engine delay. To write it takes: password."""
 
@@ -2595,6 +2738,7 @@ class Points(PointTable):
         Digits(U16, enums.FaultClass, count=4),
         at=parameter(135),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 5 to 8 fault class. To write it takes: password."""
 
@@ -2603,6 +2747,7 @@ class Points(PointTable):
         at=parameter(125),
         bits=(3, 0),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 9 to 12 logic. To write it takes: password."""
 
@@ -2610,6 +2755,7 @@ class Points(PointTable):
         Digits(U16, enums.InputDelay, count=4),
         at=parameter(406),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 9 to 12 delay. To write it takes: password."""
 
@@ -2618,6 +2764,7 @@ class Points(PointTable):
         at=parameter(127),
         bits=(3, 0),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 9 to 12 engine delay. To write it takes: password."""
 
@@ -2625,6 +2772,7 @@ class Points(PointTable):
         Digits(U16, enums.FaultClass, count=4),
         at=parameter(136),
         group="parameters_inputs",
+        conditions=("password",),
     )
     """Digital inputs 9 to 12 fault class. To write it takes: password."""
 
@@ -2634,6 +2782,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(739, 738, 737, 736, 735, 734, 733, 732),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 62. To write it takes: password."""
 
@@ -2641,6 +2790,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(747, 746, 745, 744, 743, 742, 741, 740),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 63. To write it takes: password."""
 
@@ -2648,6 +2798,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(755, 754, 753, 752, 751, 750, 749, 748),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 64. To write it takes: password."""
 
@@ -2655,6 +2806,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(763, 762, 761, 760, 759, 758, 757, 756),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 65. To write it takes: password."""
 
@@ -2662,6 +2814,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(771, 770, 769, 768, 767, 766, 765, 764),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 66. To write it takes: password."""
 
@@ -2669,6 +2822,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(779, 778, 777, 776, 775, 774, 773, 772),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 67. To write it takes: password."""
 
@@ -2676,6 +2830,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(787, 786, 785, 784, 783, 782, 781, 780),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 68. To write it takes: password."""
 
@@ -2683,6 +2838,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(795, 794, 793, 792, 791, 790, 789, 788),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 69. To write it takes: password."""
 
@@ -2690,6 +2846,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(803, 802, 801, 800, 799, 798, 797, 796),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 70. To write it takes: password."""
 
@@ -2697,6 +2854,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(811, 810, 809, 808, 807, 806, 805, 804),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 71. To write it takes: password."""
 
@@ -2704,6 +2862,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(819, 818, 817, 816, 815, 814, 813, 812),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 72. To write it takes: password."""
 
@@ -2711,6 +2870,7 @@ class Points(PointTable):
         Text(16),
         at=parameter(827, 826, 825, 824, 823, 822, 821, 820),
         group="parameters_texts",
+        conditions=("password",),
     )
     """Fault text terminal 73. To write it takes: password."""
 
@@ -2721,6 +2881,7 @@ class Points(PointTable):
         at=parameter(192),
         group="parameters_analog",
         allowed=((0, 23),),
+        conditions=("password",),
     )
     """Analog output 1 source. To write it takes: password."""
 
@@ -2729,6 +2890,7 @@ class Points(PointTable):
         at=parameter(16),
         bits=(1, 1),
         group="parameters_analog",
+        conditions=("password",),
     )
     """Analog output 1 current range. To write it takes: password."""
 
@@ -2756,6 +2918,7 @@ class Points(PointTable):
         at=parameter(193),
         group="parameters_analog",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Analog output 1 value at 0 percent. To write it takes: password."""
 
@@ -2783,6 +2946,7 @@ class Points(PointTable):
         at=parameter(194),
         group="parameters_analog",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Analog output 1 value at 100 percent. To write it takes: password."""
 
@@ -2791,6 +2955,7 @@ class Points(PointTable):
         at=parameter(195),
         group="parameters_analog",
         allowed=((0, 23),),
+        conditions=("password",),
     )
     """Analog output 2 source. To write it takes: password."""
 
@@ -2799,6 +2964,7 @@ class Points(PointTable):
         at=parameter(16),
         bits=(3, 3),
         group="parameters_analog",
+        conditions=("password",),
     )
     """Analog output 2 current range. To write it takes: password."""
 
@@ -2826,6 +2992,7 @@ class Points(PointTable):
         at=parameter(196),
         group="parameters_analog",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Analog output 2 value at 0 percent. To write it takes: password."""
 
@@ -2853,6 +3020,7 @@ class Points(PointTable):
         at=parameter(197),
         group="parameters_analog",
         allowed=((-9999, 9999),),
+        conditions=("password",),
     )
     """Analog output 2 value at 100 percent. To write it takes: password."""
 
@@ -2864,6 +3032,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 event 1. To write it takes: password."""
 
@@ -2873,6 +3042,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 logic 1. To write it takes: password."""
 
@@ -2882,6 +3052,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 event 2. To write it takes: password."""
 
@@ -2891,6 +3062,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 logic 2. To write it takes: password."""
 
@@ -2900,6 +3072,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 event 3. To write it takes: password."""
 
@@ -2909,6 +3082,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 1 logic 3. To write it takes: password."""
 
@@ -2918,6 +3092,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 event 1. To write it takes: password."""
 
@@ -2927,6 +3102,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 logic 1. To write it takes: password."""
 
@@ -2936,6 +3112,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 event 2. To write it takes: password."""
 
@@ -2945,6 +3122,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 logic 2. To write it takes: password."""
 
@@ -2954,6 +3132,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 event 3. To write it takes: password."""
 
@@ -2963,6 +3142,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 2 logic 3. To write it takes: password."""
 
@@ -2972,6 +3152,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 event 1. To write it takes: password."""
 
@@ -2981,6 +3162,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 logic 1. To write it takes: password."""
 
@@ -2990,6 +3172,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 event 2. To write it takes: password."""
 
@@ -2999,6 +3182,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 logic 2. To write it takes: password."""
 
@@ -3008,6 +3192,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 event 3. To write it takes: password."""
 
@@ -3017,6 +3202,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 3 logic 3. To write it takes: password."""
 
@@ -3026,6 +3212,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 event 1. To write it takes: password."""
 
@@ -3035,6 +3222,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 logic 1. To write it takes: password."""
 
@@ -3044,6 +3232,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 event 2. To write it takes: password."""
 
@@ -3053,6 +3242,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 logic 2. To write it takes: password."""
 
@@ -3062,6 +3252,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 event 3. To write it takes: password."""
 
@@ -3071,6 +3262,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 4 logic 3. To write it takes: password."""
 
@@ -3080,6 +3272,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 event 1. To write it takes: password."""
 
@@ -3089,6 +3282,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 logic 1. To write it takes: password."""
 
@@ -3098,6 +3292,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 event 2. To write it takes: password."""
 
@@ -3107,6 +3302,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 logic 2. To write it takes: password."""
 
@@ -3116,6 +3312,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 event 3. To write it takes: password."""
 
@@ -3125,6 +3322,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 5 logic 3. To write it takes: password."""
 
@@ -3134,6 +3332,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 event 1. To write it takes: password."""
 
@@ -3143,6 +3342,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 logic 1. To write it takes: password."""
 
@@ -3152,6 +3352,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 event 2. To write it takes: password."""
 
@@ -3161,6 +3362,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 logic 2. To write it takes: password."""
 
@@ -3170,6 +3372,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 event 3. To write it takes: password."""
 
@@ -3179,6 +3382,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 6 logic 3. To write it takes: password."""
 
@@ -3188,6 +3392,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 event 1. To write it takes: password."""
 
@@ -3197,6 +3402,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 logic 1. To write it takes: password."""
 
@@ -3206,6 +3412,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 event 2. To write it takes: password."""
 
@@ -3215,6 +3422,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 logic 2. To write it takes: password."""
 
@@ -3224,6 +3432,7 @@ class Points(PointTable):
         bits=(15, 8),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 event 3. To write it takes: password."""
 
@@ -3233,6 +3442,7 @@ class Points(PointTable):
         bits=(2, 0),
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
+        conditions=("password",),
     )
     """Relay 7 logic 3. To write it takes: password."""
 
@@ -3243,6 +3453,7 @@ class Points(PointTable):
         at=parameter(18),
         bits=(0, 0),
         group="parameters_operation",
+        conditions=("password",),
     )
     """Automatic idle control. To write it takes: password."""
 
@@ -3251,6 +3462,7 @@ class Points(PointTable):
         at=parameter(201),
         bits=(11, 11),
         group="parameters_operation",
+        conditions=("password",),
     )
     """Shutdown. To write it takes: password."""
 
@@ -3260,6 +3472,7 @@ class Points(PointTable):
         group="parameters_operation",
         unit="s",
         allowed=((1, 99),),
+        conditions=("password",),
     )
     """Engine monitoring delay: 1..99 s. To write it takes: password."""
 
@@ -3269,5 +3482,6 @@ class Points(PointTable):
         group="parameters_operation",
         unit="Hz",
         allowed=((3840, 17920),),
+        conditions=("password",),
     )
     """Monitoring start frequency: 15..70 Hz. To write it takes: password."""

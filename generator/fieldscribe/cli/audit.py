@@ -27,6 +27,9 @@ changed line is not explained"""
 _MOST_BYTES = 256 << 20
 """The largest manual text that is read: a hundred times the longest known one."""
 
+_LONGEST_LINE = 20_000
+"""Characters of a line: a text without its line breaks tells no places."""
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
@@ -116,9 +119,14 @@ def text_of(path: Path) -> tuple[str, str, str]:
 
     data = read_regular(path, _MOST_BYTES).data
     try:
-        return path.name, data.decode("utf-8-sig"), sha256(data).hexdigest()
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise StopError(f"`{path}` is no text in UTF-8", "extract the manual's text first") from error
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > _LONGEST_LINE:
+            hint = "extract the manual's text with its line breaks"
+            raise StopError(f"`{path}`:{number} has more than {_LONGEST_LINE} characters in a line", hint)
+    return path.name, text, sha256(data).hexdigest()
 
 
 def manual_of(subject: Subject, place: Path) -> tuple[Path, Document]:

@@ -149,10 +149,11 @@ class Explaining:
         yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
         yield from self._weakened(number, change)
         meant = self._without_spellings(change)
+        took_words = self._took_words(meant)
         for line in change.new:
             if line not in self.new.empty:
                 yield from self._numbers(line, meant)
-                yield from self._names(line, meant)
+                yield from self._names(line, meant, took_words=took_words)
         yield from self._signs(number, change)
         yield from self._units(number, change)
 
@@ -265,10 +266,9 @@ class Explaining:
             yield self._unknown(unknown, line, "number")
 
     def _new_tokens(self, line: int, change: Change) -> Iterator[tuple[Token, range]]:
-        fresh = {word for _, new in change.gaps for word in new}
         for token in self.new.manual.tokens[line - 1]:
             words = self.new.words_of_token(token)
-            if fresh.intersection(words):
+            if any(_is_new(word, change) for word in words):
                 yield token, words
 
     def _is_known(self, token: Token, words: range) -> bool:
@@ -308,20 +308,20 @@ class Explaining:
                     with_or_without = "with" if has_sign else "without"
                     yield _of_claim("sign", bearing[0], f"is printed {with_or_without} a minus sign")
 
-    def _names(self, line: int, change: Change) -> Iterator[Reason]:
+    def _names(self, line: int, change: Change, *, took_words: bool) -> Iterator[Reason]:
         """The new words of a line that the description does not have for what cites it."""
         manual, text = self.new.manual, self.editions.new
         subjects = self.subjects_at.get(line, {})
         if not subjects and not (manual.is_row(line) or line in self.headings):
             return
         in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
-        fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
+        fresh = [word for word in text.of_line(line) if _is_new(word, change)]
         fresh = [word for word in fresh if not self._is_respelled(word, change)]
         fresh = [word for word in fresh if word not in in_numbers or is_title(text.texts[word])]
         if change.kind == "added" and not subjects and self._is_prose_section(change):
             return
         written = text.line(line)
-        is_label = line in self.headings or self._took_words(change) or self._has_new_numbers(line, change)
+        is_label = line in self.headings or took_words or self._has_new_numbers(line, change)
         words = [
             text.texts[word]
             for word in fresh
@@ -341,12 +341,8 @@ class Explaining:
     def _took_words(self, change: Change) -> bool:
         """Whether words went that a title, a label or another text of the description stood on."""
         gone = {word for old, _ in change.gaps for word in old}
-        pairs = (
-            pair
-            for line in change.old
-            for number in self._of_old.get(line, ())
-            for pair in self.pairs_of.get(number, ())
-        )
+        numbers = {number for line in change.old for number in self._of_old.get(line, ())}
+        pairs = (pair for number in numbers for pair in self.pairs_of.get(number, ()))
         return any(pair.old and not self.old.named.get(pair.old, set()).isdisjoint(gone) for pair in pairs)
 
     def _is_prose_section(self, change: Change) -> bool:
@@ -382,6 +378,10 @@ class Explaining:
             unit, place = self.words.unit_of(subject)
             if gone.intersection(set(Words(unit).texts) - stands):
                 yield Reason("unit", f": unit {unit} is not there", place, (subject,), (unit,))
+
+
+def _is_new(word: int, change: Change) -> bool:
+    return any(word in new for _, new in change.gaps)
 
 
 def _is_of_numbers(claim: Claim) -> bool:
