@@ -18,15 +18,14 @@ def pty_end(answer: Any) -> Iterator[str]:
     near, far = os.openpty()
     for end in (near, far):
         tty.setraw(end)
+    stop = threading.Event()
 
     def serve() -> None:
-        while True:
-            try:
-                request = os.read(near, 256)
-            except OSError:
-                return
-            with suppress(OSError):  # the test has closed the line
+        with suppress(OSError):  # the other end is closed
+            while request := os.read(near, 256):
                 for reply in answer(request):
+                    if stop.is_set():
+                        return
                     os.write(near, reply)
 
     thread = threading.Thread(target=serve, daemon=True)
@@ -34,5 +33,7 @@ def pty_end(answer: Any) -> Iterator[str]:
     try:
         yield os.ttyname(far)
     finally:
+        stop.set()
         os.close(far)
+        thread.join(10)  # before its end is closed: the number may be another file's then
         os.close(near)

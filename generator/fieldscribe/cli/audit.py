@@ -21,7 +21,7 @@ EXAMPLE = """examples:
 
 ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
 fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a
-changed line is not explained"""
+changed line is not explained or an erratum about one is not looked at"""
 
 
 _MOST_BYTES = 256 << 20
@@ -54,6 +54,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
     )
+    parser.add_argument(
+        "--holds",
+        action="append",
+        default=[],
+        metavar="ERRATA",
+        help="with --old: errata, with commas between, that were looked at and hold though lines they cite changed",
+    )
     for key in ("file", "edition"):
         parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: what `{key}` of the document says then")
     parser.add_argument(
@@ -74,8 +81,8 @@ def run(arguments: Namespace) -> int:
         from fieldscribe.cli.audit_editions import run as run_editions
 
         return run_editions(arguments)
-    if arguments.renumber or arguments.accept:
-        raise StopError("--renumber and --accept need the old text", "give it with --old")
+    if arguments.renumber or arguments.accept or arguments.holds:
+        raise StopError("--renumber, --accept and --holds need the old text", "give it with --old")
     outcome = _audit(arguments)
     if arguments.format == "json":
         print_json(outcome.as_data())

@@ -63,7 +63,7 @@ def _maker(point: Point) -> str:
 
 def _line(device: Device) -> Line:
     own = of_bus(device.bus)
-    pkw = 4 if 4 in own.pkw else own.pkw[0]
+    pkw = own.pkw[0] if own.pkw and 4 not in own.pkw else 4  # a bus with errors may have none
     pzd = min(max(2, own.pzd[0]), own.pzd[1])
     return Line(
         "serial",
