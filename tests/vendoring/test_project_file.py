@@ -59,6 +59,25 @@ def test_one_command_leaves_and_checks_all_of_it(project: Path, capsys: pytest.C
     assert "missing: " in capsys.readouterr().out
 
 
+def test_what_the_project_names_no_more_is_told(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its own files alone: those that another device needs, too, stay wanted."""
+    file = project / "fieldscribe.toml"
+    file.write_text(f'{TOP}{DEVICE}points = ["A020"]\n{DEVICE}as = "other"\npoints = ["D001"]\n', "utf-8")
+    assert main(["vendor"]) == 0
+    file.write_text(f'{TOP}{DEVICE}points = ["A020"]\n', "utf-8")
+    capsys.readouterr()
+    assert main(["vendor"]) == 0
+    assert main(["vendor", "--check"]) == 0
+    told = [line for line in capsys.readouterr().out.splitlines() if line.startswith("not in")]
+    assert told[:2] == ["not in the project file: d/other.h", "not in the project file: d/other_modbus.h"] == told[2:]
+    assert main(["vendor", "--check", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["not_in_project"] == ["d/other.h", "d/other_modbus.h"]
+    for name in ("other.h", "other_modbus.h"):
+        (project / "d" / name).unlink()
+    assert main(["vendor", "--check"]) == 0
+    assert "not in" not in capsys.readouterr().out
+
+
 DEVICE = '[[devices]]\ndevice = "hitachi_l200"\n'
 TOP = 'out = "d"\ntargets = ["c"]\n'
 

@@ -79,6 +79,7 @@ def test_a_command_is_chosen_by_its_name() -> None:
     ("device", "word", "message", "hint"),
     [
         ("hitachi_l200", "A0020", "no point, group or command `A0020`", "did you mean"),
+        ("hitachi_l200", "A02O", "no point, group or command `A02O`", "did you mean `A020`"),
         ("hitachi_l200", "enterr", "`enterr`", "`enter`"),
         ("hitachi_l200", "zzz*", "`zzz*`", "fieldscribe list hitachi_l200"),
         ("hitachi_l200", "4137", "`4137`", ""),
@@ -90,6 +91,20 @@ def test_words_that_mean_nothing(device: str, word: str, message: str, hint: str
         chosen(shipped(device), [word])
     assert message in refused.value.message
     assert hint in refused.value.hint
+
+
+def test_all_wrong_words_are_told_at_once(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A02O,D001,Q1") == 2
+    said = capsys.readouterr().err
+    assert "`A02O`; hitachi_l200 has no point, group or command `Q1`" in said
+    assert "for `A02O`, did you mean `A020`" in said
+    with pytest.raises(UnclearError, match="and 10 more"):
+        chosen(shipped("hitachi_l200"), [f"none{number}" for number in range(30)])
+
+
+def test_a_point_that_is_documented_only_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert vendor("c", "siemens_mm4", "--out", tmp_path, "--points", "r0021") == 0
+    assert "`r0021` comes with its address alone, and no conversion: the manual" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("points", "most"), [(TEN, 20), (HARD, 25)])

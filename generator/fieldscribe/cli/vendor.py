@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.reading import Inputs
@@ -78,7 +79,8 @@ def run(arguments: Namespace) -> int:
         return _list(deliveries)
     if not looks:
         _keep_up(arguments, deliveries, inputs)
-    return say(deliveries, arguments.format, check=arguments.check)
+    left = _left(orders) if arguments.language is None else []
+    return say(deliveries, arguments.format, check=arguments.check, left=left)
 
 
 def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool) -> list[Delivery]:
@@ -118,6 +120,14 @@ def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bo
         where = error.filename or order.out
         hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
         raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
+
+
+def _left(orders: list[Order]) -> list[Path]:
+    """Files of what the project file names no more."""
+    from fieldscribe.vendoring.files import LANGUAGES
+    from fieldscribe.vendoring.orders import dropped
+
+    return dropped(orders, LANGUAGES)
 
 
 def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
@@ -180,9 +190,9 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
 
     from fieldscribe.asked import UnclearError
     from fieldscribe.checks.device_name_is_free import reasons
-    from fieldscribe.cli.common import StopError, open_device
+    from fieldscribe.cli.common import StopError, open_device, usage_error
     from fieldscribe.language.keys.forms import ID
-    from fieldscribe.vendoring.choosing import chosen
+    from fieldscribe.vendoring.choosing import chosen, only_raw
     from fieldscribe.vendoring.orders import Order
 
     if device is None or out is None:
@@ -198,6 +208,8 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
         chosen(opened, wish.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
+    for said in only_raw(opened, wish.points):
+        usage_error(said)
     return Order(opened, wish, out)
 
 
@@ -245,18 +257,26 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
-    """Print what was done, or what is not as it should be; the exit code."""
+def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
+    """Print what was done, or what is not as it should be; the exit code.
+
+    `left` are files of what the project file does not name, or no more: told, for somebody may have asked by hand.
+    """
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
+    from fieldscribe.report import visible
 
     if form == "json":
-        print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
+        data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
+        print_json(data | ({"not_in_project": list(map(str, left))} if left else {}))
     for delivery in deliveries:
         if form == "text":
             _print(delivery, check=check)
         for path, reason in delivery.refused.items():
             usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.advice[path])
+    if left and form == "text":
+        print(*(f"not in the project file: {visible(str(path))}" for path in left), sep="\n")
+        print("  hint: delete them if nobody needs them, or name their device and target there")
     return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
 
 

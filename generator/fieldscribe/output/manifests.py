@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from fieldscribe.reading import read_regular
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Container, Iterator, Mapping
     from pathlib import Path
 
 FOLDER = "manifest"
@@ -92,6 +92,11 @@ class Manifests:
         """What was asked for in each target, where a manifest says it."""
         return self._asked.get(device, {})
 
+    @property
+    def all_asked(self) -> list[tuple[str, str]]:
+        """Every device and target that a manifest says is asked for."""
+        return [(device, target) for device, asked in self._asked.items() for target in asked]
+
     def ask(self, device: str, target: str, said: Mapping[str, object]) -> None:
         """Say what is asked for in a target from now on."""
         self._asked[device] = dict(sorted({**self.asked(device), target: said}.items()))
@@ -106,7 +111,7 @@ class Manifests:
             for path, digests in files.items():
                 self._users.setdefault(path, {})[device, target] = digests
 
-    def is_shared(self, path: str, device: str, targets: Mapping[str, object]) -> bool:
+    def is_shared(self, path: str, device: str, targets: Container[str]) -> bool:
         """Whether another device, or another target than these, has the file too."""
         return any(owner != device or target not in targets for owner, target in self._users.get(path, ()))
 

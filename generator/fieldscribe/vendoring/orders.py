@@ -13,7 +13,7 @@ from fieldscribe.reading import read_regular
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
     from pathlib import Path
     from typing import Protocol
 
@@ -124,6 +124,21 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
             carry_out(order.out, manifests, plan)
             delivery.written, delivery.removed, delivery.kept = sorted(plan.write), plan.remove, plan.kept
     return delivery
+
+
+def dropped(orders: Collection[Order], languages: Collection[str]) -> list[Path]:
+    """Files in the folders of these orders that are there for none of them, as for one that was dropped."""
+    folders = {os.path.realpath(order.out): order.out for order in orders}
+    wanted = {(os.path.realpath(order.out), order.name, order.wish.language) for order in orders}
+    paths: list[Path] = []
+    for folder, out in folders.items():
+        manifests = Manifests(out, VENDORED)
+        for name, language in manifests.all_asked:
+            if language in languages and (folder, name, language) not in wanted:
+                files = manifests.of(name).get(language, {})
+                own = [path for path in files if not manifests.is_shared(path, name, [language])]
+                paths += [out / path for path in own if os.path.lexists(out / path)]
+    return sorted(paths)
 
 
 def _made(order: Order) -> Made:
