@@ -54,6 +54,9 @@ extern "C" {
 /* The longest telegram there is. */
 #define FIELDSCRIBE_USS_MOST 256U
 
+/* How many bytes fieldscribe_uss_ask receives at most for one answer: four of the longest telegrams. */
+#define FIELDSCRIBE_USS_ASK_MOST 1024U
+
 /* The length of a parameter part that is as long as its content needs. */
 #define FIELDSCRIBE_USS_VARIABLE 127U
 
@@ -82,7 +85,8 @@ typedef enum fieldscribe_uss_status {
     FIELDSCRIBE_USS_NO_ANSWER,       /* the task has not been answered yet: ask again */
     FIELDSCRIBE_USS_REFUSED,         /* the device refused; the reply holds its error */
     FIELDSCRIBE_USS_NO_RIGHTS,       /* the parameter part is not in control */
-    FIELDSCRIBE_USS_WRONG_RESPONSE   /* no response to this task */
+    FIELDSCRIBE_USS_WRONG_RESPONSE,  /* no response to this task */
+    FIELDSCRIBE_USS_NOISE            /* of asking: bytes came, and no answer among them, or too many before it */
 } fieldscribe_uss_status;
 
 /* How master and device are set: words of the parameter part (0, 3, 4 or 127), and of the process data. */
@@ -287,8 +291,9 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscri
     fieldscribe_uss_reply *reply);
 
 /*
- * A line that telegrams go over. `send` drops what has come in and sends; `receive` waits for a byte, and says false
- * when the line stays silent. Both are yours and get `context`. `buffer` has room for the longest telegram.
+ * A line that telegrams go over. `send` waits until the line is silent for two characters, drops what has come in and
+ * sends; `receive` waits for a byte, and says false when the line stays silent. Both are yours and get `context`.
+ * `buffer` has room for the longest telegram.
  */
 typedef struct fieldscribe_uss_line {
     const fieldscribe_uss_profile *profile;
@@ -302,7 +307,8 @@ typedef struct fieldscribe_uss_line {
 
 /*
  * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
- * WRONG_START and WRONG_LENGTH say that none came.
+ * WRONG_START says that nothing came, WRONG_LENGTH that it broke off; NOISE that other bytes came (an answer with a wrong
+ * check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);
@@ -743,12 +749,17 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     if (status == FIELDSCRIBE_USS_OK) {
         fieldscribe_uss_receiver receiver = fieldscribe_uss_await(line->link, request, line->buffer, line->size);
         uint8_t byte = 0U;
+        uint16_t left = FIELDSCRIBE_USS_ASK_MOST;
         line->send(line->context, line->buffer, length);
-        while ((!receiver.done) && line->receive(line->context, &byte)) {
+        while ((!receiver.done) && (left > 0U) && line->receive(line->context, &byte)) {
             (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
+            --left;
         }
         status =
             fieldscribe_uss_parse(line->profile, line->link, request, line->buffer, receiver.length, reply);
+        if ((!receiver.done) && (receiver.dropped > 0U)) {
+            status = FIELDSCRIBE_USS_NOISE;
+        }
     }
     return status;
 }

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.audit.citing import Citing
-from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry
+from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_line_settings
 from fieldscribe.audit.wordings import Wordings
 from fieldscribe.language.lines import plain_documents
 from fieldscribe.language.source import SourceFile
@@ -75,3 +75,24 @@ def test_a_word_is_an_anchor_in_the_line_of_its_subject(
     point = written(f"name: speed\n{lines}")
     (claim,) = Citing("speed", point.span("name"), 5, point.get("lines")).words("code", "P1", "P 1")
     assert (claim.words, claim.cited, claim.anchor) == (("P1", "P 1"), cited, anchor)
+
+
+def test_settings_of_the_bus_are_claimed_where_lines_are_named() -> None:
+    """A number by itself, a parity in either language, a code with what it means."""
+    bus = written(
+        "units: 1..32\nserial:\n  baud: {4: 4800}\n  parity: even\n  formats: {1: odd}\n  stop_bits: [1, 2]\n"
+        "timing: {pause: 20 ms}\nlines: {units: 3, baud: 7..7, parity: 8, formats: 9, stop_bits: 5, pause: 6}\n"
+    )
+    claims = list(claims_of_line_settings(bus))
+    assert [(claim.fact, claim.shown, claim.cited) for claim in claims] == [
+        ("units", "1", ((3, 0),)),
+        ("units", "32", ((3, 0),)),
+        ("baud", "4: 4800", ((7, 7),)),
+        ("parity", "even", ((8, 0),)),
+        ("formats", "1 = odd", ((9, 0),)),
+        ("stop_bits", "1", ((5, 0),)),
+        ("stop_bits", "2", ((5, 0),)),
+        ("pause", "20", ((6, 0),)),
+    ]
+    assert "Gerade" in next(claim.words for claim in claims if claim.fact == "parity")
+    assert list(claims_of_line_settings(written("serial: {parity: even}\nunits: 1..32\n"))) == []

@@ -232,12 +232,14 @@ def test_an_address_by_rule_has_the_number_and_index_of_its_run(pump: Pump) -> N
     pump.write(DEVICE, RULED)
     [draft] = pump.drafts(ROWS + "325         Zusatzwert\n")
     assert draft["yaml"].splitlines() == [
-        "- name: zusatzwert  # ? in English",
+        '- code: "P5[6]"',
+        "  name: zusatzwert  # ? in English",
         "  title: {de: Zusatzwert}  # ? en",
         "  at: 5",
         "  index: 6",
         "  line: 6",
         "  printed: {wire: 325}",
     ]
-    pump.write(DEVICE, RULED + draft["yaml"].replace("{de:", "{en: Extra, de:") + "\n")
+    pasted = draft["yaml"].replace("{de:", "{en: Extra, de:")
+    pump.write(DEVICE, RULED + pasted + "\n")
     assert pump.findings() == []

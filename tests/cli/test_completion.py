@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pty
 import select
@@ -11,7 +12,9 @@ import time
 from pathlib import Path
 
 import pytest
+from fieldscribe.cli import main
 from fieldscribe.cli.completing import candidates
+from support.described import described, write
 from support.places import ROOT
 from support.toolchains import tool
 
@@ -51,10 +54,50 @@ def test_candidates(typed: list[str], known: list[str], monkeypatch: pytest.Monk
     assert candidates(typed) == known
 
 
-def told(*command: str) -> list[str]:
-    done = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True, check=True, timeout=120)
+def told(*command: str, folder: Path = ROOT) -> list[str]:
+    done = subprocess.run(command, cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, check=True, timeout=120)
     assert done.stderr == ""
     return done.stdout.splitlines()
+
+
+HOSTILE = ["Z$(touch pwned)", "$(touch pwned2);x", "a'b\"c `touch pwned`"]
+"""Codes that a description may have: they pass `check`."""
+
+
+@pytest.fixture
+def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a description of these codes, and folders of devices that no shell should be given."""
+    points = "".join(f"- {{name: p{at}, code: {json.dumps(code)}, at: {at}}}\n" for at, code in enumerate(HOSTILE))
+    write(tmp_path / "odd", described(points, device="odd"))
+    for folder in ("$(touch pwned)", "a\nb; touch pwned", "-x", "Odd One"):
+        write(tmp_path / folder, described(points, device="odd"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_codes_are_words_and_folders_are_ids(hostile: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "odd"]) == 0
+    capsys.readouterr()
+    assert candidates(["explain", "--descriptions", str(hostile), ""]) == ["odd"]
+    assert candidates(["explain", "odd", "$"]) == HOSTILE[1:2]
+
+
+@pytest.mark.full(seconds=2)
+def test_bash_types_hostile_codes_quoted(hostile: Path) -> None:
+    """Bash puts the words on the line as they are, and Enter runs that."""
+    ask = (
+        "COMP_WORDS=(fieldscribe explain odd ''); COMP_CWORD=3; _fieldscribe fieldscribe\n"
+        'for word in "${COMPREPLY[@]}"; do eval "printf \'%s\\n\' $word"; done\n'
+    )
+    said = told(tool("bash"), "--norc", "-c", f"source <(fieldscribe completion bash)\n{ask}", folder=hostile)
+    assert said == ["p0", HOSTILE[0], "p1", HOSTILE[1], "p2", HOSTILE[2]]
+    assert not list(hostile.glob("pwned*"))
+
+
+@pytest.mark.full(seconds=2)
+def test_fish_types_hostile_codes_quoted(hostile: Path) -> None:
+    ask = "fieldscribe completion fish | source; complete --escape -C 'fieldscribe explain odd Z'"
+    assert told(tool("fish"), "--no-config", "-c", ask, folder=hostile) == [r"Z\$\(touch\ pwned\)"]
 
 
 @pytest.mark.full(seconds=2)
@@ -82,19 +125,31 @@ def test_fish() -> None:
 
 @pytest.mark.full(seconds=3)
 def test_zsh(tmp_path: Path) -> None:
+    in_zsh(
+        tmp_path, ROOT, [(line, f"{known[0]} " if len(known) == 1 else min(known, key=len)) for line, known in LINES]
+    )
+
+
+@pytest.mark.full(seconds=3)
+def test_zsh_types_hostile_codes_quoted(hostile: Path) -> None:
+    in_zsh(hostile, hostile, [("fieldscribe explain odd Z", r"\$\(touch\ pwned\) ")])
+    assert not list(hostile.glob("pwned*"))
+
+
+def in_zsh(home: Path, folder: Path, lines: list[tuple[str, str]]) -> None:
     """Zsh completes at its prompt only: it gets a terminal, and each line with a tab behind it."""
     shell = tool("zsh")
     child, terminal = pty.fork()
     if child == 0:
-        os.chdir(ROOT)
-        os.execve(shell, [shell, "-f", "-i"], {**ENVIRONMENT, "HOME": str(tmp_path), "ZDOTDIR": str(tmp_path)})
+        os.chdir(folder)
+        os.execve(shell, [shell, "-f", "-i"], {**ENVIRONMENT, "HOME": str(home), "ZDOTDIR": str(home)})
     try:
         _type(terminal, "PS1=; unsetopt zle_bracketed_paste; autoload -Uz compinit; compinit -u -D\n")
         _type(terminal, "source <(fieldscribe completion zsh); echo rea''dy\n")
         _await(terminal, "ready")
-        for line, known in LINES:
+        for line, shown in lines:
             _type(terminal, f"{line}\t")
-            _await(terminal, f"{known[0]} " if len(known) == 1 else min(known, key=len))
+            _await(terminal, shown)
             _type(terminal, "\x15")
     finally:
         os.close(terminal)

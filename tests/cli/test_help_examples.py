@@ -106,7 +106,7 @@ CLAIMS = {
         "hitachi_l200 --manual new.txt --report html > audit.html": Claim(1, "(?i)<html"),
         "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt": Claim(0, r"(\d+) cited lines moved"),
         "hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt --renumber --accept --file new.txt": Claim(
-            0, r"renumbered: \d+ lines in 1 file\n(.|\n)*accepted"
+            1, r"renumbered: \d+ lines in 1 file\n(.|\n)*accepted"
         ),
     },
     "diff": {

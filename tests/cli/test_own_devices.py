@@ -17,7 +17,7 @@ device: hitachi_l200
 version: 7.0.0
 vendor: Example
 model: Own
-title: {en: Own}
+title: Own
 family: modbus
 documents: {manual: {title: Own, language: en}}
 bus: {framings: [rtu], units: 1..247, functions: {03h: read_holding_registers}}

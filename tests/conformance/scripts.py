@@ -14,7 +14,7 @@ class Script:
     """A transport of every family that expects what is sent and answers as it was told; `needs` in any order."""
 
     def __init__(self, vector: Vector, frame: Callable[[int, bytes], Any]) -> None:
-        self.framing = vector["framing"]
+        self.framing = vector["framing"] or "uss"  # only Modbus has several
         self._steps = list(vector["script"])
         self._needs = dict(vector["needs"])
         self._frame = frame

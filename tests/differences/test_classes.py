@@ -129,7 +129,7 @@ EDITS: list[tuple[str, str, list[tuple[str, str | None, str]]]] = [
     ("title: {en: Main}", "title: {en: All}", [("docs", "group:main", "title")]),
     ("title: Manual", "title: The manual", [("docs", "document:manual", "title")]),
     ("5 ms", "6 ms", [("docs", None, "timing")]),
-    ("9600 Bd", "19200 Bd", [("docs", None, "serial")]),
+    ("9600 Bd", "19200 Bd", [("behaviour", None, "serial")]),
     ("at line 7", "at lines 8 and 9", [("docs", "erratum:odd", "printed")]),
     ("taken: that", "taken: 'that, line 3'", [("behaviour", "erratum:odd", "taken")]),
     ("default: 3", "default: 4", [("docs", "unsettled", "default")]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 import subprocess
 from itertools import pairwise, permutations
 from pathlib import Path
@@ -279,6 +280,23 @@ def test_a_revision_with_findings(repository: Diff) -> None:
     assert "fieldscribe-" not in told.err + told.out
 
 
+def test_errors_are_no_success(diff: Diff) -> None:
+    diff.write("old", POINTS.replace("name: ramp", "name: ramp, type: u17"))
+    diff.write("new", POINTS.replace("name: ramp", "name: ramp, type: u17"))
+    assert diff("old", "new").code == 1
+
+
+def test_a_folder_of_a_revision_is_called_as_it_was_asked_for(repository: Diff) -> None:
+    (repository.folder / "empty").mkdir()
+    (repository.folder / "empty/notes.txt").write_text("nothing", "utf-8")
+    _git("add", ".")
+    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "empty")
+    told = repository("HEAD:empty", "old")
+    assert told.code == 1
+    assert " --> HEAD:empty" in told.err
+    assert "fieldscribe-" not in told.err
+
+
 NOT_THERE = {
     ":old": "is no revision",
     "v\n1:old": "is no revision",
@@ -414,6 +432,18 @@ def test_where_an_old_name_is_written(before: str, after: str, kept: str, diff: 
     file = diff.write("new", after)
     diff("old", "new", "--keep-names")
     assert file.read_bytes().decode().endswith(kept)
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o664])
+def test_old_names_leave_the_mode_and_the_link(mode: int, diff: Diff) -> None:
+    diff.write("old", "- {name: a, at: 1}\n")
+    file = diff.write("new", "- {name: b, at: 1}\n")
+    real = file.rename(file.with_name("real.yaml"))
+    file.symlink_to("real.yaml")
+    real.chmod(mode)
+    diff("old", "new", "--keep-names")
+    assert "was: [a]" in real.read_text("utf-8")
+    assert (file.is_symlink(), stat.S_IMODE(real.stat().st_mode)) == (True, mode)
 
 
 RECORDS = "{trip: {points: [{name: MEMBER, at: base}, {name: hours, at: base + 1}]}}"

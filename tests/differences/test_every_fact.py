@@ -49,6 +49,7 @@ SAYS_NOTHING = {
     "Named": "is `where`, which is told as text",
     "Point.errata": "is told of the erratum",
     "Place.references": "follow from the address where the numbering stays",
+    "ScaleCase.written": "is how documents write the formula",
     "Shape.width": "follows from type and bits",
     "Shape.encodes_values": "follows from the scale",
     "Shape.most_raw": "follows from the scale",

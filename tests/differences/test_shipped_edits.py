@@ -158,7 +158,7 @@ EDITS = {
         {("behaviour", "max"): 1},
     ),
     "units": Edit("hitachi_l200/bus.yaml", "units: 1..32", "units: 1..247", "minor", {("behaviour", "units"): 1}),
-    "baud": Edit("hitachi_l200/bus.yaml", "6: 19200}", "6: 19200, 7: 38400}", "patch", {("docs", "serial"): 1}),
+    "baud": Edit("hitachi_l200/bus.yaml", "6: 19200}", "6: 19200, 7: 38400}", "minor", {("behaviour", "serial"): 1}),
     "exponent range": Edit(
         "woodward_mpu2s/telegram.yaml",
         "type: s8, range: 0..5",

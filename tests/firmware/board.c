@@ -16,6 +16,8 @@
 #define TIMER_PRESCALER REGISTER(0x40008510U)
 #define TIMER_NOW REGISTER(0x40008540U)
 #define SILENCE 1000000U /* microseconds */
+#define BETWEEN 4011U    /* likewise, 3.5 characters of 11 bits at 9600 baud */
+#define BYTES_MOST 1024U /* for which a line that is never silent is waited for */
 
 extern uint32_t _stack, _data_from, _data, _data_end, _bss, _bss_end;
 int main(void);
@@ -56,12 +58,28 @@ typedef union vector {
 __attribute__((section(".vectors"), used)) static const vector vectors[] = {
     {.stack = &_stack}, {.handler = reset}, {.handler = fault}, {.handler = fault}};
 
+/* Whether a byte comes within so many microseconds. */
+static bool comes(uint32_t within, uint8_t *byte)
+{
+    TIMER_CLEAR = 1U;
+    do {
+        if (UART_RX_READY != 0U) {
+            UART_RX_READY = 0U;
+            *byte = (uint8_t)UART_RX;
+            return true;
+        }
+        TIMER_CAPTURE = 1U;
+    } while (TIMER_NOW < within);
+    return false;
+}
+
 void uart_send(void *context, const uint8_t *bytes, size_t length)
 {
+    uint32_t left = BYTES_MOST;
+    uint8_t dropped;
     (void)context;
-    while (UART_RX_READY != 0U) {
-        UART_RX_READY = 0U;
-        (void)UART_RX;
+    while ((left > 0U) && comes(BETWEEN, &dropped)) {
+        --left;
     }
     while (length-- > 0U) {
         UART_TX_READY = 0U;
@@ -74,14 +92,5 @@ void uart_send(void *context, const uint8_t *bytes, size_t length)
 bool uart_receive(void *context, uint8_t *byte)
 {
     (void)context;
-    TIMER_CLEAR = 1U;
-    do {
-        if (UART_RX_READY != 0U) {
-            UART_RX_READY = 0U;
-            *byte = (uint8_t)UART_RX;
-            return true;
-        }
-        TIMER_CAPTURE = 1U;
-    } while (TIMER_NOW < SILENCE);
-    return false;
+    return comes(SILENCE, byte);
 }

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Drops what has come in, then sends. */
+/* Waits until the line is silent for 3.5 characters, drops what has come in, then sends. */
 void uart_send(void *context, const uint8_t *bytes, size_t length);
 
 /* Waits for a byte; false when none comes for a second. */

@@ -95,6 +95,9 @@ FREE = (
     ),
 )
 
+ENDLESS = ("watch",)
+"""Commands that run until somebody stops them."""
+
 
 def options(command: str) -> list[str]:
     """The options of a command, as its parser has them."""
@@ -133,7 +136,7 @@ def trial(words: list[str]) -> str | None:
 def fuzz_words(count: int, seed: int, keep: Path) -> Result:
     """So many command lines in a folder of their own; those that went wrong are kept as files."""
     started, findings = time.perf_counter(), []
-    known = {command: options(command) for command in COMMANDS}
+    known = {command: options(command) for command in COMMANDS if command not in ENDLESS}
     debug = os.environ.pop("FIELDSCRIBE_DEBUG", None)
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
         shutil.copytree(MADE, "devices")

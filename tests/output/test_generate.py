@@ -142,7 +142,10 @@ def test_a_folder_in_the_way_is_not_taken_over(project: Path, capsys: pytest.Cap
     (project / "made/docs/hitachi_l200.csv").mkdir(parents=True)
     for force in ([], ["--force"]):
         assert main(["generate", "--target", "docs", "--out", "made", *force]) == 1
-        assert "hint: move it away; nothing of hitachi_l200 was written\n" in capsys.readouterr().err
+        assert (
+            "hint: move it away, or choose another folder or name; nothing of hitachi_l200 was written\n"
+            in capsys.readouterr().err
+        )
 
 
 def test_what_is_read_is_opened_so_that_nothing_hangs(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -71,9 +71,10 @@ def typed_findings(program: str, folder: Path, package: str, work: Path) -> str:
 
 
 class Slave:
-    """A device on an RTU or TCP line, working on plain dicts; `log` says what it was asked (function, address, count).
+    """A device on a line of RTU, TCP or bare PDUs, working on plain dicts.
 
-    It is written against the protocol and not with the runtime's own functions.
+    `log` says what it was asked (function, address, count). It is written against the protocol and not with
+    the runtime's own functions.
     """
 
     def __init__(self, framing: str = "rtu") -> None:
@@ -87,6 +88,8 @@ class Slave:
         """The reply to a request."""
         if self.framing == "tcp":
             return self._tcp(request)
+        if self.framing == "pdu":
+            return request[:1] + self._answer(request[1:])
         pdu = self._answer(request[1:-2])
         frame = request[:1] + pdu
         return b"" if request[0] == 0 else frame + _crc(frame)

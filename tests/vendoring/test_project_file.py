@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
+from support.described import described, write
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -55,6 +59,25 @@ def test_one_command_leaves_and_checks_all_of_it(project: Path, capsys: pytest.C
     assert "missing: " in capsys.readouterr().out
 
 
+def test_what_the_project_names_no_more_is_told(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its own files alone: those that another device needs, too, stay wanted."""
+    file = project / "fieldscribe.toml"
+    file.write_text(f'{TOP}{DEVICE}points = ["A020"]\n{DEVICE}as = "other"\npoints = ["D001"]\n', "utf-8")
+    assert main(["vendor"]) == 0
+    file.write_text(f'{TOP}{DEVICE}points = ["A020"]\n', "utf-8")
+    capsys.readouterr()
+    assert main(["vendor"]) == 0
+    assert main(["vendor", "--check"]) == 0
+    told = [line for line in capsys.readouterr().out.splitlines() if line.startswith("not in")]
+    assert told[:2] == ["not in the project file: d/other.h", "not in the project file: d/other_modbus.h"] == told[2:]
+    assert main(["vendor", "--check", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["not_in_project"] == ["d/other.h", "d/other_modbus.h"]
+    for name in ("other.h", "other_modbus.h"):
+        (project / "d" / name).unlink()
+    assert main(["vendor", "--check"]) == 0
+    assert "not in" not in capsys.readouterr().out
+
+
 DEVICE = '[[devices]]\ndevice = "hitachi_l200"\n'
 TOP = 'out = "d"\ntargets = ["c"]\n'
 
@@ -78,6 +101,13 @@ TOP = 'out = "d"\ntargets = ["c"]\n'
         (f'{TOP}[[devices]]\n\ndevice = "hitachi_l2000"\n', "5:1", "did you mean `hitachi_l200`"),
         (f'{TOP}{DEVICE}points = ["A0Z9"]\n', "4:1", "no point, group or command `A0Z9`"),
         (f'{TOP}{DEVICE}as = "Drive 1"\n', "4:1", "`Drive 1` is no name"),
+        (f"{TOP}{DEVICE}wheel = true\n", "5:1", "`wheel` is for python"),
+        (f'{TOP}{DEVICE}frames = false\ntargets = ["rust"]\n', "5:1", "`frames` is for c"),
+        (f'{TOP}{DEVICE}targets = ["python"]\nsingle_file = true\n', "6:1", "`single_file` is for c"),
+        (f'{TOP}[[devices]]\ndevice = "/elsewhere/hitachi_l200"\n', "4:1", "leads out of the folder"),
+        (f'{TOP}[[devices]]\ndevice = "../hitachi_l200"\n', "4:1", "leads out of the folder"),
+        (f"a = {'[' * 600}{']' * 600}\n", "1:1", "nested too deeply"),
+        (f"a = {'9' * 5000}\n", "1:", "this is no TOML"),
         ('title = "x"\n' + TOP + DEVICE, "1:1", "there is no key `title` here"),
     ],
 )
@@ -89,6 +119,7 @@ def test_what_is_wrong_is_told_with_its_place(
     told = capsys.readouterr().err
     assert f"fieldscribe.toml:{place}" in told
     assert said in told
+    assert "internal error" not in told
     assert [path.name for path in project.iterdir()] == ["fieldscribe.toml"]
 
 
@@ -96,6 +127,57 @@ def test_the_same_files_twice_are_refused(project: Path, capsys: pytest.CaptureF
     (project / "fieldscribe.toml").write_text(TOP + DEVICE + DEVICE, "utf-8")
     assert main(["vendor"]) == 2
     assert "asked for twice" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("make", "said"), [("mkdir", "it is a folder"), ("fifo", "a pipe"), ("link", "leads nowhere")])
+def test_what_is_no_file_is_called_by_its_kind(
+    make: str, said: str, project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = project / "fieldscribe.toml"
+    if make == "mkdir":
+        place.mkdir()
+    elif make == "fifo":
+        os.mkfifo(place)
+    else:
+        place.symlink_to("nothing")
+    assert main(["vendor"]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("form", ["text", "json"])
+def test_what_was_done_is_told_when_the_next_fails(
+    form: str, project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The second folder is a file."""
+    (project / "taken").write_text("", "utf-8")
+    text = f'{TOP}{DEVICE}points = ["A020"]\n{DEVICE}points = ["A020"]\nout = "taken"\n'
+    (project / "fieldscribe.toml").write_text(text, "utf-8")
+    assert main(["vendor", "--format", form]) == 2
+    told = capsys.readouterr()
+    assert "taken" in told.err
+    if form == "json":
+        [delivery] = json.loads(told.out)["deliveries"]
+        assert len(delivery["written"]) == 6
+    else:
+        assert "6 written" in told.out
+
+
+def test_a_device_with_errors_is_no_success(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(project / "made_up", described("- {name: odd_one, at: 99999999}\n"))
+    (project / "fieldscribe.toml").write_text(f'{TOP}[[devices]]\ndevice = "made_up"\n{DEVICE}', "utf-8")
+    assert main(["vendor"]) == 1
+    assert "1 error" in capsys.readouterr().err
+
+
+def test_a_path_is_that_of_the_project_file(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not of where the command runs; a folder of the same name without a description hides no device."""
+    write(project / "sub/own/made_up", described("- {name: odd_one, at: 1}\n"))
+    (project / "sub/hitachi_l200").mkdir()
+    text = f'{TOP}[[devices]]\ndevice = "own/made_up"\n{DEVICE}points = ["A020"]\n'
+    (project / "sub/fieldscribe.toml").write_text(text, "utf-8")
+    order = ["vendor", "--project", "sub/fieldscribe.toml"]
+    assert main(order) == 0
+    assert main([*order, "--check", "--descriptions", str(ROOT / "descriptions")]) == 0
 
 
 def test_vendored_python_needs_no_compiler(project: Path) -> None:
@@ -111,18 +193,28 @@ def test_vendored_python_needs_no_compiler(project: Path) -> None:
 
 
 @pytest.mark.full(seconds=3)
-def test_a_wheel_is_the_same_every_time_and_installs(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wheels_are_the_same_every_time_and_install(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     order = ["vendor", "python", "hitachi_l200", "--out", "wheels", "--points", "A020", "--wheel"]
     assert main(order) == 0
-    [wheel] = (project / "wheels").glob("*.whl")
-    assert wheel.name == "hitachi_l200-1.0.0-py3-none-any.whl"
+    runtime, wheel = sorted((project / "wheels").glob("*.whl"))
+    assert re.fullmatch(r"fieldscribe_runtime-[\d.]+-py3-none-any.whl", runtime.name)
+    assert re.fullmatch(r"hitachi_l200-1\.0\.0\+[0-9a-f]{8}-py3-none-any.whl", wheel.name)
+    names = {device: zipfile.ZipFile(device).namelist() for device in (wheel, runtime)}
+    assert not {path for path in names[wheel] if path in names[runtime]}, "each can be uninstalled without the other"
+    metadata = zipfile.ZipFile(wheel).read(next(path for path in names[wheel] if path.endswith("METADATA"))).decode()
+    for extra in ("serial", "pymodbus", "can"):
+        assert f"Requires-Dist: fieldscribe-runtime[{extra}]" in metadata
     assert main([*order, "--check"]) == 0, capsys.readouterr().out
-    install = [sys.executable, "-m", "pip", "install", "-q", "--no-index", "--target", "site", str(wheel)]
+    pip = (sys.executable, "-m", "pip", "install", "-q", "--no-index")
+    install = [*pip, "--target", "site", "--find-links", "wheels", "hitachi_l200"]
     subprocess.run(install, check=True, capture_output=True)
     assert not (project / "site/hitachi_l200/pyproject.toml").exists()
     program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500))"
     said = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
     assert subprocess.run(said, capture_output=True, text=True, check=True).stdout == "50.0\n"
+    assert main([*order[:-2], "A020,D001", "--wheel"]) == 0
+    [other] = (project / "wheels").glob("hitachi_l200-*.whl")
+    assert other.name != wheel.name, "pip takes other points for another version"
     assert main(["vendor", "c", "hitachi_l200", "--out", "x", "--wheel"]) == 2
 
 

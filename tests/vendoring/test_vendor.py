@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.asked import UnclearError
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.output.manifests import VENDORED, carries_head
+from fieldscribe.pipeline import load_device
 from fieldscribe.vendoring.choosing import chosen
-from fieldscribe.vendoring.files import LICENCE, Wish, files_of
+from fieldscribe.vendoring.files import LANGUAGES, LICENCE, Wish, files_of
 from support.c_device import WARNINGS
-from support.described import made, shipped
+from support.described import described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
@@ -75,6 +79,7 @@ def test_a_command_is_chosen_by_its_name() -> None:
     ("device", "word", "message", "hint"),
     [
         ("hitachi_l200", "A0020", "no point, group or command `A0020`", "did you mean"),
+        ("hitachi_l200", "A02O", "no point, group or command `A02O`", "did you mean `A020`"),
         ("hitachi_l200", "enterr", "`enterr`", "`enter`"),
         ("hitachi_l200", "zzz*", "`zzz*`", "fieldscribe list hitachi_l200"),
         ("hitachi_l200", "4137", "`4137`", ""),
@@ -86,6 +91,20 @@ def test_words_that_mean_nothing(device: str, word: str, message: str, hint: str
         chosen(shipped(device), [word])
     assert message in refused.value.message
     assert hint in refused.value.hint
+
+
+def test_all_wrong_words_are_told_at_once(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A02O,D001,Q1") == 2
+    said = capsys.readouterr().err
+    assert "`A02O`; hitachi_l200 has no point, group or command `Q1`" in said
+    assert "for `A02O`, did you mean `A020`" in said
+    with pytest.raises(UnclearError, match="and 10 more"):
+        chosen(shipped("hitachi_l200"), [f"none{number}" for number in range(30)])
+
+
+def test_a_point_that_is_documented_only_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert vendor("c", "siemens_mm4", "--out", tmp_path, "--points", "r0021") == 0
+    assert "`r0021` comes with its address alone, and no conversion: the manual" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("points", "most"), [(TEN, 20), (HARD, 25)])
@@ -174,6 +193,31 @@ def test_points_alone_need_no_frames(tmp_path: Path) -> None:
     compiles(tmp_path, "hitachi_l200.h")
 
 
+@pytest.mark.parametrize(
+    ("code", "in_head"),
+    [
+        ("A020", dict.fromkeys(("c", "python", "rust"), "A020")),
+        ("$(touch /x)", dict.fromkeys(("c", "python", "rust"), "'$(touch /x)'")),
+        ("a;b`c`", dict.fromkeys(("c", "python", "rust"), "'a;b`c`'")),
+        ("x*/y", {"c": "...", "python": "'x*/y'", "rust": "'x*/y'"}),
+        ("it's #1", {"c": """'it'"'"'s #1'""", "python": "...", "rust": """'it'"'"'s #1'"""}),
+        ("A,B", dict.fromkeys(("c", "python", "rust"), "...")),
+        ("a  b", dict.fromkeys(("c", "python", "rust"), "...")),
+    ],
+)
+def test_the_command_in_a_head_can_be_pasted(code: str, in_head: dict[str, str], tmp_path: Path) -> None:
+    """Whatever a code holds: a shell gets the same words, or three dots."""
+    place = write(tmp_path, described(f"- {{name: odd_one, code: {json.dumps(code)}, at: 1}}\n"))
+    device = load_device(place, Report())
+    assert device is not None
+    for language, points in in_head.items():
+        wanted = f"fieldscribe vendor {language} made_up --points {points}\n"
+        texts = [text for path, text in files_of(device, Wish(language, (code,))) if "made_up" in path]
+        heads = [text for text in texts if "egenerate" in text]
+        assert heads
+        assert all(wanted in text for text in heads)
+
+
 def test_points_from_a_file(tmp_path: Path) -> None:
     (tmp_path / "points.txt").write_text("A001, D001  # what the panel shows\n\n# and what it sets\nF002\n", "utf-8")
     assert vendor("c", "hitachi_l200", "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
@@ -227,6 +271,71 @@ def test_what_nobody_took_changes_nothing(tmp_path: Path, capsys: pytest.Capture
     assert vendor(*order, "--check") == 0, capsys.readouterr()
 
 
+def test_a_code_may_have_a_sharp_in_a_file(tmp_path: Path) -> None:
+    place = write(tmp_path / "made_up", described('- {name: odd_one, code: "P#1", at: 1}\n'))
+    (tmp_path / "points.txt").write_text("P#1 # this\n#and that\n", "utf-8")
+    assert vendor("c", place, "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
+    asked = json.loads((tmp_path / "out/made_up.manifest.json").read_text("utf-8"))["asked"]
+    assert asked["c"]["points"] == ["P#1"]
+
+
+def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A manifest may name what it likes: files go by our head or by a name that only ours have."""
+    order = ("c", "hitachi_l200", "--out", tmp_path, "--points", "A020")
+    assert vendor(*order) == 0
+    (tmp_path / "main.c").write_text("int main(void) { return 0; }\n", "utf-8")
+    shutil.copy(tmp_path / "fieldscribe.h", tmp_path / "fieldscribe_older.h")
+    head = (tmp_path / "hitachi_l200.h").read_text("utf-8").partition("*/")[0]
+    (tmp_path / "hitachi_l200_older.h").write_text(f"{head}*/\n", "utf-8")
+    manifest = tmp_path / "hitachi_l200.manifest.json"
+    said = json.loads(manifest.read_text("utf-8"))
+    for name in ("main.c", "fieldscribe_older.h", "hitachi_l200_older.h"):
+        said["targets"]["c"][name] = sha256((tmp_path / name).read_bytes()).hexdigest()
+    manifest.write_text(json.dumps(said), "utf-8")
+    capsys.readouterr()
+    assert vendor(*order) == 0
+    told = capsys.readouterr().out
+    assert (tmp_path / "main.c").is_file()
+    assert not list(tmp_path.glob("*_older.h"))
+    assert [line.split(": ")[0] for line in told.splitlines()[:3]] == [
+        "removed",
+        "removed",
+        "left in place, as it was edited by hand or is not ours",
+    ]
+    assert "main.c" not in manifest.read_text("utf-8")
+
+
+def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
+    """All that is left of one wish goes when another takes its place."""
+    for language in ("c", "python", "rust", "csv", "markdown"):
+        if language in LANGUAGES:
+            assert vendor(language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020") == 0
+        else:
+            assert main(["docs", "hitachi_l200", "--format", language, "--out", str(tmp_path / language)]) == 0
+        known = {path for path in (tmp_path / language).rglob("*") if path.is_file()}
+        for path in known:
+            name = path.relative_to(tmp_path / language).as_posix()
+            assert VENDORED.names(name, "hitachi_l200") or carries_head("hitachi_l200", path.read_bytes()), name
+
+
+def test_what_is_in_the_way_gets_advice_that_helps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a link out of the folder, a name that is too long and a folder, --force makes no file."""
+    out, order = tmp_path / "out", ("python", "hitachi_l200", "--points", "A020", "--out", tmp_path / "out")
+    (tmp_path / "elsewhere").mkdir()
+    out.mkdir()
+    (out / "hitachi_l200").symlink_to(tmp_path / "elsewhere")
+    for words in ((), ("--force",), ("--as", "a" * 250)):
+        assert vendor(*order, *words) in (1, 2)
+        told = capsys.readouterr().err
+        assert "--force" not in told
+        assert "hint: " in told
+    (out / "hitachi_l200").unlink()
+    (out / ".fieldscribe-new").mkdir()
+    assert vendor(*order) == 2
+    assert "hint: move it away" in capsys.readouterr().err
+    assert not list((tmp_path / "elsewhere").iterdir())
+
+
 def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "D001") == 0
     assert vendor("c", "jumo_controller", "--out", tmp_path) == 0
@@ -243,6 +352,9 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
         (("c",), "DEVICE is missing"),
         (("d", "hitachi_l200", "--out", "x"), "`d` is no language"),
         (("--points", "A001"), "LANGUAGE and DEVICE are missing"),
+        (("--points", ""), "LANGUAGE and DEVICE are missing"),
+        (("--as", ""), "LANGUAGE and DEVICE are missing"),
+        (("--wheel",), "LANGUAGE and DEVICE are missing"),
         ((), "there is no project file fieldscribe.toml"),
         (("python", "hitachi_l200", "--out", "x", "--single-file"), "--single-file is for c"),
         (("rust", "hitachi_l200", "--out", "x", "--no-frames"), "--no-frames is for c"),
@@ -251,6 +363,7 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
         (("c", "hitachi_l200", "--out", "x", "--points", "A0Z1"), "no point, group or command `A0Z1`"),
         (("c", "hitachi_l200", "--out", "x", "--as", "../x"), "`../x` is no name"),
         (("c", "hitachi_l200", "--out", "x", "--as", "stdint"), "hides the one of the C library"),
+        (("c", "hitachi_l200", "--out", "x", "--as", "serial"), "`serial` is a library that the runtime"),
         (("c", "hitachi_l2000", "--out", "x"), "did you mean `hitachi_l200`"),
     ],
 )

@@ -7,8 +7,8 @@ import enum
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from .arguments import whole
-from .errors import CodecError, RangeError, UnknownValueError
+from .arguments import integral, shown, whole
+from .errors import CodecError, RangeError, UnknownValueError, WrongTypeError
 from .fast import chosen, found, itself, listed, same
 from .records import Record
 from .rules import Bound, Raws, decimal_text, high_end, low_end
@@ -168,7 +168,7 @@ class Integer(Form[int, int]):
 
     def converted(self, value: int, raws: Raws) -> int | None:
         """The value itself."""
-        return whole(value)
+        return integral(value)
 
 
 class Bit(Form[bool, bool]):
@@ -194,7 +194,7 @@ class Bit(Form[bool, bool]):
 
     def converted(self, value: bool, raws: Raws) -> int | None:
         """1 for True."""
-        return int(value) if isinstance(value, bool) else whole(value)
+        return int(value) if isinstance(value, bool) else integral(value)
 
 
 class _Members(dict[int, T]):
@@ -254,7 +254,18 @@ class Named(Form[E, E]):
         """The member's number; a member of another enum raises UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
+        if isinstance(value, (str, bool)):
+            raise WrongTypeError(f"takes {self._meant(value)}, not {shown(value)}")
         return whole(value)
+
+    def _meant(self, value: str | bool) -> str:
+        """The member that is meant, else how members are named."""
+        named = self.names.__members__
+        member = named.get(value.strip().upper()) if isinstance(value, str) else self._known.get(int(value))
+        if member is not None:
+            return f"{self.names.__name__}.{member.name}"
+        first = next(iter(named), None)
+        return f"a {self.names.__name__}" + (f" such as {self.names.__name__}.{first}" if first else "")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it is named (for a closed enum) and in range."""

@@ -7,6 +7,7 @@ import enum
 from typing import TYPE_CHECKING, Any
 
 from .errors import CodecError
+from .forms import Integer
 from .points import Decoding, Encoding
 from .quantities import Floating
 from .rules import NO_RAWS, Limit
@@ -44,6 +45,8 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
         yield "Special codes", f"{', '.join(point.special)} (as {name}.special.{next(iter(point.special))})"
     if isinstance(point, Encoding) and (text := _range(point)):
         yield "What may be written", text
+    if facts.conditions:
+        yield "To write it takes", ", ".join([condition.replace("_", " ") for condition in facts.conditions])
     yield from _values(point, name)
     if facts.fixed is not None:
         yield "Bits that are always written", f"{facts.fixed[1]:04X}h in {facts.fixed[0]:04X}h"
@@ -96,7 +99,8 @@ def _range(point: Point) -> str:
     except CodecError:  # the scale needs other points
         low, high = point.raw_limits
         return f"raw {low}..{high}"
-    return " or ".join([low if low == high else f"{low}..{high}" for low, high in ends]) + unit
+    whole = ", whole numbers" if isinstance(form, Integer) else ""
+    return " or ".join([low if low == high else f"{low}..{high}" for low, high in ends]) + unit + whole
 
 
 def _end(point: Point, bound: Bound) -> str:

@@ -40,6 +40,22 @@ def _shown(value: object) -> str:
         return "a number of thousands of digits"
 
 
+_READS = frozenset({"read", "read_raw", "decode"})
+_WRITES = frozenset({"write", "write_raw", "encode"})
+
+
+def _lacks(point: Point, name: str) -> str:
+    """Why a point has no such method."""
+    for methods, kind, done in ((_READS, Decoding, "written"), (_WRITES, Encoding, "read")):
+        if name in methods and not isinstance(point, kind):
+            return f"{point.label} is only {done}: it has no {name}"
+    if name in _READS | _WRITES:
+        return (
+            f"{point.label} of the class converts alone: make a device, and say device.{point.facts.item}.{name}(...)"
+        )
+    return f"{type(point).__name__!r} object has no attribute {name!r}"
+
+
 _SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
 
 
@@ -63,6 +79,12 @@ class Point(Guided):
         from .guide import described  # nobody needs it before asking for help
 
         return described(self)
+
+    if not TYPE_CHECKING:  # type checkers report names that do not exist
+
+        def __getattr__(self, name: str) -> Any:
+            """Say how a point is read and written, where it is asked for what it cannot do."""
+            raise AttributeError(_lacks(self, name), name=name, obj=self)
 
     def __getstate__(self) -> dict[str, Any]:
         """What makes the point, without the functions that are specialised for it: a copy makes its own."""
@@ -354,7 +376,8 @@ class Encoding(Point, Generic[W_contra]):
         That is known before the device is asked for what scale and limits need.
         """
         if isinstance(value, str) and (self.scale_needs or self.limit_needs):  # only quantities have such needs
-            raise self._named(WrongTypeError(f"takes a number, not {value!r}"))
+            text = self.special.not_a_text(value) if len(self.special) else f"takes a number, not {shown(value)}"
+            raise self._named(WrongTypeError(text))
         if isinstance(value, Special):
             code = self.special(value.raw)
             if code != value:
@@ -410,11 +433,15 @@ class Encoding(Point, Generic[W_contra]):
             choices = self._outside(lambda raw: self._form.shown(raw, raws), self._unit, raws)
         return self._form.refused(f"{value}{self._unit} is {choices}")
 
+    def _limiting(self) -> str:
+        """Which points set the limits."""
+        return f" (set by {' and '.join(self.limit_needs)})" if self.limit_needs else ""
+
     def _outside(self, told: Callable[[int], str], unit: str, raws: Raws) -> str:
         """What a refused number is, by what may be written now, as other points let it be."""
         ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
         left = [(told(low), told(high)) for low, high in ends if low <= high]
         if left:
-            return outside(left, unit)
+            return outside(left, unit) + self._limiting()
         limits = " or ".join([f"{told(low)}..{told(high)}" for low, high in ends])
         return f"refused, as anything is now: {' and '.join(self.limit_needs)} leave {limits}{unit}"

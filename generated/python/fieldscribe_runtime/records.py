@@ -9,6 +9,17 @@ if TYPE_CHECKING:
     from typing import Never, Self
 
 
+class _Signature:
+    """What `help()` says that a record is made with."""
+
+    def __get__(self, record: object, kind: type[Record]) -> Any:
+        import inspect  # nobody needs it before asking for help
+
+        either, none = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.empty
+        fields = [inspect.Parameter(name, either, default=getattr(kind, name, none)) for name in kind._fields]
+        return inspect.Signature(fields)
+
+
 @dataclass_transform(frozen_default=True)
 class Record:
     """An object of named fields, those of its class in order: equal to another one where all fields are.
@@ -18,6 +29,7 @@ class Record:
 
     _fields: ClassVar[tuple[str, ...]] = ()
     _needed: ClassVar[frozenset[str]] = frozenset()
+    __signature__: ClassVar[Any] = _Signature()
 
     def __init_subclass__(cls) -> None:
         names = [name for name, kind in cls.__annotations__.items() if not str(kind).startswith("ClassVar")]

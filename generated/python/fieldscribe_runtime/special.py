@@ -95,6 +95,11 @@ class Codes:
         low, high = self._spans[code.name]
         return f"special.{code.name}" if low == high else f"special({code.raw})"
 
+    def not_a_text(self, given: str) -> str:
+        """Why a text is not taken for a value, and the code that is meant by it."""
+        named = given if given in self._spans and self._spans[given][0] == self._spans[given][1] else "name"
+        return f"takes a number or a special code, as in special.{named}, not {shown(given)}"
+
     def _made(self, name: str, raw: int) -> Special:
         return Special(name, raw, name in self._no_value, name in self._writable)
 

@@ -52,12 +52,17 @@ def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Cla
 def looked_through_of(subject: Subject) -> dict[int, frozenset[str]]:
     """The lines that the description says hold nothing for it, or only facts and these numbers that are none."""
     return by_line(
-        (line, frozenset(map(str, passage.get("numbers", ()))))
+        (line, listed_in(passage))
         for file in subject.scope.files
         for passage in file.get("looked_through", ())
         for first, last in spans_of(passage["lines"])
         for line in range(first, max(first, last) + 1)
     )
+
+
+def listed_in(passage: Map) -> frozenset[str]:
+    """The numbers and words that a passage under `looked_through` says are no facts."""
+    return frozenset(str(text) for key in ("numbers", "words") for text in passage.get(key, ()))
 
 
 def by_line(passed_over: Iterable[tuple[int, frozenset[str]]]) -> dict[int, frozenset[str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.audit.wordings import Wordings
+    from fieldscribe.diagnostics import Span
+
+SETTINGS = ("serial", "timing")
+"""The keys of the bus that hold settings by name."""
+_PARITIES = {
+    "none": ("none", "keine", "kein", "ohne", "no"),
+    "no parity": ("no parity", "keine", "kein", "ohne", "none"),
+    "even": ("even", "gerade"),
+    "odd": ("odd", "ungerade"),
+}
 
 
 def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim]:
@@ -40,11 +51,39 @@ def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim
 
 
 def claims_of_line_settings(bus: Map) -> Iterator[Claim]:
-    """The bit rate, which the manual may print in kBaud, and the length of the identifiers."""
-    citing = Citing("bus", bus.span(), bus.get("line"), None)
+    """The bit rate, which may be printed in kBaud, the length of identifiers, and whatever `lines` names a place of."""
+    citing = Citing("bus", bus.span(), bus.get("line"), bus.get("lines"))
     for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
         for number in numbers_in(bus.get(key)):
             yield from citing.numbers(key, str(number), (number, number / unit), place=bus.span(key))
+    for holder in (bus, *(bus[name] for name in SETTINGS if name in bus)):
+        for key in citing.lines_of_fact:
+            if key in holder and key not in ("bitrate", "identifier_bits"):
+                yield from _claims_of_setting(citing, key, holder[key], holder.span(key))
+
+
+def _claims_of_setting(citing: Citing, key: str, value: Any, place: Span) -> Iterator[Claim]:
+    """A setting: its numbers and its parity; of codes with meanings, each code with what it means."""
+    if isinstance(value, Map):
+        for code, meaning in value.items():
+            run = [*numbers_in(code), *numbers_in(meaning)]
+            shown, at = f"{code}: {meaning}", value.span(code)
+            words = parity_words(meaning)
+            if len(run) > 1:
+                yield from citing.in_order(key, shown, [run], place=at)
+            if words:
+                yield from citing.label(key, words, beside=run if len(run) == 1 else (), place=at)
+    else:
+        for number in numbers_in(value):
+            yield from citing.numbers(key, str(number), (number,), place=place)
+        if words := parity_words(value):
+            yield from citing.words(key, *words, place=place)
+
+
+def parity_words(setting: Any) -> tuple[str, ...]:
+    """How manuals write the parity that a setting names."""
+    named = next((words for parity, words in _PARITIES.items() if re.search(rf"\b{parity}\b", str(setting))), ())
+    return (*named, *map(str.capitalize, named))
 
 
 def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:

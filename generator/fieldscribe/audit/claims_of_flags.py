@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from fieldscribe.model import Flag, Point
     from fieldscribe.resolve.drafts import Draft
 
+LIST_OF_BITS = "list of bits"
+"""The fact that a row lists all bits of a word that are flags."""
+_LISTED = 3
+"""So many bits in a row are no chance."""
+
 
 def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
     """Each flag at its bits, with the values that have names."""
@@ -81,6 +86,17 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
                 yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (number,), "flags", place=place)
         bare = {entry.raw for entry, words in zip(flag.values, values, strict=True) if not words}
         yield from _rows_of(citing, flag, flag.low + above, bare, place)
+    yield from _list_of(citing, point, above, draft.span("flags"))
+
+
+def _list_of(citing: Citing, point: Point, above: int, place: Span) -> Iterator[Claim]:
+    """The bits of all flags one after the other, where a row lists them: `11 + 10 + 9 + 8`."""
+    bits = sorted(Fraction(bit + above) for flag in point.flags for bit in range(flag.low, flag.low + flag.width))
+    if len(bits) >= _LISTED:
+        shown = ", ".join(map(str, reversed(bits)))
+        yield from citing.in_order(
+            LIST_OF_BITS, shown, [bits[::-1], bits], "flags", optional=True, tight=True, place=place
+        )
 
 
 def _ends_of(citing: Citing, flag: Flag, above: int, place: Span) -> Iterator[Claim]:

@@ -218,7 +218,7 @@ class Comparison(Facts):
             section = manual.section_of(line)
             if not any(number in covered for number in range(section.first, section.last + 1)):
                 self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
-        for line in range(1, len(manual) + 1):
+        for line in (line for line in range(1, len(manual) + 1) if line not in manual.page_lines):
             if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
                 section = manual.section_of(line)
                 among_cited = any(number in covered for number in range(section.first, section.last + 1))

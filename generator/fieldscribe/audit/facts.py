@@ -72,7 +72,7 @@ class Facts(Errata):
         errata = (erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent]))
         known = frozenset().union(*(erratum.taken.union(erratum.numbers) for erratum in errata))
         passage = self._own_passage(claim, extent)
-        others = (other for way in claim.ways for other in passage.nearly_in_order(way))
+        others = (other for way in claim.ways for other in passage.nearly_in_order(way, tight=claim.tight))
         return any(not other.readings & known for other in others)
 
     def _code_stands(self, claim: Claim, extent: Extent) -> int:

@@ -210,12 +210,12 @@ class Passage:
         at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
-    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[Token]:
+    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False) -> Iterator[Token]:
         """Each number that stands in place of one of a list, which are enough to be known without it."""
         for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
             run = self.tokens[at : at + len(numbers)]
             others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]
-            if len(others) == 1:
+            if len(others) == 1 and (not tight or self.has_signs_alone(run[0], run[-1])):
                 yield others[0]
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from errno import ENAMETOOLONG
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -80,6 +81,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         where = "" if error.filename is None else f": {ascii(str(error.filename)[:200])[1:-1]}"
         print(f"fieldscribe: {error.strerror or type(error).__name__}{where}", file=sys.stderr)
+        if error.errno == ENAMETOOLONG:
+            print("  hint: give a shorter name, or a shorter path", file=sys.stderr)
         return USAGE
     except Exception as error:
         return _failed(error)

@@ -21,11 +21,14 @@ EXAMPLE = """examples:
 
 ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
 fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a
-changed line is not explained"""
+changed line is not explained or an erratum about one is not looked at"""
 
 
 _MOST_BYTES = 256 << 20
 """The largest manual text that is read: a hundred times the longest known one."""
+
+_LONGEST_LINE = 20_000
+"""Characters of a line: a text without its line breaks tells no places."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -51,6 +54,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
     )
+    parser.add_argument(
+        "--holds",
+        action="append",
+        default=[],
+        metavar="ERRATA",
+        help="with --old: errata, with commas between, that were looked at and hold though lines they cite changed",
+    )
     for key in ("file", "edition"):
         parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: what `{key}` of the document says then")
     parser.add_argument(
@@ -71,8 +81,8 @@ def run(arguments: Namespace) -> int:
         from fieldscribe.cli.audit_editions import run as run_editions
 
         return run_editions(arguments)
-    if arguments.renumber or arguments.accept:
-        raise StopError("--renumber and --accept need the old text", "give it with --old")
+    if arguments.renumber or arguments.accept or arguments.holds:
+        raise StopError("--renumber, --accept and --holds need the old text", "give it with --old")
     outcome = _audit(arguments)
     if arguments.format == "json":
         print_json(outcome.as_data())
@@ -116,9 +126,14 @@ def text_of(path: Path) -> tuple[str, str, str]:
 
     data = read_regular(path, _MOST_BYTES).data
     try:
-        return path.name, data.decode("utf-8-sig"), sha256(data).hexdigest()
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise StopError(f"`{path}` is no text in UTF-8", "extract the manual's text first") from error
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > _LONGEST_LINE:
+            hint = "extract the manual's text with its line breaks"
+            raise StopError(f"`{path}`:{number} has more than {_LONGEST_LINE} characters in a line", hint)
+    return path.name, text, sha256(data).hexdigest()
 
 
 def manual_of(subject: Subject, place: Path) -> tuple[Path, Document]:

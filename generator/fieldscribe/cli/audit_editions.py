@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions import Citations, Comparison, Edition
     from fieldscribe.model import Document
     from fieldscribe.resolve.subject import Subject
+
+_MOST_OPEN: Final = 5
+"""So many findings of the new text alone are shown when it is accepted."""
 
 
 def run(arguments: Namespace) -> int:
@@ -21,6 +24,7 @@ def run(arguments: Namespace) -> int:
         raise StopError("the report of two editions has no HTML form", "use --report text or json")
     outcome, citations, subject, document = _compared(arguments)
     written: list[str] = []
+    left_open: list[str] = []
     refused = _refusal(arguments, outcome, subject, document) if arguments.accept else None
     if arguments.renumber and refused is None:
         written.append(_renumber(subject, document, citations))
@@ -28,9 +32,10 @@ def run(arguments: Namespace) -> int:
     if arguments.accept and refused is None:
         refused = _left(citations, subject, document)
     if arguments.accept and refused is None:
-        written += [_accept(arguments, subject, document), *_not_clean(arguments, subject)]
+        left_open = _not_clean(arguments, subject)
+        written += [_accept(arguments, subject, document), *left_open]
     _report(arguments, outcome, written, refused)
-    return FINE if outcome.explained and refused is None else FINDINGS
+    return FINE if outcome.settled and refused is None and not left_open else FINDINGS
 
 
 def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Document]:
@@ -41,7 +46,19 @@ def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Doc
     path, document = manual_of(subject, arguments.manual)
     old_path, _ = manual_of(subject, arguments.old)
     old, new = (_edition(*text_of(place), document) for place in (old_path, path))
-    return *compare(subject, old, new, _glossary(subject)), subject, document
+    return *compare(subject, old, new, _glossary(subject), _held(arguments, subject)), subject, document
+
+
+def _held(arguments: Namespace, subject: Subject) -> frozenset[str]:
+    """The errata that are said to hold. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+
+    held = [name.strip() for given in arguments.holds for name in given.split(",") if name.strip()]
+    known = {erratum.erratum.id for erratum in subject.errata}
+    for name in held:
+        if name not in known:
+            raise StopError(f"--holds: the description has no erratum `{name}`", "give the ids that the audit names")
+    return frozenset(held)
 
 
 def _glossary(subject: Subject) -> dict[str, str]:
@@ -97,6 +114,8 @@ def _refusal(arguments: Namespace, outcome: Comparison, subject: Subject, docume
 
     if not outcome.explained:
         return "not everything in the new edition is explained"
+    if outcome.doubts:
+        return "errata about changed lines are not looked at: mend or remove them, or say --holds and their ids"
     said = subject.scope.header["documents"][document.id]
     given = _given(arguments)
     return "; ".join(unrecordable(document.id, said, given, *_name_and_digest(arguments, subject))) or None
@@ -145,12 +164,18 @@ def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
 def _not_clean(arguments: Namespace, subject: Subject) -> list[str]:
     """Whether the new text alone has more to look at: what a removed erratum said, say, though its line is the same."""
     from fieldscribe.audit import audit
+    from fieldscribe.audit.report import as_lines
     from fieldscribe.cli.audit import manual_of, text_of
 
     name, text, _ = text_of(manual_of(subject, arguments.manual)[0])
-    if audit(subject, str(subject.scope.header["device"]), name, text, same_text=True).clean:
+    outcome = audit(subject, str(subject.scope.header["device"]), name, text, same_text=True)
+    if outcome.clean:
         return []
-    return [f"the audit without --old has findings: fieldscribe audit {arguments.device} --manual {arguments.manual}"]
+    lines = (line for line in as_lines(outcome, everything=False) if {kind for kind, _ in line} & {"error", "warning"})
+    findings = ["".join(part for _, part in line) for line in lines]
+    more = [f"  and {len(findings) - _MOST_OPEN} more"] if len(findings) > _MOST_OPEN else []
+    head = f"the audit of the new text alone has {_counted(len(findings), 'finding')}:"
+    return ["\n".join([head, *(f"  {line}" for line in findings[:_MOST_OPEN]), *more])]
 
 
 def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
@@ -162,7 +187,7 @@ def _report(arguments: Namespace, outcome: Comparison, written: list[str], refus
     if arguments.format == "json":
         print_json({**outcome.as_data(), "written": written, "refused": refused})
         return
-    taken_over = written and refused is None and outcome.explained
+    taken_over = written and refused is None and outcome.settled
     if taken_over:
         print_lines(stale_notes(outcome))
     print_lines(figures(outcome) if taken_over else as_lines(outcome, everything=arguments.all))

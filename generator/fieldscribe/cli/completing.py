@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentParser
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli import COMMANDS, command_of
 from fieldscribe.cli.common import known_devices, roots
+from fieldscribe.language.keys.forms import ID
 
 if TYPE_CHECKING:
     from argparse import Action
@@ -84,7 +86,9 @@ class _Line:
         return [f"{name}=" for name in self._points()] if metavar.startswith("POINT=") else []
 
     def _devices(self) -> dict[str, Path]:
-        return known_devices(roots() if self._folder is None else [self._folder])
+        """The devices, without folders whose names are no ids: they cannot be one word on a command line."""
+        known = known_devices(roots() if self._folder is None else [self._folder])
+        return {name: file for name, file in known.items() if re.fullmatch(ID.pattern, name)}
 
     def _points(self) -> Iterable[str]:
         """The names and codes of the points of the device that is named before."""

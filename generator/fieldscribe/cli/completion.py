@@ -24,7 +24,7 @@ _fieldscribe() {
     local word
     COMPREPLY=()
     while IFS= read -r word; do
-        COMPREPLY+=("$word")
+        COMPREPLY+=("$(printf %q "$word")")  # bash types it as it is: a code may be `$(...)`
     done < <("$1" completion words -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
     if [[ ${COMPREPLY[0]} == *= ]]; then compopt -o nospace; fi
 }
@@ -73,7 +73,8 @@ def run(arguments: Namespace) -> int:
     if arguments.shell == "words":
         from fieldscribe.cli.completing import candidates
 
-        sys.stdout.writelines(f"{word}\n" for word in candidates(arguments.typed))
+        words = (word for word in candidates(arguments.typed) if word.isprintable())
+        sys.stdout.writelines(f"{word}\n" for word in words)
     else:
         sys.stdout.write(SCRIPTS[arguments.shell])
     return FINE

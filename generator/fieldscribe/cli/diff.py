@@ -21,7 +21,7 @@ EXAMPLE = """examples:
   fieldscribe diff old/my_drive my_drive --keep-names
 
 classes: wire and api break (major), behaviour and compatible are new (minor), docs changes no code (patch)
-ends with 1 when there are differences at or above --fail-on; findings of a description are told on stderr,
+ends with 1 when there are differences at or above --fail-on, or errors in a description: they are told on stderr,
 and what they leave of it is compared"""
 
 _LEAST = {"breaking": 2, "behaviour": 3, "any": len(CLASSES)}
@@ -68,7 +68,8 @@ def run(arguments: Namespace) -> int:
     except UnfitError as error:
         raise StopError(error.message, error.hint) from error
     counted = list(CLASSES)[: _LEAST[arguments.fail_on]]
-    return int(any(difference.weight in counted for each in comparisons for difference in each.told))
+    counts = any(difference.weight in counted for each in comparisons for difference in each.told)
+    return int(counts or report.has_errors)
 
 
 def _known(argument: str) -> str:
@@ -104,8 +105,8 @@ def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
     import sys
 
     from fieldscribe.cli.common import StopError
+    from fieldscribe.cli.rewriting import rewrite
     from fieldscribe.differences.aliases import with_aliases
-    from fieldscribe.output.writing import replace
     from fieldscribe.report import visible
 
     if any(each.new and (each.new.described is None or each.new.copied) for each in comparisons):
@@ -113,9 +114,8 @@ def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
     written = False
     for each in comparisons:
         edited = with_aliases(each)
-        for path, data in edited.files.items():
-            replace(path, (data,))
-            written = True
+        rewrite(edited.files)
+        written = written or bool(edited.files)
         for sentence in edited.told:
             print(visible(sentence), file=sys.stderr)
     return written

@@ -43,7 +43,7 @@ def run(arguments: Namespace) -> int:
 
     orders, code = _orders(arguments)
     missing = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
-    deliveries = delivered(orders, missing, check=arguments.check, force=arguments.force)
+    deliveries = delivered(orders, missing, "text", check=arguments.check, force=arguments.force)
     return max(code, say(deliveries, "text", check=arguments.check))
 
 

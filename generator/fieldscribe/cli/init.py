@@ -38,7 +38,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Make the description; the exit code."""
-    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli import FINE
     from fieldscribe.cli.common import LOCAL, StopError
     from fieldscribe.working.starting import NotStartedError, start
 
@@ -53,7 +53,7 @@ def run(arguments: Namespace) -> int:
         hint = "choose another id, or another folder with --in"
         raise StopError(f"there is already `{folder}`: nothing was written", hint) from error
     except NotStartedError as error:
-        raise StopError(f"{error.finding.message}; nothing was written", error.finding.hint or "", FINDINGS) from error
+        raise StopError(f"{error.finding.message}; nothing was written", error.finding.hint or "") from error
     _say_what_is_next(folder, made)
     return FINE
 

@@ -43,8 +43,10 @@ def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
         raise StopError(f"`{place.name}` was changed while it was read", "nothing was changed: run the command again")
     new = place.with_name(f".{place.name}.fieldscribe-new")
     new.unlink(missing_ok=True)
-    with open(os.open(new, _FLAGS, stat.S_IMODE(place.stat().st_mode)), "wb") as stream:
+    mode = stat.S_IMODE(place.stat().st_mode)
+    with open(os.open(new, _FLAGS, mode & 0o600), "wb") as stream:
         stream.write((_MARK if data.startswith(_MARK) else b"") + after.encode())
+    os.chmod(new, mode)
     return place, new, data
 
 

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.reading import Inputs
     from fieldscribe.vendoring.files import Wish
     from fieldscribe.vendoring.orders import Delivery, Order
+    from fieldscribe.vendoring.project import Wanted
 
 HELP = "leave exactly the files that a project needs of a device: all of it, or some points"
 EXAMPLE = """examples:
@@ -22,7 +24,8 @@ EXAMPLE = """examples:
   fieldscribe vendor rust siemens_mm4 --out crates --points "P10*,status_word"
   fieldscribe vendor --check          (what fieldscribe.toml asks for; for CI)
 
-a point is named by its code or its name, several by their group or by a pattern; what they need comes with them
+a point is named by its code or its name (a code with a comma in it by its name), several by their group or by a
+pattern; what they need comes with them
 --check writes nothing, says what is missing, stale or edited by hand, and ends with 1 if anything is
 ends with 1, too, when a device has errors or a foreign file is in the way; nothing of that device is written then"""
 
@@ -41,11 +44,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--points",
         metavar="LIST",
-        help="codes, names, groups or patterns, with commas between, or @FILE",
+        help="codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)",
     )
     parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
     parser.add_argument("--single-file", action="store_true", help="c: all in one header")
-    parser.add_argument("--wheel", action="store_true", help="python: one wheel with the device and the runtime")
+    parser.add_argument("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
     parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
     parser.add_argument(
         "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
@@ -71,31 +74,60 @@ def run(arguments: Namespace) -> int:
         return FINDINGS
     missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
     looks = arguments.check or arguments.list_outputs
-    deliveries = delivered(orders, missing, check=looks, force=arguments.force)
+    deliveries = delivered(orders, missing, arguments.format, check=looks, force=arguments.force)
     if arguments.list_outputs:
         return _list(deliveries)
     if not looks:
         _keep_up(arguments, deliveries, inputs)
-    return say(deliveries, arguments.format, check=arguments.check)
+    left = _left(orders) if arguments.language is None else []
+    return say(deliveries, arguments.format, check=arguments.check, left=left)
 
 
-def delivered(orders: list[Order], missing: tuple[str, str], *, check: bool, force: bool) -> list[Delivery]:
+def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool) -> list[Delivery]:
     """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
     from fieldscribe.asked import UnclearError
     from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.generate import say_waiting
-    from fieldscribe.vendoring.orders import compare, deliver, refuse_doubles
+    from fieldscribe.vendoring.orders import refuse_doubles
 
+    deliveries: list[Delivery] = []
     try:
         refuse_doubles(orders)
-        return [compare(order) if check else deliver(order, say_waiting, force=force) for order in orders]
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
+    for order in orders:
+        try:
+            deliveries.append(_delivered(order, missing, check=check, force=force))
+        except StopError:
+            if deliveries:
+                say(deliveries, form, check=check)  # what is done is done
+            raise
+    return deliveries
+
+
+def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
+    from fieldscribe.asked import UnclearError
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.vendoring.orders import compare, deliver
+
+    try:
+        return compare(order) if check else deliver(order, say_waiting, force=force)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
         raise StopError(*missing) from error
     except OSError as error:
-        where = error.filename or orders[0].out
-        raise StopError(f"cannot write to {where}: {error.strerror or error}") from error
+        where = error.filename or order.out
+        hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
+        raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
+
+
+def _left(orders: list[Order]) -> list[Path]:
+    """Files of what the project file names no more."""
+    from fieldscribe.vendoring.files import LANGUAGES
+    from fieldscribe.vendoring.orders import dropped
+
+    return dropped(orders, LANGUAGES)
 
 
 def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
@@ -118,34 +150,36 @@ def _list(deliveries: list[Delivery]) -> int:
 def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:
     """What the command line, or the project file, asks for. Raises StopError."""
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.project import NAME
+    from fieldscribe.vendoring.project import NAME, read_project
 
     if arguments.language is not None:
         if arguments.project is not None:
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
         return [_order(arguments, _wish(arguments, inputs), arguments.device, arguments.out, inputs)]
-    if arguments.points or arguments.name or arguments.single_file or arguments.no_frames or arguments.out:
+    of_one = (arguments.out, arguments.points, arguments.name)
+    if any(said is not None for said in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
-    if not file.is_file():
+    try:
+        wanted = read_project(file, report, inputs)
+    except OSError as error:
+        missing = isinstance(error, FileNotFoundError)
         hint = "write one, or say `fieldscribe vendor LANGUAGE DEVICE --out DIR`"
-        raise StopError(f"there is no project file {file}", hint)
-    return _orders_of_project(arguments, file, report, inputs)
+        raise StopError(f"there is no project file {file}" if missing else f"{file}: {error.strerror}", hint) from error
+    return _orders_of_project(arguments, wanted, report, inputs)
 
 
-def _orders_of_project(arguments: Namespace, file: Path, report: Report, inputs: Inputs) -> list[Order]:
+def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Report, inputs: Inputs) -> list[Order]:
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.project import read_project
 
     orders: list[Order] = []
-    for wanted in read_project(file, report, inputs):
-        path = file.parent / wanted.device
-        asked = str(path) if path.exists() and not arguments.descriptions else wanted.device
+    for wanted in project:
         try:
-            orders.append(_order(arguments, wanted.wish, asked, wanted.out, inputs))
+            orders.append(_order(arguments, wanted.wish, wanted.device, wanted.out, inputs))
         except StopError as error:
-            if error.message:
-                report.error("bad-project", error.message, wanted.place, error.hint or None)
+            if not error.message:
+                raise  # the description's own findings are told
+            report.error("bad-project", error.message, wanted.place, error.hint or None)
     return orders
 
 
@@ -156,9 +190,9 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
 
     from fieldscribe.asked import UnclearError
     from fieldscribe.checks.device_name_is_free import reasons
-    from fieldscribe.cli.common import StopError, open_device
+    from fieldscribe.cli.common import StopError, open_device, usage_error
     from fieldscribe.language.keys.forms import ID
-    from fieldscribe.vendoring.choosing import chosen
+    from fieldscribe.vendoring.choosing import chosen, only_raw
     from fieldscribe.vendoring.orders import Order
 
     if device is None or out is None:
@@ -174,6 +208,8 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
         chosen(opened, wish.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
+    for said in only_raw(opened, wish.points):
+        usage_error(said)
     return Order(opened, wish, out)
 
 
@@ -183,24 +219,27 @@ _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
     """What the options ask for. Raises StopError."""
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.files import LANGUAGES, Wish
+    from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
 
     language = arguments.language
     if language not in LANGUAGES:
         hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
         raise StopError(f"`{language}` is no language to take a device in", hint)
-    for option, of_language in (("single_file", "c"), ("no_frames", "c"), ("wheel", "python")):
-        if getattr(arguments, option) and language != of_language:
-            raise StopError(f"--{option.replace('_', '-')} is for {of_language}")
+    switches = {"frames": not arguments.no_frames, "single_file": arguments.single_file, "wheel": arguments.wheel}
+    for switch, of_language in LANGUAGE_OF.items():
+        if switches[switch] is (switch != "frames") and language != of_language:
+            option = "no-frames" if switch == "frames" else switch.replace("_", "-")
+            raise StopError(f"--{option} is for {of_language}")
     points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
-    frames, single = not arguments.no_frames, arguments.single_file
-    return Wish(language, points, arguments.name, frames=frames, single_file=single, wheel=arguments.wheel)
+    return Wish(language, points, arguments.name, **switches)
 
 
 def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     """The words of `--points`, or of the file that it names. Raises StopError."""
+    import re
+
     from fieldscribe.cli.common import StopError
     from fieldscribe.reading import read_regular
 
@@ -214,23 +253,30 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or "it is no UTF-8 text"
             raise StopError(f"cannot read {said[1:]}: {why}") from error
-        said = ",".join(line.partition("#")[0] for line in text.splitlines())
+        said = ",".join(re.split(r"(?:^|\s)#", line)[0] for line in text.splitlines())
     return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
 
 
-def say(deliveries: list[Delivery], form: str, *, check: bool) -> int:
-    """Print what was done, or what is not as it should be; the exit code."""
+def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
+    """Print what was done, or what is not as it should be; the exit code.
+
+    `left` are files of what the project file does not name, or no more: told, for somebody may have asked by hand.
+    """
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
+    from fieldscribe.report import visible
 
     if form == "json":
-        print_json({"deliveries": [delivery.as_data() for delivery in deliveries]})
+        data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
+        print_json(data | ({"not_in_project": list(map(str, left))} if left else {}))
     for delivery in deliveries:
         if form == "text":
             _print(delivery, check=check)
         for path, reason in delivery.refused.items():
-            hint = f"move it away, or replace it with --force; nothing of {delivery.order.name} was written"
-            usage_error(f"{delivery.order.out / path} is in the way: {reason}", hint)
+            usage_error(f"{delivery.order.out / path} is in the way: {reason}", delivery.advice[path])
+    if left and form == "text":
+        print(*(f"not in the project file: {visible(str(path))}" for path in left), sep="\n")
+        print("  hint: delete them if nobody needs them, or name their device and target there")
     return FINE if all(delivery.is_current for delivery in deliveries) else FINDINGS
 
 
@@ -242,7 +288,8 @@ def _print(delivery: Delivery, *, check: bool) -> None:
         ("missing", delivery.missing),
         ("edited by hand", delivery.edited),
         ("stale", delivery.stale),
-        ("left in place, as it was edited by hand", delivery.kept),
+        ("removed", delivery.removed),
+        ("left in place, as it was edited by hand or is not ours", delivery.kept),
     ):
         for path in paths:
             print(f"{what}: {visible(str(out / path))}")

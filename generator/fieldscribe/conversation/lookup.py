@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from operator import ne
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
@@ -13,7 +14,7 @@ from fieldscribe.wording.buses import word_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Place, Point
 
@@ -23,6 +24,7 @@ _NOT_ALONE = frozenset({"mux", "word"})
 """Numberings that are only searched when a prefix asks for them, for their numbers fit many points."""
 
 _NEAR = 5
+_ALIKE = str.maketrans("oil", "011")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,19 @@ def near(device: Device, what: str) -> list[str]:
         return [point.item for point in _neighbours(device, number)]
     known = {point.item: point.item for point in device.points}
     known |= {point.code.lower(): point.code for point in device.points if point.code}
-    return [known[spelling] for spelling in get_close_matches(asked, list(known), _NEAR)]
+    spellings = dict.fromkeys([*_slips(asked, known), *get_close_matches(asked, list(known), _NEAR)])
+    return [known[spelling] for spelling in list(spellings)[:_NEAR]]
+
+
+def _slips(asked: str, known: Iterable[str]) -> list[str]:
+    """What was typed with one wrong character at most; those that look the same come first."""
+    alike, slips = asked.translate(_ALIKE), []
+    for spelling in known:
+        if len(spelling) == len(asked) > 2:
+            wrong = sum(map(ne, alike, spelling.translate(_ALIKE)))
+            if wrong < 2:
+                slips.append((wrong, spelling))
+    return [spelling for _, spelling in sorted(slips)]
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:

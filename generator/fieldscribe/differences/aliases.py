@@ -22,13 +22,12 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 _SCALAR = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[A-Za-z0-9_]+")
-_BOM = b"\xef\xbb\xbf"
 
 
 class Edited(NamedTuple):
-    """The new contents of files, and what people are told."""
+    """The texts of files, as they were and as they shall be, and what people are told."""
 
-    files: Mapping[Path, bytes]
+    files: Mapping[str, tuple[str, str]]
     told: list[str]
 
 
@@ -50,7 +49,7 @@ def with_aliases(comparison: Comparison) -> Edited:
     lines = [f"{new}: the old name `{old}` stays as an alias" for alias in kept for new, old in alias.points]
     changed = {file: text for file, text in _texts(kept).items() if text != file.text}
     told = lines + [_advice(*pair) for pair in by_hand] + told
-    return Edited({Path(os.path.realpath(file.name)): _encoded(file, text) for file, text in changed.items()}, told)
+    return Edited({file.name: (file.text, text) for file, text in changed.items()}, told)
 
 
 def _advice(item: str, old: str) -> str:
@@ -177,12 +176,3 @@ def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
 def _ending(text: str) -> str:
     """How lines end."""
     return "\r\n" if "\r\n" in text else "\n"
-
-
-def _encoded(file: SourceFile, text: str) -> bytes:
-    """The bytes of the file, with the mark at its start that it had. Raises OSError if it was changed meanwhile."""
-    data = Path(file.name).read_bytes()
-    mark = _BOM if data.startswith(_BOM) else b""
-    if data != mark + file.text.encode("utf-8"):
-        raise OSError(0, "it was changed while it was compared", file.name)
-    return mark + text.encode("utf-8")

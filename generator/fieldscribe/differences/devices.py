@@ -137,7 +137,7 @@ _OF_ALL: Table = {
     "gaps": _limit("gaps", BEHAVIOUR),
     "timing": _limit("timing", DOCS),
     "note of the bus": _limit("note", DOCS),
-    "serial": Fact(DOCS, lambda device: device["codes"]["serial"], ("codes.serial",)),
+    "serial": Fact(BEHAVIOUR, lambda device: device["codes"]["serial"], ("codes.serial",)),
     "group": Parts("group", _groups, _SECTION, ("groups",), (Fact(API, itemgetter("points"), ()),)),
     "point": Parts("point", items, POINT, ("points",), ALIKE, in_code=in_code),
     "command": _kind("command", "commands", _COMMAND, "space", "address", "function", "value"),

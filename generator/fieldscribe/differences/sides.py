@@ -77,7 +77,7 @@ def opened(argument: str, report: Report) -> Iterator[dict[str, Side]]:
 
 def _renaming(copy: str, shown: str) -> Callable[[str], str]:
     """What names files in the copy as people know them: `HEAD~1:descriptions/hitachi_l200/bus.yaml`."""
-    return lambda file: shown + file.removeprefix(copy) if file.startswith(copy) else file
+    return lambda file: shown + f"{file}/".removeprefix(copy).rstrip("/") if f"{file}/".startswith(copy) else file
 
 
 def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[str, Side]:

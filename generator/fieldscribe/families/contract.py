@@ -11,7 +11,9 @@ from fieldscribe.records import dataclass, field
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_OF_ALL = frozenset({"units", "exceptions", "timing", "serial", "note", "source", "line", "words", "gaps", "broadcast"})
+_OF_ALL = frozenset(
+    {"units", "exceptions", "timing", "serial", "note", "source", "line", "lines", "words", "gaps", "broadcast"}
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_outline
 from fieldscribe.records import dataclass
+from fieldscribe.resolve.scope import titles
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def outline_of(device_file: Path) -> Outline | None:
         return None
     header, drafts = outline
     words = {key: line(str(header.get(key, ""))) for key in ("device", "vendor", "model", "family", "version")}
-    title = {str(key): line(str(text)) for key, text in header.get("title", {}).items()}
+    title = {str(key): line(str(text)) for key, text in titles(header.get("title")).items()}
     names = dict.fromkeys(name for draft in drafts for name in (draft.item, draft.code) if name)
     return Outline(
         words["device"],

@@ -215,7 +215,7 @@ class Document:
 class Device:
     """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
 
-    `asked` is the command that makes its output, where that is not `fieldscribe generate`; it is no fact.
+    `asked` are the words of the command that makes its output, where that is not `fieldscribe generate`; it is no fact.
     """
 
     id: str
@@ -238,4 +238,4 @@ class Device:
     digest: str
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
-    asked: str = field(default="", repr=False)
+    asked: tuple[str, ...] = field(default=(), repr=False)

@@ -162,11 +162,8 @@ class Generation:
 
     def _report_refused(self, plan: Plan) -> None:
         for path, reason in sorted(plan.refused.items()):
-            removable = not (self.out / path).is_dir()
-            advice = "move it away, or replace it with `--force`" if removable else "move it away"
-            hint = f"{advice}; nothing of {plan.device} was written"
             place = Span(shown_path(self.out / path), 1, 1)
-            self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
+            self.report.error("foreign-file", f"a file is in the way: {reason}", place, plan.advice(path))
 
     def _report_unknown(self, device_file: Path, device: Device, targets: list[str]) -> None:
         """Report targets that cannot be generated for the device's family."""

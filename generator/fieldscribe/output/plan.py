@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.manifests import made_of, manifest_text
+from fieldscribe.output.manifests import carries_head, made_of, manifest_text
 from fieldscribe.output.spool import Kept, kept
 from fieldscribe.reading import kind_of, read_regular, state_of
 from fieldscribe.records import dataclass, field
@@ -44,10 +44,17 @@ class Plan:
     unchanged: dict[str, State] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
     """Foreign files in the way, with the reason why they may not be replaced."""
+    forcible: set[str] = field(default_factory=set)
+    """Those of them that `force` would replace."""
     kept: list[str] = field(default_factory=list)
-    """Files of ours that are no longer generated, but stay because somebody edited them."""
+    """Files that are no longer generated, but stay because somebody edited them, or because they are not ours."""
     asked: Mapping[str, object] | None = None
     """What the manifest also says: how the files were asked for."""
+
+    def advice(self, path: str) -> str:
+        """What to do about a refused file."""
+        other = "replace it with `--force`" if path in self.forcible else "choose another folder or name"
+        return f"move it away, or {other}; nothing of {self.device} was written"
 
     @property
     def digests(self) -> dict[str, str]:
@@ -122,10 +129,11 @@ class _Planner:
             return
         if state:
             self._plan.unchanged[path] = state
-        elif reason is None or (self._force and not place.is_dir()):
+        elif reason is None or (self._force and _is_replaceable(place)):
             self._plan.write[path] = contents
         else:
             self._plan.refused[path] = reason
+            self._plan.forcible.update({path} if _is_replaceable(place) else ())
 
     def add_left_over(self, files_of_targets: Made) -> None:
         """Plan to remove what an earlier run wrote for these targets, unless it is generated again or shared."""
@@ -134,12 +142,18 @@ class _Planner:
         known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
         for path in sorted(known - wanted):
             if not self._manifests.is_shared(path, device, files_of_targets) and os.path.lexists(self._out / path):
-                (self._plan.remove if self._is_ours(path) else self._plan.kept).append(path)
+                (self._plan.remove if self._may_go(path) else self._plan.kept).append(path)
 
-    def _is_ours(self, path: str) -> bool:
+    def _may_go(self, path: str) -> bool:
+        """Whether it is ours, by more than the word of a manifest that somebody may have edited."""
+        device = self._plan.device
         try:
-            return self._in_the_way(path, inside(self._out, path)) is None
-        except (UnsafePathError, NotADirectoryError):
+            place = inside(self._out, path)
+            if self._in_the_way(path, place) is not None:
+                return False
+            named = self._manifests.layout.names(path, device)
+            return named or carries_head(device, read_regular(place, _MOST_BYTES).data)
+        except (UnsafePathError, OSError):
             return False
 
     def _in_the_way(self, path: str, place: Path) -> str | None:
@@ -159,6 +173,11 @@ class _Planner:
         if maker not in (None, device):
             return f"it was made of the device `{maker}`; the names of the two devices meet, so rename one of them"
         return None if self._manifests.vouch_for(path, device, data) else _NOT_OURS
+
+
+def _is_replaceable(place: Path) -> bool:
+    """Whether something lies there that a file can take the place of."""
+    return os.path.lexists(place) and not os.path.isdir(place)
 
 
 def _state(place: Path) -> State | None:

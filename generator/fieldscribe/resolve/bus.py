@@ -67,6 +67,11 @@ def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
             message = f"`{key}` is nothing that the family {family} knows"
             hint = f"it belongs to {' and '.join(known)}: leave it out"
             scope.report.error("family-key", message, node.key_span(key), hint)
+    said = {*node, *(key for holder in ("serial", "timing") for key in node.get(holder, ()))}
+    for key in node.get("lines", ()):
+        if key not in said:
+            message = f"`lines` names `{key}`, which the bus does not say"
+            scope.report.error("unknown-key", message, node["lines"].key_span(key), "leave it out, or say it")
     if keys.broadcast is not None and node.get("broadcast", keys.broadcast) != keys.broadcast:
         message = f"{node['broadcast']} is no broadcast of the family {family}"
         hint = f"write {keys.broadcast}: bit 5 of the address byte, or leave it out"

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Block, Command, Device, Enum, Point
 
 _GLOB = frozenset("*?[")
+_TOLD = 20
+"""How many wrong words a message names."""
 
 
 def chosen(device: Device, words: Sequence[str]) -> Device:
@@ -27,13 +29,38 @@ def chosen(device: Device, words: Sequence[str]) -> Device:
     """
     items: set[str] = set()
     commands: set[str] = set()
+    unclear: dict[str, UnclearError] = {}
     for word in words:
-        points, commands_of_word = _meant(device, word)
+        try:
+            points, commands_of_word = _meant(device, word)
+        except UnclearError as error:
+            unclear[word] = error
+            continue
         items.update(point.item for point in points)
         commands.update(command.name for command in commands_of_word)
+    if unclear:
+        raise _all_of(unclear)
     kept_commands = tuple(command for command in device.commands if command.name in commands)
     needed = _with_needed(device, items, (command.busy for command in kept_commands if command.busy is not None))
     return _reduced(device, tuple(needed), kept_commands)
+
+
+def only_raw(device: Device, words: Iterable[str]) -> Iterator[str]:
+    """What to say of words that name a point of which code has the address alone."""
+    for word in words:
+        reason = next((point.reason for point in _named(device, word) if point.raw_only), None)
+        if reason is not None:
+            yield f"`{quoted(word)}` comes with its address alone, and no conversion: {reason}"
+
+
+def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
+    """What is wrong with all of these words, told at once."""
+    if len(unclear) == 1:
+        return next(iter(unclear.values()))
+    told = list(unclear.items())[:_TOLD]
+    more = [f"and {len(unclear) - _TOLD} more"] if len(unclear) > _TOLD else []
+    hints = [f"for `{quoted(word)}`, {error.hint}" for word, error in told if error.hint]
+    return UnclearError("; ".join([*(error.message for _, error in told), *more]), "; ".join(hints))
 
 
 def _meant(device: Device, word: str) -> tuple[list[Point], list[Command]]:

@@ -26,9 +26,9 @@ class DocumentsWish:
     language: str
     name: None = None
 
-    def command(self, device: str) -> str:
-        """The command that makes the files anew."""
-        return f"fieldscribe docs {device} --format {self.language}"
+    def command(self, device: str) -> tuple[str, ...]:
+        """The words of the command that makes the files anew."""
+        return "fieldscribe", "docs", device, "--format", self.language
 
     def as_data(self, device: str) -> dict[str, object]:
         """What a manifest says of it."""

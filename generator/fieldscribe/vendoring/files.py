@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.plain import for_code
 from fieldscribe.records import dataclass, replace
+from fieldscribe.targets.heads import LEFT_OUT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 
 LANGUAGES = ("c", "python", "rust")
 """The languages that a project can take a device in."""
+
+LANGUAGE_OF = {"frames": "c", "single_file": "c", "wheel": "python"}
+"""Switches of a wish, each with the language that has it."""
 
 LICENCE = "LICENSE-fieldscribe.txt"
 _POINTS_IN_A_HEAD = 60
@@ -35,18 +39,19 @@ class Wish:
     single_file: bool = False
     wheel: bool = False
 
-    def command(self, device: str) -> str:
-        """The command that makes the files anew."""
+    def command(self, device: str) -> tuple[str, ...]:
+        """The words of the command that makes the files anew."""
         words = ["fieldscribe", "vendor", self.language, device]
         if self.name is not None:
             words += ["--as", self.name]
         if self.points:
             points = ",".join(self.points)
-            words += ["--points", points if len(points) <= _POINTS_IN_A_HEAD else "..."]
+            fits = len(points) <= _POINTS_IN_A_HEAD and not any("," in point for point in self.points)
+            words += ["--points", points if fits else LEFT_OUT]
         words += ["--single-file"] if self.single_file else []
         words += [] if self.frames else ["--no-frames"]
         words += ["--wheel"] if self.wheel else []
-        return " ".join(words)
+        return tuple(words)
 
     def as_data(self, device: str) -> dict[str, object]:
         """What a manifest says of it."""
@@ -55,12 +60,12 @@ class Wish:
         return said | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
 
     def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
-        """The files, as bytes. Raises UnclearError, and ModuleNotFoundError for a wheel without hatchling."""
+        """The files, as bytes. Raises UnclearError, and ModuleNotFoundError for wheels without hatchling."""
         texts = dict(files_of(device, self))
         if self.wheel:
-            from fieldscribe.vendoring.wheel import wheel_of
+            from fieldscribe.vendoring.wheel import wheels_of
 
-            yield wheel_of(texts, self.name or device.id)
+            yield from wheels_of(texts)
             texts = {LICENCE: texts[LICENCE]}
         for path, text in texts.items():
             yield path, text.encode()

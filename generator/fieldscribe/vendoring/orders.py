@@ -13,7 +13,7 @@ from fieldscribe.reading import read_regular
 from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
     from pathlib import Path
     from typing import Protocol
 
@@ -67,6 +67,8 @@ class Delivery:
     stale: list[str] = field(default_factory=list)
     kept: list[str] = field(default_factory=list)
     refused: dict[str, str] = field(default_factory=dict)
+    advice: dict[str, str] = field(default_factory=dict)
+    """What to do about each refused file."""
 
     @property
     def is_current(self) -> bool:
@@ -97,7 +99,8 @@ def compare(order: Order) -> Delivery:
     """Say what differs; touches nothing. Raises UnclearError."""
     manifests, made = Manifests(order.out, VENDORED), _made(order)
     plan = _plan(order, manifests, made, force=False)
-    delivery = Delivery(order, _paths(plan, made), kept=sorted(plan.kept), refused=dict(sorted(plan.refused.items())))
+    delivery = _delivery(order, plan, made)
+    delivery.kept = sorted(plan.kept)
     for path in plan.stale:
         if path not in plan.refused:
             _difference(order, manifests, delivery, path).append(path)
@@ -116,11 +119,26 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
     with only_run(order.out, lambda: waiting(order.out)):
         manifests = Manifests(order.out, VENDORED)
         plan = _plan(order, manifests, made, force=force)
-        delivery = Delivery(order, _paths(plan, made), refused=dict(sorted(plan.refused.items())))
+        delivery = _delivery(order, plan, made)
         if not plan.refused:
             carry_out(order.out, manifests, plan)
             delivery.written, delivery.removed, delivery.kept = sorted(plan.write), plan.remove, plan.kept
     return delivery
+
+
+def dropped(orders: Collection[Order], languages: Collection[str]) -> list[Path]:
+    """Files in the folders of these orders that are there for none of them, as for one that was dropped."""
+    folders = {os.path.realpath(order.out): order.out for order in orders}
+    wanted = {(os.path.realpath(order.out), order.name, order.wish.language) for order in orders}
+    paths: list[Path] = []
+    for folder, out in folders.items():
+        manifests = Manifests(out, VENDORED)
+        for name, language in manifests.all_asked:
+            if language in languages and (folder, name, language) not in wanted:
+                files = manifests.of(name).get(language, {})
+                own = [path for path in files if not manifests.is_shared(path, name, [language])]
+                paths += [out / path for path in own if os.path.lexists(out / path)]
+    return sorted(paths)
 
 
 def _made(order: Order) -> Made:
@@ -132,6 +150,12 @@ def _made(order: Order) -> Made:
 def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:
     manifests.ask(order.name, order.wish.language, order.wish.as_data(order.device.id))
     return plan_of(order.out, manifests, order.name, made, force=force)
+
+
+def _delivery(order: Order, plan: Plan, made: Made) -> Delivery:
+    """What is to be delivered, and what hinders that."""
+    refused = dict(sorted(plan.refused.items()))
+    return Delivery(order, _paths(plan, made), refused=refused, advice={path: plan.advice(path) for path in refused})
 
 
 def _paths(plan: Plan, made: Made) -> list[str]:

@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.asked import did_you_mean, quoted
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.keys.forms import ID
+from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.reading import read_regular, shown_path
-from fieldscribe.vendoring.files import LANGUAGES, Wish
+from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20
 _LISTS = {"targets", "points"}
-_SWITCHES = {"frames", "single_file", "wheel"}
+_SWITCHES = {*LANGUAGE_OF}
 _KEYS = {"device", "targets", "points", "out", "as", *_SWITCHES}
 _COMMON = {"out", "targets"}
 _WHERE = re.compile(r"at line (\d+), column (\d+)")
@@ -60,7 +62,10 @@ def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> li
     except UnicodeDecodeError:
         report.error("bad-project", "the file is no UTF-8 text", Span(shown_path(file), 1, 1))
         return []
-    except tomllib.TOMLDecodeError as error:
+    except RecursionError:
+        report.error("bad-project", "lists or tables are nested too deeply", Span(shown_path(file), 1, 1))
+        return []
+    except ValueError as error:  # of tomllib, or of a number or a date in it
         report.error("bad-project", f"this is no TOML: {quoted(_said(error))}", _span_of(error, file, text))
         return []
     return list(_Reader(file, text, report).wanted(document))
@@ -95,17 +100,18 @@ class _Reader:
                 self._report.error("bad-project", f"`{key}` is missing", self._span(number, key), hint)
         if self._report.has_errors:
             return
-        out = self._inside(said["out"], number, "out" in entry)
+        out = self._inside(said["out"], self._span(number if "out" in entry else None, "out"))
+        place = self._span(number, "device")
+        path = self._inside(said["device"], place)
+        is_id = re.fullmatch(ID.pattern, said["device"]) is not None
+        device = said["device"] if is_id and not (path / DEVICE_FILE).is_file() else str(path)
+        for key in LANGUAGE_OF.keys() & said.keys():
+            if LANGUAGE_OF[key] not in said["targets"]:
+                message = f"`{key}` is for {LANGUAGE_OF[key]}, which is not among the targets"
+                self._report.error("bad-project", message, self._span(number, key), "leave it out")
         for language in dict.fromkeys(said["targets"]):
-            wish = Wish(
-                language,
-                tuple(said.get("points", ())),
-                said.get("as"),
-                frames=said.get("frames", True),
-                single_file=said.get("single_file", False),
-                wheel=said.get("wheel", False),
-            )
-            yield Wanted(said["device"], self._span(number, "device"), wish, out)
+            switches = {key: said[key] for key in LANGUAGE_OF if key in said and LANGUAGE_OF[key] == language}
+            yield Wanted(device, place, Wish(language, tuple(said.get("points", ())), said.get("as"), **switches), out)
 
     def _check(self, said: Mapping[str, Any], number: int | None, known: set[str]) -> None:
         from difflib import get_close_matches
@@ -121,14 +127,13 @@ class _Reader:
                 message = f"`{quoted(unknown[0])}` is no language to take a device in"
                 self._report.error("bad-project", message, span, f"there are {', '.join(LANGUAGES)}")
 
-    def _inside(self, out: str, number: int, own: bool) -> Path:
-        """The folder, which lies below the file's."""
+    def _inside(self, path: str, span: Span) -> Path:
+        """What the path names, which lies below the file's folder."""
         root = os.path.realpath(self._file.parent)
-        place = os.path.realpath(os.path.join(root, out))
-        if os.path.commonpath([root, place]) != root:
-            message = f"`{quoted(out)}` leads out of the folder of {self._file.name}"
-            self._report.error("bad-project", message, self._span(number if own else None, "out"))
-        return self._file.parent / out
+        if os.path.commonpath([root, os.path.realpath(os.path.join(root, path))]) != root:
+            message = f"`{quoted(path)}` leads out of the folder of {self._file.name}"
+            self._report.error("bad-project", message, span)
+        return self._file.parent / path
 
     def _span(self, number: int | None, key: str) -> Span:
         """Where a key of the n-th device stands, or one of the file; the head, or the first line, if there is none."""

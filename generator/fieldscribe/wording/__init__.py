@@ -59,6 +59,21 @@ def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
     return ", ".join(map(address_text, addresses)) + " (high part first)"
 
 
+def order_text(point: Point) -> str:
+    """Which of several words comes first: `low word first`; empty for a single word."""
+    first, *others = point.addresses or (0,)
+    if not others:
+        return ""
+    what = "characters" if point.text is not None else "word"
+    rising = all(address == first + number for number, address in enumerate(others, 1))
+    falling = all(address == first - number for number, address in enumerate(others, 1))
+    if rising or falling:
+        names = ("first", "last") if point.text is not None else ("high", "low")
+        return f"{names[falling]} {what} first"
+    words = " ".join(map(hex_text, point.addresses))
+    return f"{words}, {'first' if point.text is not None else 'high'} {what} first"
+
+
 def with_unit(text: str, point: Point) -> str:
     """The text with the point's unit behind it."""
     return f"{text} {point.unit.symbol}" if text and point.unit.symbol else text
@@ -100,6 +115,23 @@ def fixed_text(point: Point) -> str:
         parts.append(f"bit {low} always {value}" if high == low else f"bits {high}..{low} always {value}")
         high = (mask & (1 << low) - 1).bit_length() - 1
     return ", ".join(parts)
+
+
+def shares_word(point: Point) -> bool:
+    """Whether writing the point needs the rest of its word; words of a telegram are all sent anyway."""
+    return point.bits is not None and point.writable and point.telegram is None
+
+
+def shared_text(point: Point) -> str:
+    """How such a point is written: `shares its word: read it, change bits 11..8, write it back`; else empty."""
+    if point.bits is None or not shares_word(point):
+        return ""
+    high, low = point.bits
+    bits = f"bit {low}" if high == low else f"bits {high}..{low}"
+    if not point.readable:
+        be = "is" if high == low else "are"
+        return f"shares its word, which cannot be read: {bits} {be} written together with all others"
+    return f"shares its word: read it, change {bits}, write it back"
 
 
 def access_text(access: str) -> str:
@@ -280,6 +312,15 @@ def default_text(point: Point, *, unit: bool = True) -> str:
         return "" if raw is None else f"raw {raw}"
     number = number_text(point.default)
     return with_unit(number, point) if unit else number
+
+
+def default_parts(point: Point) -> str:
+    """The factory setting of a word that is made of numbers, number by number: `source 52, bit 0`; else empty."""
+    raw = point.default_raw
+    if raw is None or not point.flags or any(flag.width == 1 for flag in point.flags):
+        return ""
+    flags = sorted(point.flags, key=lambda flag: -flag.low)
+    return ", ".join(f"{flag.name} {raw >> flag.low & (1 << flag.width) - 1}" for flag in flags)
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:

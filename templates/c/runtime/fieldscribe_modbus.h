@@ -14,7 +14,7 @@
  *     fieldscribe_modbus_reply reply = {words, FIELDSCRIBE_COUNT(words), 0U, 0U};
  *     request = fieldscribe_modbus_read(unit, &point->read);
  *     status = fieldscribe_modbus_build(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer, &length);
- *     discard();      (what has come in: a late answer would be taken for this one)
+ *     discard();      (when RTU was silent for 3.5 characters; a late answer would be taken for this one)
  *     send(buffer, length);      (where you hear yourself, on RS-485, drop these `length` bytes again)
  *     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_RTU, &request, buffer, sizeof buffer);
  *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
@@ -54,6 +54,9 @@ extern "C" {
 #define FIELDSCRIBE_MODBUS_RTU_MOST 256U
 #define FIELDSCRIBE_MODBUS_TCP_MOST 260U
 
+/* How many bytes fieldscribe_modbus_ask_rtu and _tcp receive at most for one answer: four of the longest frames. */
+#define FIELDSCRIBE_MODBUS_ASK_MOST 1040U
+
 /* In a profile: no unit number is a broadcast. */
 #define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
 
@@ -77,7 +80,8 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_WRONG_FUNCTION,
     FIELDSCRIBE_MODBUS_EXCEPTION,      /* the device refused; the reply holds its code */
     FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, /* a read that brings more or less than was asked for */
-    FIELDSCRIBE_MODBUS_ECHO_MISMATCH   /* a write that was answered with something else */
+    FIELDSCRIBE_MODBUS_ECHO_MISMATCH,  /* a write that was answered with something else */
+    FIELDSCRIBE_MODBUS_NOISE           /* of asking: bytes came, and no answer among them, or too many before it */
 } fieldscribe_modbus_status;
 
 typedef enum fieldscribe_modbus_framing {
@@ -331,8 +335,9 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
 }
 
 /*
- * A line that requests go over. `send` drops what has come in and sends; `receive` waits for a byte, and is false when
- * the line stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
+ * A line that requests go over. `send` waits until the line is silent (over RTU for 3.5 characters, or the device takes
+ * no notice of the request), drops what has come in and sends; `receive` waits for a byte, and is false when the line
+ * stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
  */
 typedef struct fieldscribe_modbus_line {
     const fieldscribe_modbus_profile *profile;
@@ -345,7 +350,8 @@ typedef struct fieldscribe_modbus_line {
 
 /*
  * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
- * came. What goes to all units is OK when it is sent, as nobody answers. Over TCP give each request another
+ * came, or its beginning alone; NOISE that other bytes came (an answer with a wrong checksum, of another unit, at
+ * another baud rate), or ASK_MOST bytes with no answer in them. What goes to all units is OK when it is sent, as nobody answers. Over TCP give each request another
  * `transaction`: by that a late answer is told from the one that is waited for.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -927,18 +933,27 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
     return taken;
 }
 
-/* Sends the `length` bytes of a request; how many come back as its answer. */
-static size_t fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line, fieldscribe_modbus_framing framing,
+/* Sends the `length` bytes of a request, and receives its answer; a line that is never silent comes to an end, too. */
+static fieldscribe_modbus_receiver fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, size_t length)
 {
     fieldscribe_modbus_receiver receiver =
         fieldscribe_modbus_await(line->profile, framing, request, line->buffer, line->size);
     uint8_t byte = 0U;
+    uint16_t left = FIELDSCRIBE_MODBUS_ASK_MOST;
     line->send(line->context, line->buffer, length);
-    while ((!receiver.done) && line->receive(line->context, &byte)) {
+    while ((!receiver.done) && (left > 0U) && line->receive(line->context, &byte)) {
         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
+        --left;
     }
-    return receiver.length;
+    return receiver;
+}
+
+/* What parsing says, but for an answer that is not whole where other bytes came. */
+static fieldscribe_modbus_status fieldscribe_modbus_heard(
+    const fieldscribe_modbus_receiver *receiver, fieldscribe_modbus_status parsed)
+{
+    return ((!receiver->done) && (receiver->dropped > 0U)) ? FIELDSCRIBE_MODBUS_NOISE : parsed;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -948,9 +963,11 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_li
     fieldscribe_modbus_status status =
         fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_RTU, request, length);
+        const fieldscribe_modbus_receiver receiver =
+            fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_RTU, request, length);
         if (request->unit != line->profile->broadcast) {
-            status = fieldscribe_modbus_parse_rtu(request, line->buffer, length, reply);
+            status = fieldscribe_modbus_parse_rtu(request, line->buffer, receiver.length, reply);
+            status = fieldscribe_modbus_heard(&receiver, status);
         }
     }
     return status;
@@ -963,9 +980,11 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
     fieldscribe_modbus_status status =
         fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        length = fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_TCP, request, length);
+        const fieldscribe_modbus_receiver receiver =
+            fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_TCP, request, length);
         if (request->unit != line->profile->broadcast) {
-            status = fieldscribe_modbus_parse_tcp(request, line->buffer, length, reply);
+            status = fieldscribe_modbus_parse_tcp(request, line->buffer, receiver.length, reply);
+            status = fieldscribe_modbus_heard(&receiver, status);
         }
     }
     return status;

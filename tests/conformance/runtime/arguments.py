@@ -132,7 +132,7 @@ def check_what_may_be_written(package: Package) -> None:
     refuses(runtime.RangeError, "float: 6 is not 5", made["float"].encode, 6.0)
     text = "none: 4 Hz is refused, as anything is now: least leave 6..5 Hz"
     refuses(runtime.RangeError, text, made["none"].encode, 4.0, {"least": 60})
-    refuses(runtime.RangeError, "none: raw 40 is outside 45..50", made["none"].check, 40, {"least": 45})
+    refuses(runtime.RangeError, "none: raw 40 is outside 45..50 (set by least)", made["none"].check, 40, {"least": 45})
     huge = "zero: a count of a number of thousands of digits Hz is not 0 Hz"
     refuses(runtime.RangeError, huge, made["zero"].encode_count, 10**5000)
 
@@ -221,7 +221,7 @@ def check_transports(package: Package) -> None:
     }
     blocking, awaiting = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
     exchange = "`exchange` (a method that sends a request and returns the whole reply)"
-    needs = f"a transport has `framing` ('rtu' or 'tcp') and {exchange}"
+    needs = f"a transport has `framing` ('rtu', 'tcp' or 'pdu') and {exchange}"
     for kind in (blocking, awaiting):
         refuses(request, f"{needs}; thing has no framing and no exchange", kind, Thing(), 1)
         assert refusal(kind, type("Half", (Thing,), {"framing": "rtu"})(), 1).status == "bad_transport"

@@ -161,7 +161,11 @@ def check_units(package: Package) -> None:
         assert refusal(kind, Memory({}), 0).status == "bad_unit"
         other = Memory({})
         other.framing = "tcp"
-        refuses(runtime.RequestError, "the device speaks rtu, not 'tcp'", kind, other, 1)
+        refused = refusal(kind, other, 1)
+        assert refused.status == "bad_framing"
+        subclass = "a subclass with PROFILE = Device.PROFILE.replaced(framings=('tcp',))"
+        told = f"take a line with framing='rtu', or where a gateway translates {subclass}"
+        assert str(refused) == f"the device speaks rtu, not 'tcp'; {told}"
 
 
 def check_transactions(package: Package) -> None:

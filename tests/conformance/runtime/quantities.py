@@ -179,13 +179,21 @@ def check_limits(package: Package) -> None:
     only = _point(package, runtime.Integer(runtime.U16), allowed=((1, limit),))
     held = {"top": 20, "switch": 2}
     assert only.encode(20, held) == 20
-    refuses(runtime.RangeError, "one: 21 V is outside 1..20 V", only.encode, 21, held)
-    refuses(runtime.RangeError, "one: raw 21 is outside 1..20", only.check, 21, held)
+    refuses(runtime.RangeError, "one: 21 V is outside 1..20 V (set by top and switch)", only.encode, 21, held)
+    refuses(runtime.RangeError, "one: raw 21 is outside 1..20 (set by top and switch)", only.check, 21, held)
     assert only.encode(50, {**held, "switch": 1}) == 50
     assert only.encode(50, {**held, "switch": 4}) == 50
-    refuses(runtime.RangeError, "one: 51 V is outside 1..50 V", only.encode, 51, {**held, "switch": 0})
-    refuses(runtime.RangeError, "one: 51 V is outside 1..50 V", only.encode, 51, {**held, "top": 99})
+    refuses(
+        runtime.RangeError,
+        "one: 51 V is outside 1..50 V (set by top and switch)",
+        only.encode,
+        51,
+        {**held, "switch": 0},
+    )
+    refuses(
+        runtime.RangeError, "one: 51 V is outside 1..50 V (set by top and switch)", only.encode, 51, {**held, "top": 99}
+    )
     assert refusal(only.encode, 1, {**held, "top": 0}).status == "out_of_range"
     low = _point(package, runtime.Integer(runtime.U16), allowed=((limit, 60),))
-    refuses(runtime.RangeError, "one: 19 V is outside 20..60 V", low.encode, 19, held)
+    refuses(runtime.RangeError, "one: 19 V is outside 20..60 V (set by top and switch)", low.encode, 19, held)
     assert (low.encode(2, {**held, "switch": 0}), low.encode(2, {**held, "top": 1})) == (2, 2)

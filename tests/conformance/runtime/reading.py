@@ -92,7 +92,7 @@ def check_other_families(package: Package) -> None:
         assert (error.group, error.point) == ("g", "ZSW state, actual"), str(error)
         assert refusal(device.ramp.read).group is None
         error = refusal(device.read_at, "parameter", 5)
-        assert (error.group, error.point, error.needs) == (None, None, None)
+        assert (error.group, error.point, error.needs) == (None, "parameter 5", None)
 
 
 class Slow(AsyncMemory):

@@ -126,7 +126,7 @@ def check_coded(package: Package) -> None:
         runtime.Special("other", 0),
     )
     assert refusal(write.encode, codes.fault).status == "special"
-    taken = "A1 write: takes a number or a special code, as in special.name, not 'off'"
+    taken = "A1 write: takes a number or a special code, as in special.off, not 'off'"
     refuses(runtime.WrongTypeError, taken, write.encode, "off")
     assert (codes.said(codes.off), codes.said(codes(0xFFF1))) == ("special.off", "special(65521)")
     assert (write.check(0), write.check(7), read.special, read.special(0).name) == (None, None, codes, "off")

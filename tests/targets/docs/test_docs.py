@@ -193,6 +193,17 @@ WORDS: list[tuple[dict[str, Any], list[str]]] = [
         ],
     ),
     (
+        {
+            "flags": (_flag(6, 4, "ready_for_operation" * 3), *(_flag(bit, 1, "long" * 30) for bit in range(6))),
+            "fixed": Fixed(0xF000, 0xA000),
+        },
+        [
+            "| 15 | 14 | 13 | 12 | 11 | 10 | 9 | 8 |",
+            f"| always 1 | always 0 | always 1 | always 0 |  |  | {'ready_<wbr>for_<wbr>operation' * 3} | ← |",
+            f"| {'ready_<wbr>for_<wbr>operation' * 3} | ← | {'long' * 30} |",
+        ],
+    ),
+    (
         {"bits": (7, 4), "width": 4, "flags": (_flag(0, 1, "low"), _flag(3, 1, "high"))},
         ["| 7 | 6..5 | 4 |", "| high |  | low |"],
     ),
@@ -225,9 +236,13 @@ def test_the_map_of_each_space_is_sorted_by_address() -> None:
     _, _, maps = page.partition("## Address map")
     rows = [_cells(line) for line in maps.splitlines() if line.startswith("| 0")]
     assert [[cell.strip() for cell in row if cell.strip()][-1] for row in rows] == [
-        f"[`{name}`](#point-{name})" for name in ("high", "low", "wide", "late", "coil")
+        *[f"[`{name}`](#point-{name})" for name in ("high", "low", "wide", "late")],
+        "[`enter`](#command-enter)<br>write any number",
+        "[`coil`](#point-coil)",
     ]
-    assert "| 0005h (5) high, 0004h (4) low | 5 | u32 | rw | A1 | [`wide`](#point-wide) |" in maps
+    wide = "| 0004h (4)<br>2 words, low word first | 5 / 400005 | u32 | rw | A1 | [`wide`](#point-wide) |"
+    assert wide in maps
+    assert "| 0900h (2304) | 2305 / 402305 | command | w |" in maps
     assert maps.index("### Holding") < maps.index("### Coil")
 
 
@@ -265,6 +280,7 @@ def test_errata_lead_to_their_points_and_frames() -> None:
         ({"default_raw": 7}, "raw 7"),
         ({"default_raw": 7, "default": Fraction(7, 10), "unit": HERTZ}, "0.7"),
         ({"default": Fraction(1, 3)}, "1/3"),
+        ({"default_raw": 0x3402, "flags": (_flag(0, 8, "bit"), _flag(8, 8, "of"))}, "of 52, bit 2"),
     ],
 )
 def test_a_factory_setting(facts: dict[str, Any], in_page: str) -> None:
@@ -273,7 +289,8 @@ def test_a_factory_setting(facts: dict[str, Any], in_page: str) -> None:
     page = _page(device)
     heads = next(line for line in page.splitlines() if line.startswith("| Name | Wire"))
     cells = dict(zip((head.strip() for head in _cells(heads)), _row(page, "setting"), strict=True))
-    assert cells["Range"] == (f"0..65535<br>default {in_page}" if in_page else "0..65535")
+    span = "" if "flags" in facts else "0..65535"
+    assert cells["Range"].split("<br>") == [part for part in (span, in_page and f"default {in_page}") if part]
 
 
 @pytest.mark.parametrize(

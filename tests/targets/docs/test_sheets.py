@@ -40,7 +40,7 @@ def rows_of(device: Device, kind: str = "") -> list[dict[str, str]]:
 
 @cache
 def rows_of_sample() -> dict[str, dict[str, str]]:
-    return {row["name"] + row["variant"]: row for row in rows_of(sample_device())}
+    return {row["name"]: row for row in rows_of(sample_device())}
 
 
 def row_of(made: Point) -> dict[str, str]:
@@ -88,6 +88,7 @@ def test_a_row_of_a_point() -> None:
         "modicon": "4137",
         "reference": "404137",
         "type": "u16",
+        "encoding": "scaled",
         "access": "rw",
         "unit": "Hz",
         "factor": "0.1",
@@ -148,11 +149,11 @@ def test_a_scale(name: str, facts: tuple[str, str, str]) -> None:
         ("double_actual", ("", "", "", ""), ""),
         (
             "upper_limit",
-            ("0", "4000", "0", "400"),
+            ("1", "4000", "0.1", "400"),
             "only lower_limit..400 Hz; while lower_limit.raw is 0: from 0",
         ),
         ("voltage_setpoint", ("0", "65535", "", ""), ""),
-        ("dc_levelvoltage_class=400V", ("660", "780", "660", "780"), ""),
+        ("dc_level_400v", ("660", "780", "660", "780"), ""),
     ],
 )
 def test_limits(name: str, ends: tuple[str, ...], text: str) -> None:
@@ -165,6 +166,20 @@ POINTS: list[tuple[Point, dict[str, str]]] = [
     (point("p", 7, allowed=allowed((0, 100)), **SCALED), {"max": "", "range": "only 0..700/3 Hz"}),
     (point("p", 7, "f32", allowed=units("1/3", 2)), {"min": "", "max": "2", "range": "only 1/3..2"}),
     (point("p", 7, default=Fraction(1, 3)), {"default": "", "remarks": "default 1/3"}),
+    (
+        point("p", 7, flags=tuple(Flag(8 * at, 8, name, titles(name), 1, ()) for at, name in enumerate(("bit", "of")))),
+        {"remarks": ""},
+    ),
+    (
+        point(
+            "p",
+            7,
+            default_raw=0x3402,
+            flags=(Flag(0, 8, "bit", titles("B"), 1, ()), Flag(8, 8, "of", titles("O"), 1, ())),
+        ),
+        {"default_raw": "13314", "remarks": "default: of 52, bit 2"},
+    ),
+    (point("p", 7, default_raw=1, flags=(Flag(0, 1, "on", titles("On"), 1, ()),)), {"remarks": ""}),
     (point("p", 7, default_raw=7), {"default": "", "default_raw": "7", "remarks": ""}),
     (point("p", 7, default_raw=7, default=Fraction(7, 10)), {"default": "0.7", "default_raw": "7"}),
     (point("p", 7, "u32"), {"address": "7", "words": "2", "word_order": "high word first"}),
@@ -174,7 +189,34 @@ POINTS: list[tuple[Point, dict[str, str]]] = [
         point("p", 7, "text", text=Text(4, "ascii"), order=(8, 7)),
         {"word_order": "last characters first", "remarks": "text, 4 characters, ascii", "raw_max": "", "factor": ""},
     ),
-    (point("p", 7, "u8", bits=(13, 6)), {"bit_low": "6", "bit_high": "13"}),
+    (
+        point("p", 7, "u8", bits=(13, 6), fixed=Fixed(0x18, 0x10)),
+        {
+            "bit_low": "6",
+            "bit_high": "13",
+            "shared": "yes",
+            "mask": str(0x3FC0),
+            "fixed_mask": "24",
+            "fixed_bits": "16",
+            "remarks": "shares its word: read it, change bits 13..6, write it back; bits 4..3 always 10",
+        },
+    ),
+    (point("p", 7, "u8", bits=(13, 6), access="r"), {"shared": "", "mask": str(0x3FC0), "remarks": ""}),
+    (point("p", 7, "bit", bits=(3, 3), telegram="t"), {"shared": "", "mask": "8"}),
+    (
+        point("p", 7, "bit", bits=(3, 3), access="w"),
+        {"remarks": "shares its word, which cannot be read: bit 3 is written together with all others"},
+    ),
+    (point("p", 7, place=Place((7,), {})), {"modicon": "8", "reference": "400008", "computed": "modicon reference"}),
+    (
+        point("p", 7, "bit", space="coil", place=Place((7,), {})),
+        {"modicon": "8", "reference": "", "computed": "modicon"},
+    ),
+    (
+        point("p", 7, default_raw=0, allowed=allowed((0, 9)), specials=(Special(0, 1, "off", titles("Off"), False),)),
+        {"raw_min": "2", "raw_max": "9", "default_raw": "0", "codes": "p"},
+    ),
+    (point("p", 7, "bit", specials=(Special(0, 1, "off", titles("Off"), False),)), {"raw_min": "", "raw_max": ""}),
     (point("p", None), {"address": "", "address_hex": "", "generated": "no"}),
     (point("p", 7, write_place=Place((0x20,), {})), {"remarks": "written at 0020h (32)"}),
     (point("p", 7, fixed=Fixed(0xC0, 0x80), since="1.10"), {"remarks": "bits 7..6 always 10; since 1.10"}),
@@ -187,6 +229,27 @@ POINTS: list[tuple[Point, dict[str, str]]] = [
     (point("p", 7, source=Source("m", None, "25", None)), {"section": "", "page": "25"}),
     (point("p", 7, generated=False, unit=HERTZ), {"factor": "", "min": "", "raw_max": "65535"}),
 ]
+
+
+def test_a_command() -> None:
+    row = rows_of_sample()["enter"]
+    expected = {
+        "kind": "command",
+        "title": "Store parameters",
+        "address_hex": "0900h",
+        "modicon": "2305",
+        "type": "u16",
+        "access": "w",
+        "raw_min": "",
+        "remarks": "write any number with function 06h; the memory stands 100000 writes; busy while running",
+        "line": "780",
+    }
+    assert {key: row[key] for key in expected} == expected
+
+
+def test_names_are_unique() -> None:
+    rows = rows_of(sample_device())
+    assert len({(row["kind"], row["name"]) for row in rows}) == len(rows)
 
 
 @pytest.mark.parametrize(("made", "facts"), POINTS)
@@ -209,7 +272,7 @@ def test_meanings() -> None:
             point("both", 24, specials=(own, shared), specials_of="u16"),
         )
     )
-    keys = [(row["enum"], row["flags"], row["codes"]) for row in rows_of(device)]
+    keys = [(row["enum"], row["flags"], row["codes"]) for row in rows_of(device) if row["kind"] == "point"]
     assert keys == [
         *[(name, "", "") for name in ("frequency_source", "filter_mode", "frequency_source")],
         ("", "state", ""),
@@ -252,7 +315,7 @@ def _hostile() -> Device:
 
 def test_nothing_is_run() -> None:
     """A formula is text; a number has no apostrophe."""
-    bad, _, _, low = rows_of(_hostile())
+    bad, _, _, low, _ = rows_of(_hostile())
     assert (bad["title"], bad["code"], bad["conditions"]) == ("'=cmd()|'x' new", "'@x", "'+1+2; b")
     assert (bad["section"], bad["line"]) == ("Gruppe A", "780")
     assert (low["raw_min"], low["min"]) == ("-5", "-5")
@@ -281,6 +344,8 @@ def test_a_workbook_is_typed() -> None:
     for table, frozen in (("points", "C2"), ("meanings", "B2"), ("errata", "B2")):
         assert book[table].freeze_panes == frozen
         assert book[table].auto_filter.ref == book[table].dimensions
+        page = book[table].page_setup
+        assert (page.orientation, page.fitToHeight, book[table].print_title_rows) == ("landscape", 0, "$1:$1")
         assert all(5 < width.width < 51 for width in book[table].column_dimensions.values())
     assert all(isinstance(row["address"], int) for row in points if row["address"] is not None)
 
@@ -288,10 +353,18 @@ def test_a_workbook_is_typed() -> None:
 def test_a_workbook_has_no_formula_and_no_rounded_number() -> None:
     table = workbook(_hostile())["points"]
     assert {cell.data_type for row in table.iter_rows() for cell in row} <= {"s", "n"}
-    bad, escape, wide, low = cells(table)
+    bad, escape, wide, low, _ = cells(table)
     assert escape["name"] == "a_x1_x5_x0041_b"
     assert (bad["title"], bad["code"]) == ("=cmd()|'x' new", "@x")
     assert (wide["raw_max"], low["raw_min"]) == ("18446744073709551615", -5)
+
+
+@pytest.mark.parametrize(("why", "is_broken"), [("word," * 20, True), ("short", None)])
+def test_long_texts_are_broken(why: str, is_broken: bool | None) -> None:
+    device = sample_device((point("speed", 1),))
+    errata = workbook(replace(device, errata=(replace(device.errata[0], why=why),)))["errata"]
+    assert errata.cell(2, 6).value == why
+    assert (errata.cell(2, 6).alignment.wrap_text, errata.cell(2, 6).alignment.vertical) == (is_broken, "top")
 
 
 def test_a_workbook_has_the_same_bytes_each_time() -> None:

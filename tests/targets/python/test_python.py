@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import importlib
+import inspect
 import math
 import pydoc
 import subprocess
@@ -18,6 +20,7 @@ from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
+from fieldscribe.targets.python.names import LIBRARIES
 from support.models import HERTZ, STATUS_FLAGS, changed, entry, plain_points, point, sample_device, titles, trip_device
 from support.python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
 from support.python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
@@ -103,7 +106,12 @@ def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
             {},
             ("unknown_value", "A001 frequency_source: 7 is none of 0 keypad, 1 terminal, 10 logic"),
         ),
-        ("upper_limit", 5.0, {"lower_limit": 60}, ("out_of_range", "upper_limit: 5 Hz is outside 6..400 Hz")),
+        (
+            "upper_limit",
+            5.0,
+            {"lower_limit": 60},
+            ("out_of_range", "upper_limit: 5 Hz is outside 6..400 Hz (set by lower_limit)"),
+        ),
         (
             "upper_limit",
             5.0,
@@ -138,9 +146,10 @@ def test_values_of_the_wrong_type_are_refused_by_name(package: Any) -> None:
             found, text = status(package.SampleDrive.POINTS[item].encode, value)
             assert (found, text.partition(":")[0]) == ("wrong_type", label), (item, value)
         if item != "run_command":
+            taken = "FrequencySource.TERMINAL" if item == "frequency_source" else "a number"
             assert status(package.SampleDrive.POINTS[item].encode, True) == (
                 "wrong_type",
-                f"{label}: takes a number, not True",
+                f"{label}: takes {taken}, not True",
             )
     with pytest.raises(TypeError):
         package.SampleDrive.base_frequency.encode(None)
@@ -596,6 +605,67 @@ def test_unknown_variants_are_refused(package: Any) -> None:
         bare(Slave(), 1, {"colour": "red"})
 
 
+def test_what_a_point_cannot_do_is_said(package: Any) -> None:
+    drive = package.SampleDrive(Slave(), 5)
+    for asked, words in (
+        (lambda: drive.running.write, "running is only read: it has no write"),
+        (lambda: package.SampleDrive.base_frequency.read, "make a device, and say device.base_frequency.read(...)"),
+        (lambda: drive.base_frequency.send, "object has no attribute 'send'"),
+    ):
+        refused = error(asked)
+        assert type(refused) is AttributeError
+        assert words in str(refused)
+    assert not hasattr(drive.running, "write")
+
+
+def test_misspelt_points_are_not_assigned_to(package: Any) -> None:
+    drive = package.SampleDrive(Slave(), 5)
+    with pytest.raises(AttributeError, match="did you mean base_frequency"):
+        drive.base_frequncy = 50.0
+    with pytest.raises(AttributeError, match="write method"):
+        drive.base_frequency = 50.0
+    with pytest.raises(AttributeError, match="declared in your class, as in `zzz: object`"):
+        drive.zzz = 1
+
+    class Own(package.SampleDrive):  # type: ignore[misc]  # a class that is imported at run time
+        name: str
+        asked = 0
+
+        def __init__(self, name: str) -> None:
+            super().__init__(Slave(), 5)
+            self.name, self._log = name, [name]
+            self.asked += 1
+
+    own = Own("first")
+    own.unit = 6
+    assert (own.name, own.asked, own._log, repr(own)) == ("first", 1, ["first"], "<Own unit 6>")
+
+
+def test_errors_tell_what_to_do_next(package: Any) -> None:
+    slave = Slave()
+    drive = package.SampleDrive(slave, 5)
+    failure = error(drive.base_frequency.write, 500.0)
+    assert failure.point == "A020 base_frequency"
+    assert drive.point(failure.point).facts is drive.base_frequency.facts
+    assert error(drive.point, "A999 base_frequency").status == "no_access"
+    assert error(drive.write_at, "holding", 1, [5]).status == "bad_value"
+    slave.refuses = {0x4000: 2, package.SampleDrive.enter.at.address: 1}
+    failure = error(drive.read_at, "holding", 0x4000)
+    assert (failure.point, failure.lost) == ("holding 0x4000", False)
+    assert error(drive.enter.send).point == "enter"
+    assert str(error(drive.frequency_source.write, "terminal")).endswith(
+        "takes FrequencySource.TERMINAL, not 'terminal'"
+    )
+    slave.exchange = lambda request: bytes(8)  # type: ignore[method-assign]  # noise
+    assert error(drive.base_frequency.read).lost
+
+
+def test_help_and_repr_say_what_there_is(package: Any) -> None:
+    uss = importlib.import_module("fieldscribe_runtime.uss")
+    assert str(inspect.signature(uss.Link)) == "(pkw, pzd, single_first=False)"
+    assert "unit='Hz'" in repr(package.SampleDrive.base_frequency.facts)
+
+
 def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any) -> None:
     for made in (package.SampleDrive, package.SampleDriveAsync):
         for unit in (33, -1, 256, "5", None):
@@ -605,8 +675,15 @@ def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any
         assert error(made, Slave("ascii"), 5).status == "bad_framing"
         limited = type("Limited", (made,), {"PROFILE": made.PROFILE.replaced(framings=("rtu",))})
         failure = error(limited, Slave("tcp"), 5)
-        assert (failure.status, str(failure)) == ("bad_framing", "the device speaks rtu, not 'tcp'")
+        assert (failure.status, str(failure).partition(";")[0]) == ("bad_framing", "the device speaks rtu, not 'tcp'")
         assert limited(Slave(), 5).unit == 5
+    limited = type("Limited", (package.SampleDrive,), {"PROFILE": package.SampleDrive.PROFILE.replaced(framings=())})
+    slave = Slave("pdu")  # whose transport frames as it likes
+    drive = limited(slave, 5)
+    drive.base_frequency.write(50.0)
+    assert drive.base_frequency.read() == 50.0
+    slave.refuses = dict.fromkeys(slave.words, 2)
+    assert error(drive.base_frequency.read).code == 2
 
 
 def test_nothing_is_cut_off_silently(package: Any) -> None:
@@ -719,3 +796,14 @@ def test_reads_of_groups_say_what_failed(drive: Any, slave: Slave) -> None:
     assert (failure.group, failure.status) == ("main", "exception")
     assert "A020 base_frequency" in failure.point
     assert str(failure).startswith(f"group main: {failure.point}: the device answered exception 02h")
+
+
+def test_no_device_may_have_the_name_of_a_library_that_the_runtime_imports() -> None:
+    imported_names: set[str] = set()
+    for file in (templates_dir() / "python/runtime/fieldscribe_runtime").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.Import):
+                imported_names.update(alias.name.split(".")[0] for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module is not None and node.level == 0:
+                imported_names.add(node.module.split(".")[0])
+    assert imported_names - sys.stdlib_module_names - {"fieldscribe_runtime"} == LIBRARIES

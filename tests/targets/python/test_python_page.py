@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import can
 import pytest
 from pymodbus import FramerType
+from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import ROOT
+from support.python_families import UssDrive
 from support.python_package import imported
 
 if TYPE_CHECKING:
@@ -41,21 +43,26 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str]) -> None:
     speaker.start()
     known: dict[str, Any] = {"__name__": "page"}
     printed = []
-    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp:
+    mm4 = UssDrive()
+    uss_end = pty_end(lambda request: [mm4.exchange(request)])
+    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp, uss_end as uss:
         for block in blocks:
-            here = block.replace("/dev/ttyUSB0", f"socket://127.0.0.1:{rtu}").replace("socketcan", "virtual")
+            port = uss if "UssLine" in block else f"socket://127.0.0.1:{rtu}"
+            here = block.replace("/dev/ttyUSB0", port).replace("socketcan", "virtual")
             here = here.replace('TcpLine("192.168.0.20")', f'TcpLine("127.0.0.1", {tcp})')
             exec(compile(here, "page", "exec"), known)
             printed.append(capsys.readouterr().out.splitlines())
     stop.set()
     speaker.join(2)
     far.shutdown()
-    first, watch, gateway, _, many, raw, failing, bus = printed
+    first, watch, client, gateway, _, many, rest, raw, failing, uss_block, bus = printed
     assert first == ["0.1 Hz"]
-    assert watch == gateway == ["0.1"]
+    assert watch == client == gateway == ["0.1"]
     assert [line[0] for line in many] == ["{", "{"]
-    assert raw[:2] == ["500 50.0", "(500,)"]
-    assert "inactive" in raw[2]
+    assert rest == ["{'A020': 50.0, 'output_frequency': 0.1}"]
+    assert raw == ["500 50.0", "(500,)", "True", "<RunSource.MODBUS: 3>"]
+    assert uss_block == ["45.0"]
+    assert list(mm4.eeprom) == [(1082, 0)]
     assert failing[1].startswith("out_of_range")
     assert failing[2].startswith("2 ")
     assert "battery_voltage" in "".join(bus)

@@ -506,6 +506,15 @@ def test_printed_examples(package: Any, uss: Any) -> None:
     assert error(uss.broadcast, (6, 0, 0, 0x10000), (1, 2), profile, link).status == "bad_value"
 
 
+def test_the_example_of_the_class_says_what_a_link_is(package: Any, uss: Any) -> None:
+    for kind in (package.SampleUss, package.SampleUssAsync):
+        said = [line.strip() for line in kind.__doc__.splitlines()]
+        assert "from fieldscribe_runtime.uss import Link" in said
+        [made] = [line for line in said if line.startswith(f"drive = {kind.__name__}(")]
+        link = eval(made[made.index("Link(") : made.index(")") + 1], {"Link": uss.Link})
+        assert kind(UssDrive(), 3, link).link == link
+
+
 def test_single_words_first(package: Any, uss: Any) -> None:
     profile, request = package.SampleUss.PROFILE, uss.Request(3, 2, 700, 0, 1, 5)
     assert uss.build(request, profile, uss.Link(4, 0)).hex()[6:-2] == "22bc000000000005"

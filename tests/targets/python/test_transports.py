@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import asyncio
 import importlib
-import os
 import socket
 import threading
 import time
-import tty
-from contextlib import contextmanager
+import tomllib
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import can
@@ -18,6 +17,7 @@ import pytest
 from fieldscribe import __version__
 from pymodbus import FramerType
 from pymodbus.client import AsyncModbusTcpClient, ModbusTcpClient
+from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import ROOT
 from support.python_package import error, imported
@@ -74,17 +74,18 @@ def test_a_socket(framing: str, l200: Any) -> None:
 
 @pytest.mark.full(seconds=1)
 def test_a_client_of_pymodbus(l200: Any) -> None:
-    with server() as port:
-        with transport("pymodbus").PymodbusLine(ModbusTcpClient("127.0.0.1", port=port)) as line:
-            drive = behind_a_gateway(l200.HitachiL200)(line, unit=1)
+    with server(FramerType.RTU) as port:
+        client = ModbusTcpClient("127.0.0.1", port=port, framer=FramerType.RTU)
+        with transport("pymodbus").PymodbusLine(client) as line:
+            drive = l200.HitachiL200(line, unit=1)  # which speaks RTU alone: the client frames what it is handed
             use(drive)
             refused = error(drive.read_at, "holding", 0x4000)
             assert (refused.status, refused.code) == ("exception", 2)
 
         async def asynchronous() -> None:
-            client = AsyncModbusTcpClient("127.0.0.1", port=port)
+            client = AsyncModbusTcpClient("127.0.0.1", port=port, framer=FramerType.RTU)
             async with transport("pymodbus").AsyncPymodbusLine(client) as line:
-                await use_async(behind_a_gateway(l200.HitachiL200Async)(line, unit=1))
+                await use_async(l200.HitachiL200Async(line, unit=1))
 
         asyncio.run(asynchronous())
 
@@ -102,31 +103,6 @@ def test_a_serial_line_by_url(l200: Any) -> None:
                 await use_async(l200.HitachiL200Async(line, unit=1))
 
         asyncio.run(asynchronous())
-
-
-@contextmanager
-def pty_end(answer: Any) -> Iterator[str]:
-    """The port of a line whose other end answers each request by a function; None is silence."""
-    near, far = os.openpty()
-    for end in (near, far):
-        tty.setraw(end)
-
-    def serve() -> None:
-        while True:
-            try:
-                request = os.read(near, 256)
-            except OSError:
-                return
-            for reply in answer(request):
-                os.write(near, reply)
-
-    thread = threading.Thread(target=serve, daemon=True)
-    thread.start()
-    try:
-        yield os.ttyname(far)
-    finally:
-        os.close(far)
-        os.close(near)
 
 
 def test_what_came_too_late_is_not_the_next_answer(l200: Any) -> None:
@@ -215,18 +191,136 @@ def test_a_connection_comes_back(l200: Any) -> None:
         line = transport("tcp").TcpLine("127.0.0.1", port)
         drive = behind_a_gateway(l200.HitachiL200)(line, unit=1)
         assert drive.read_at("holding", STATUS) == (7,)
-        line._socket.shutdown(socket.SHUT_RDWR)
-        assert error(drive.read_at, "holding", STATUS).status == "line"
-        assert drive.read_at("holding", STATUS) == (7,)
+        line._connection.socket.shutdown(socket.SHUT_RDWR)
+        assert drive.read_at("holding", STATUS) == (7,), "it was closed before the request, so the line connects anew"
         line.close()
 
 
 def test_a_port_that_is_none(l200: Any) -> None:
     line = transport("serial").SerialLine("/dev/there_is_none")
     assert error(l200.HitachiL200(line, unit=1).base_frequency.read).status == "line"
-    for mode in ("8X1", "8n1", "9N1", "8N"):
+    for mode in ("8X1", "8n1", "9N1", "8N", (8, "N", 1)):
         assert error(transport("serial").SerialLine, "x", 9600, mode).status == "bad_mode"
     assert error(transport("tcp").TcpLine, "127.0.0.1", framing="ascii").status == "bad_framing"
+
+
+WRONG: tuple[tuple[str, str, tuple[Any, ...], dict[str, Any], str], ...] = (
+    ("serial", "SerialLine", (3,), {}, "a port is a device such as '/dev/ttyUSB0'"),
+    ("serial", "SerialLine", ("socket://127.0.0.1",), {}, "socket://192.168.0.20:4001"),
+    ("serial", "SerialLine", ("x", "9600"), {}, "a baud rate is a number from 1"),
+    ("serial", "SerialLine", ("x", 0), {}, "a baud rate"),
+    ("serial", "SerialLine", ("x",), {"timeout": -1}, "a timeout is a number of seconds above 0, not -1"),
+    ("serial", "SerialLine", ("x",), {"timeout": None}, "a timeout"),
+    ("serial", "AsyncSerialLine", ("/dev/ttyUSB0",), {}, "AsyncSerialLine(SerialLine("),
+    ("tcp", "TcpLine", (5,), {}, "the host is a name or an address"),
+    ("tcp", "TcpLine", ("127.0.0.1:502",), {}, "the port another argument"),
+    ("tcp", "TcpLine", ("127.0.0.1", "502"), {}, "the port is a number from 1 to 65535"),
+    ("tcp", "AsyncTcpLine", ("127.0.0.1",), {"timeout": "1"}, "a timeout"),
+    ("can", "CanLine", ("can0",), {}, "the bus is one of python-can"),
+    ("can", "AsyncCanLine", ("can0",), {}, "the bus is one of python-can"),
+    ("pymodbus", "PymodbusLine", ("127.0.0.1",), {}, "the client is one of pymodbus that blocks"),
+    ("pymodbus", "AsyncPymodbusLine", (ModbusTcpClient("x"),), {}, "the client is one of pymodbus that is awaited"),
+)
+
+
+@pytest.mark.usefixtures("l200")
+@pytest.mark.parametrize(("module", "name", "given", "named", "words"), WRONG)
+def test_what_a_line_is_not_made_with(
+    module: str, name: str, given: tuple[Any, ...], named: dict[str, Any], words: str
+) -> None:
+    refused = error(getattr(transport(module), name), *given, **named)
+    assert refused.status == "bad_transport"
+    assert words in str(refused)
+
+
+def test_a_url_that_pyserial_does_not_know(l200: Any) -> None:
+    refused = error(l200.HitachiL200(transport("serial").SerialLine("tcp://x:5"), unit=1).base_frequency.read)
+    assert refused.status == "bad_transport", "not `line`: trying again is of no use"
+    assert "socket://" in str(refused)
+
+
+def test_framings_that_do_not_fit(l200: Any) -> None:
+    told = str(error(l200.HitachiL200, transport("tcp").TcpLine("127.0.0.1"), 1))
+    assert "framing='rtu'" in told
+    assert "PROFILE.replaced(framings=('tcp',))" in told
+    for package in imported(GENERATED, "siemens_mm4"):
+        link, serial = importlib.import_module("fieldscribe_runtime.uss").Link(4, 2), transport("serial")
+        refused = error(package.SiemensMm4, serial.SerialLine("x"), 1, link)
+        assert refused.status == "bad_framing"
+        assert "UssLine" in str(refused)
+        package.SiemensMm4Async(serial.AsyncSerialLine(serial.UssLine("x")), 1, link)
+
+
+@contextmanager
+def socket_end(answer: Any) -> Iterator[int]:
+    """The port of an end in the network which answers each request of each connection by a function."""
+
+    def serve(line: socket.socket) -> None:
+        with line, suppress(OSError):
+            while request := line.recv(256):
+                line.sendall(answer(request))
+
+    def listen() -> None:
+        with suppress(OSError):
+            while True:
+                threading.Thread(target=serve, args=(listening.accept()[0],), daemon=True).start()
+
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        threading.Thread(target=listen, daemon=True).start()
+        yield listening.getsockname()[1]
+        listening.shutdown(socket.SHUT_RDWR)
+
+
+def with_word(request: bytes, word: int) -> bytes:
+    """An RTU answer to a request of one register."""
+    body = request[:2] + bytes((2, 0, word))
+    crc: int = importlib.import_module("fieldscribe_runtime.modbus").crc(body)
+    return body + crc.to_bytes(2, "little")
+
+
+def test_a_reply_that_comes_twice(l200: Any) -> None:
+    words = iter(range(1, 9))
+
+    def twice(request: bytes) -> bytes:
+        return with_word(request, next(words)) * 2
+
+    with socket_end(twice) as port:
+        for line in (
+            transport("tcp").TcpLine("127.0.0.1", port, framing="rtu"),
+            transport("serial").SerialLine(f"socket://127.0.0.1:{port}"),
+        ):
+            drive = l200.HitachiL200(line, unit=1)
+            first, second = [drive.read_at("holding", STATUS)[0] for _ in range(2)]
+            assert second == first + 1
+            line.close()
+        line = transport("tcp").AsyncTcpLine("127.0.0.1", port, framing="rtu")
+        drives = [l200.HitachiL200Async(line, unit=1) for _ in range(2)]
+
+        async def both() -> Any:
+            return await asyncio.gather(*(drive.read_at("holding", STATUS) for drive in drives))
+
+        assert asyncio.run(both()) == [(5,), (6,)]
+        assert asyncio.run(both()) == [(7,), (8,)], "in the next event loop, too"
+        line.close()
+
+
+@pytest.mark.full(seconds=1)
+def test_a_reply_that_a_network_delays(l200: Any) -> None:
+    """It comes when the next request is under way, on the connection that was given up."""
+    words = iter((7, 9))
+
+    def late(request: bytes) -> bytes:
+        word = next(words)
+        time.sleep(0.2 if word == 7 else 0)
+        return with_word(request, word)
+
+    with (
+        socket_end(late) as port,
+        transport("serial").SerialLine(f"socket://127.0.0.1:{port}", timeout=0.08) as line,
+    ):
+        drive = l200.HitachiL200(line, unit=1)
+        assert error(drive.read_at, "holding", STATUS).status == "timeout"
+        assert drive.read_at("holding", STATUS) == (9,)
 
 
 @pytest.fixture
@@ -283,6 +377,130 @@ def test_a_can_bus_without_blocking(bus: tuple[can.BusABC, can.BusABC]) -> None:
     asyncio.run(asynchronous())
 
 
+ROUNDS = 15
+
+
+@contextmanager
+def parameters_on(channel: str) -> Iterator[None]:
+    """Two units that take and give a parameter, and send telegrams all the time."""
+    far, stop, held = can.Bus(channel, interface="virtual"), threading.Event(), {1: 0, 2: 0}
+
+    def send(unit: int, data: list[int]) -> None:
+        far.send(can.Message(arbitration_id=0x320 + unit, data=data, is_extended_id=False))
+
+    def serve() -> None:
+        while not stop.is_set():
+            message = far.recv(0.01)
+            if message is not None and message.arbitration_id == 0x33F:
+                data = list(message.data)
+                unit = data[1]
+                if data[0] == 0xEE:
+                    held[unit] = data[4] << 8 | data[5]
+                data = [*data[:4], held[unit] >> 8, held[unit] & 255]
+                send(unit, [*data, data[0] ^ data[2] ^ data[4], data[1] ^ data[3] ^ data[5]])
+            for unit in held:
+                send(unit, [0xDD, 0, 0, 0, 0, unit, 0, 0])
+
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join(2)
+        far.shutdown()
+
+
+def test_devices_share_a_can_line(mpu2s: Any) -> None:
+    wrong: list[object] = []
+
+    def work(drive: Any, value: float) -> None:
+        drive.patience = 0.5
+        for step in range(ROUNDS):
+            try:
+                drive.generator_frequency_setpoint.write(value + step / 4)
+                if drive.generator_frequency_setpoint.read() != value + step / 4:
+                    wrong.append(step)
+            except Exception as raised:
+                wrong.append(raised)
+                return
+
+    with parameters_on("shared"), transport("can").CanLine(can.Bus("shared", interface="virtual")) as line:
+        drives = [mpu2s.WoodwardMpu2s(line, unit=unit) for unit in (1, 2)]
+        threads = [threading.Thread(target=work, args=pair) for pair in zip(drives, (45.0, 55.0), strict=True)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(10)
+        assert not wrong
+        assert line.receive().data[0] == 0xDD, "who asks the line hears telegrams, too"
+
+
+def test_async_devices_share_a_can_line(mpu2s: Any) -> None:
+    async def work(drive: Any, value: float) -> None:
+        drive.patience = 0.5
+        for step in range(ROUNDS):
+            await drive.generator_frequency_setpoint.write(value + step / 4)
+            assert await drive.generator_frequency_setpoint.read() == value + step / 4
+
+    async def both() -> None:
+        async with transport("can").AsyncCanLine(can.Bus("async", interface="virtual")) as line:
+            drives = [mpu2s.WoodwardMpu2sAsync(line, unit=unit) for unit in (1, 2)]
+            await asyncio.gather(*(work(*pair) for pair in zip(drives, (45.0, 55.0), strict=True)))
+
+    with parameters_on("async"):
+        asyncio.run(both())
+
+
 def test_the_runtime_has_the_version_of_the_compiler() -> None:
     project = (ROOT / "templates/python/runtime/fieldscribe_runtime/pyproject.toml").read_text("utf-8")
     assert f'version = "{__version__}"' in project
+    own = tomllib.loads(project)["project"]["optional-dependencies"]
+    passed_on = tomllib.loads((GENERATED / "hitachi_l200/pyproject.toml").read_text("utf-8"))["project"]
+    expected = {name: [f"fieldscribe-runtime[{name}]=={__version__}"] for name in own}
+    assert passed_on["optional-dependencies"] == expected
+
+
+def drip(listening: socket.socket, gap: float, data: bytes) -> None:
+    """Answer the first connection a byte at a time."""
+    with suppress(OSError):
+        connection = listening.accept()[0]
+        connection.recv(256)
+        for number in data:
+            connection.sendall(bytes((number,)))
+            time.sleep(gap)
+
+
+def test_a_reply_that_drips_takes_no_longer_than_the_timeout(l200: Any) -> None:
+    with socket.socket() as listening:
+        listening.bind(("127.0.0.1", 0))
+        listening.listen()
+        threading.Thread(target=drip, args=(listening, 0.1, bytes(200)), daemon=True).start()
+        line = transport("tcp").TcpLine("127.0.0.1", listening.getsockname()[1], timeout=0.3)
+        before = time.monotonic()
+        assert error(behind_a_gateway(l200.HitachiL200)(line, unit=1).base_frequency.read).status == "timeout"
+        assert time.monotonic() - before < 5  # far from the 20 s that 200 bytes take
+
+
+@pytest.mark.full(seconds=0.2)
+def test_a_line_that_babbles_holds_up_nobody(l200: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(transport("serial"), "_BABBLE", 0.2)
+
+    def babble(request: bytes) -> Iterator[bytes]:
+        del request
+        for _ in range(300):
+            yield b"\x01\x03\xff"
+            time.sleep(0.01)
+
+    with pty_end(babble) as port:
+        drive = l200.HitachiL200(transport("serial").SerialLine(port, timeout=0.1), unit=1)
+        assert isinstance(error(drive.base_frequency.read), Exception)
+
+
+@pytest.mark.usefixtures("mpu2s")
+def test_a_flood_of_what_is_no_frame_ends(bus: tuple[can.BusABC, can.BusABC], monkeypatch: pytest.MonkeyPatch) -> None:
+    near, _ = bus
+    monkeypatch.setattr(near, "recv", lambda timeout=None: NOISE)
+    with transport("can").CanLine(near, timeout=0.05) as line:
+        assert isinstance(error(line.receive), TimeoutError)
+        assert line.receive_waiting() is None

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 
-_PARTS = {"framing": "'rtu' or 'tcp'", "exchange": "a method that sends a request and returns the whole reply"}
+_PARTS = {"framing": "'rtu', 'tcp' or 'pdu'", "exchange": "a method that sends a request and returns the whole reply"}
 """What a transport has."""
 
 
@@ -22,7 +22,7 @@ class Transport(Protocol):
 
     @property
     def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like."""
+        """`rtu` or `tcp`: what the frames look like; `pdu`: the unit and what follows it, and nothing around that."""
 
     def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
@@ -36,7 +36,7 @@ class AsyncTransport(Protocol):
 
     @property
     def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like."""
+        """`rtu` or `tcp`: what the frames look like; `pdu`: the unit and what follows it, and nothing around that."""
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
@@ -47,6 +47,8 @@ class AsyncTransport(Protocol):
 
 class ModbusDevice(ModbusSession, AnyDevice):
     """A device on a Modbus line or network."""
+
+    transport: Transport
 
     def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)
@@ -67,6 +69,8 @@ class ModbusDevice(ModbusSession, AnyDevice):
 
 class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
     """A device on a Modbus line or network, asynchronously."""
+
+    transport: AsyncTransport
 
     def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)

@@ -1,26 +1,30 @@
 # SPDX-License-Identifier: 0BSD
 """A client of pymodbus that a program has already, with its retries, its framer and its log.
 
-from pymodbus.client import ModbusTcpClient
-from fieldscribe_runtime.transports.pymodbus import PymodbusLine
+    from pymodbus.client import ModbusSerialClient
+    from fieldscribe_runtime.transports.pymodbus import PymodbusLine
 
-with PymodbusLine(ModbusTcpClient("192.168.0.20")) as line:
-drive = HitachiL200(line, unit=1)
+    with PymodbusLine(ModbusSerialClient("/dev/ttyUSB0", baudrate=9600)) as line:
+        drive = HitachiL200(line, unit=1)
+
+It suits every Modbus device: the client frames what it is handed.
 """
 
 from __future__ import annotations
 
 import threading
+from inspect import iscoroutinefunction
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import LineError
-from ..modbus.frames import TCP
+from ..modbus.frames import PDU
+from . import checks
 
 try:
     from pymodbus.exceptions import ConnectionException, ModbusIOException
     from pymodbus.pdu import ModbusPDU
 except ModuleNotFoundError as missing:
-    hint = 'this needs pymodbus: pip install "fieldscribe-runtime[pymodbus]"'
+    hint = "this needs pymodbus: pip install pymodbus"
     raise ModuleNotFoundError(hint, name=missing.name) from None
 
 if TYPE_CHECKING:
@@ -57,17 +61,13 @@ class AsyncClient(Protocol):
         """Disconnect."""
 
 
-_HEAD = 7
-"""Bytes before the function in a frame of Modbus TCP."""
-
-
 class _Request(ModbusPDU):
     """A request whose bytes are known."""
 
-    def __init__(self, frame: bytes) -> None:
-        super().__init__(dev_id=frame[_HEAD - 1])
-        self.function_code = frame[_HEAD]
-        self._data = frame[_HEAD + 1 :]
+    def __init__(self, request: bytes) -> None:
+        super().__init__(dev_id=request[0])
+        self.function_code = request[1]
+        self._data = request[2:]
 
     def encode(self) -> bytes:
         """What stands behind the function."""
@@ -82,10 +82,16 @@ class _Request(ModbusPDU):
         return 0
 
 
-def _reply(request: bytes, answer: ModbusPDU) -> bytes:
-    """The answer as a frame of Modbus TCP."""
-    pdu = bytes([answer.function_code]) + answer.encode()
-    return request[:4] + (len(pdu) + 1).to_bytes(2, "big") + bytes([answer.dev_id]) + pdu
+def _reply(answer: ModbusPDU) -> bytes:
+    """The unit that answered, and the answer."""
+    return bytes([answer.dev_id, answer.function_code]) + answer.encode()
+
+
+def _check(client: Any, takes: str, *, awaits: bool) -> None:
+    """Raises RequestError (bad_transport) for what is no client, or one of the other kind."""
+    checks.object_with("the client", takes, client, "connect", "execute", "close")
+    if iscoroutinefunction(client.connect) is not awaits:
+        checks.refuse("the client", takes, client)
 
 
 def _raised(error: Exception) -> Exception:
@@ -96,16 +102,20 @@ def _raised(error: Exception) -> Exception:
 class PymodbusLine:
     """A client for devices, whatever it is connected by. Leaving the context closes it."""
 
-    framing = TCP
+    framing = PDU
     """How requests are handed over; what travels is the client's own framing."""
 
     def __init__(self, client: Client) -> None:
+        _check(client, "one of pymodbus that blocks, as in ModbusTcpClient('192.168.0.20')", awaits=False)
         self.client = client
         self._turn = threading.Lock()
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.client}>"
+
     def exchange(self, request: bytes) -> bytes:
         """Send a request and return the reply; raises TimeoutError and LineError."""
-        silent = request[_HEAD - 1] == 0
+        silent = request[0] == 0
         with self._turn:
             try:
                 if not self.client.connect():
@@ -113,7 +123,7 @@ class PymodbusLine:
                 answer: Any = self.client.execute(silent, _Request(request))
             except (ConnectionException, ModbusIOException) as error:
                 raise _raised(error) from error
-        return b"" if silent else _reply(request, answer)
+        return b"" if silent else _reply(answer)
 
     def __enter__(self) -> Self:
         return self
@@ -125,21 +135,25 @@ class PymodbusLine:
 class AsyncPymodbusLine:
     """An async client for async devices. Leaving the context closes it."""
 
-    framing = TCP
+    framing = PDU
 
     def __init__(self, client: AsyncClient) -> None:
+        _check(client, "one of pymodbus that is awaited, as in AsyncModbusTcpClient('192.168.0.20')", awaits=True)
         self.client = client
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.client}>"
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a request and return the reply; raises TimeoutError and LineError."""
-        silent = request[_HEAD - 1] == 0
+        silent = request[0] == 0
         try:
             if not self.client.connected and not await self.client.connect():
                 raise LineError("the client cannot connect")
             answer: Any = await self.client.execute(silent, _Request(request))
         except (ConnectionException, ModbusIOException) as error:
             raise _raised(error) from error
-        return b"" if silent else _reply(request, answer)
+        return b"" if silent else _reply(answer)
 
     async def __aenter__(self) -> Self:
         return self

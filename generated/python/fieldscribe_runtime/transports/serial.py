@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: 0BSD
 """A serial line, by pyserial: Modbus RTU and USS.
 
-from fieldscribe_runtime.transports.serial import SerialLine
+    from fieldscribe_runtime.transports.serial import SerialLine
 
-with SerialLine("/dev/ttyUSB0", 9600) as line:
-drive = HitachiL200(line, unit=1)
+    with SerialLine("/dev/ttyUSB0", 9600) as line:
+        drive = HitachiL200(line, unit=1)
+
+What came before a request is dropped. After a failure the line is read until it is silent, or closed where it leads
+through a network, so that a reply which comes late is not taken for the next one.
 """
 
 from __future__ import annotations
@@ -17,12 +20,14 @@ from typing import TYPE_CHECKING, Any
 from ..arguments import shown
 from ..errors import RequestError
 from ..modbus.frames import RTU
-from .line import USS, Line
+from ..uss.frames import USS
+from . import checks
+from .line import Line
 
 try:
     import serial
 except ModuleNotFoundError as missing:
-    hint = 'this needs pyserial: pip install "fieldscribe-runtime[serial]"'
+    hint = "this needs pyserial: pip install pyserial"
     raise ModuleNotFoundError(hint, name=missing.name) from None
 
 if TYPE_CHECKING:
@@ -31,16 +36,22 @@ if TYPE_CHECKING:
 _BITS = 11
 """Of a character with start, parity and stop bit."""
 _MODE = re.compile("[78][NEO][12]")
+_BABBLE = 2.0
+"""Seconds after which nobody waits any longer for a line to be silent."""
 _SILENCE = 3.5
 """Characters of silence that part two frames."""
+_PORT = "a device such as '/dev/ttyUSB0' or 'COM3', or a URL such as 'socket://192.168.0.20:4001'"
+_OF_NETWORK = re.compile("socket://|rfc2217://")
+_WITH_PORT = re.compile(r":\d+(?=[/?]|$)")
+_FASTEST = 10_000_000
 
 
 class SerialLine(Line):
     """A serial line with Modbus RTU: opened when it is used first, and anew after a failure.
 
     `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
-    is data bits, parity (N, E, O) and stop bits. With `echo` what is sent comes back first, as on many RS-485 adapters
-    with two wires.
+    is data bits, parity (N, E, O) and stop bits. A reply has `timeout` seconds to begin, and as many between its parts.
+    With `echo` what is sent comes back first, as on many RS-485 adapters with two wires.
     """
 
     FRAMING = RTU
@@ -50,25 +61,28 @@ class SerialLine(Line):
         self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
     ) -> None:
         super().__init__(self.FRAMING)
-        self.port, self.echo, mode = port, echo, mode or self.MODE
-        if not _MODE.fullmatch(mode):
+        self.port, self.echo, mode = checks.text("a port", _PORT, port), echo, mode or self.MODE
+        if _OF_NETWORK.match(port) and not _WITH_PORT.search(port):
+            checks.refuse("a port", _PORT, port)
+        if not isinstance(mode, str) or not _MODE.fullmatch(mode):
             raise RequestError("bad_mode", f"a mode is data bits, parity and stop bits, as in 8E1, not {shown(mode)}")
+        self._mode = mode
         self._settings: dict[str, Any] = {
-            "baudrate": baudrate,
+            "baudrate": checks.number("a baud rate", baudrate, (1, _FASTEST)),
             "bytesize": int(mode[0]),
             "parity": mode[1],
             "stopbits": int(mode[2]),
-            "timeout": timeout,
+            "timeout": checks.seconds(timeout),
         }
         self._silence = max(_SILENCE * _BITS / baudrate, 0.00175)
         self._serial: Any = None
 
     def __str__(self) -> str:
-        return f"{self.port} at {self._settings['baudrate']} baud"
+        return f"{self.port} at {self._settings['baudrate']} baud, {self._mode}"
 
     def _send(self, request: bytes) -> None:
         if self._serial is None:
-            self._serial = serial.serial_for_url(self.port, **self._settings)
+            self._serial = self._opened()
         else:
             time.sleep(self._silence)
         self._serial.reset_input_buffer()
@@ -77,16 +91,27 @@ class SerialLine(Line):
         if self.echo and self._serial.read(len(request)) != request:
             raise TimeoutError("what was sent was not heard: another speaks, or the adapter gives no echo")
 
+    def _opened(self) -> Any:
+        try:
+            return serial.serial_for_url(self.port, **self._settings)
+        except (ValueError, TypeError) as error:  # a URL that pyserial does not know, or a half one
+            raise RequestError("bad_transport", f"{error}; a port is {_PORT}") from error
+
     def _read(self, most: int) -> bytes:
         received: bytes = self._serial.read(most)
         return received
 
     def _failed(self) -> None:
-        while self._serial.read(64):  # until the line is silent
-            pass
+        if "://" in self.port:
+            self.close()  # an answer that a network delays comes to nobody
+            return
+        patience = time.monotonic() + _BABBLE
+        while self._serial is not None and self._serial.read(64):  # until the line is silent
+            if time.monotonic() > patience:  # it never is: whoever babbles must not hold up everybody
+                self.close()
 
     def close(self) -> None:
-        """Close the port."""
+        """Close the port; the next exchange opens it again."""
         if self._serial is not None:
             self._serial.close()
             self._serial = None
@@ -103,7 +128,12 @@ class AsyncSerialLine:
     """A serial line for async devices, whose waiting is done in a thread: `AsyncSerialLine(SerialLine(...))`."""
 
     def __init__(self, line: SerialLine) -> None:
+        if not isinstance(line, SerialLine):
+            checks.refuse("the line", "a SerialLine, as in AsyncSerialLine(SerialLine('/dev/ttyUSB0', 9600))", line)
         self.line, self.framing = line, line.framing
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.line}>"
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from ..arguments import awaited, check_transport
+from ..arguments import awaited, check_transport, shown
 from ..device import AnyAsyncDevice, AnyDevice
+from ..errors import RequestError
+from .frames import USS
 from .session import UssSession
 
 if TYPE_CHECKING:
@@ -17,6 +19,15 @@ if TYPE_CHECKING:
 
 _PARTS = {"exchange": "a method that sends a telegram and returns the whole reply"}
 """What a transport has."""
+
+
+def _check(transport: object) -> None:
+    """Raises RequestError for what carries no telegrams of USS; a transport need not say its `framing`."""
+    check_transport(transport, **_PARTS)
+    framing = getattr(transport, "framing", USS)
+    if framing != USS:
+        hint = "for a serial line take a UssLine"
+        raise RequestError("bad_framing", f"the device speaks {USS}, and {shown(transport)} {shown(framing)}: {hint}")
 
 
 class UssTransport(Protocol):
@@ -45,10 +56,12 @@ class UssDevice(UssSession, AnyDevice):
     Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
     """
 
+    transport: UssTransport
+
     def __init__(
         self, transport: UssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
     ) -> None:
-        check_transport(transport, **_PARTS)
+        _check(transport)
         super().__init__(link, unit, variants or {})
         self.transport = transport
 
@@ -85,10 +98,12 @@ class AsyncUssDevice(UssSession, AnyAsyncDevice):
     Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
     """
 
+    transport: AsyncUssTransport
+
     def __init__(
         self, transport: AsyncUssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
     ) -> None:
-        check_transport(transport, **_PARTS)
+        _check(transport)
         super().__init__(link, unit, variants or {})
         self.transport = transport
 

@@ -18,6 +18,8 @@ START = 0x02
 VARIABLE = 127
 """The setting of the parameter part that lets its length follow from the request."""
 NO_TASK, READ = 0, 1
+USS = "uss"
+"""What transports call this framing."""
 RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
 """The tasks that change a value in RAM, by its words and whether it is an element of an array."""
 EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}

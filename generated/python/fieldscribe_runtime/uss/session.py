@@ -7,12 +7,13 @@ from collections.abc import Generator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..about import about
+from ..about import about, about_place
 from ..arguments import (
     check_integer,
     check_name,
     check_number,
     check_place,
+    check_values,
     check_words,
 )
 from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
@@ -58,6 +59,7 @@ class UssSession(Session):
     """
 
     PROFILE: ClassVar[Profile]
+    link: Link
     repeats: int = 20
 
     def __init__(self, link: Link, unit: int, variants: Mapping[str, str | None]) -> None:
@@ -193,13 +195,17 @@ class UssSession(Session):
 
     def _read_at_steps(self, space: str, address: int, index: int | None) -> Steps[tuple[int, ...]]:
         """Read by number; raises RequestError for what is no place."""
-        return (yield from self._get_steps(self._place(space, address, 1, index)))
+        place = self._place(space, address, 1, index)
+        with about_place(place):
+            return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, words: tuple[int, ...], index: int | None) -> Steps[None]:
         """Write by number; raises RequestError for what is no place, or no words."""
+        check_values(words)
         place = self._place(space, address, len(words), index)
         check_words("bad_value", "values", words)
-        yield from self._put_steps(place, words)
+        with about_place(place):
+            yield from self._put_steps(place, words)
 
     def _place(self, space: str, address: int, count: int, index: int | None) -> Place:
         """A parameter by number, or words of the telegram of that name."""

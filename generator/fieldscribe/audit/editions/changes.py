@@ -123,9 +123,9 @@ class Editions:
 
     def _are_unlike(self, old: int, new: int) -> bool:
         here = [word for word in self.old.of_line(old) if self.old.texts[word].isalnum()]
-        there = [word for word in self.new.of_line(new) if self.new.texts[word].isalnum()]
+        there = {word: self.new.texts[word] for word in self.new.of_line(new) if self.new.texts[word].isalnum()}
         shared = sum(self._there[word] in there for word in here)
-        texts = [self.old.texts[word] for word in here], [self.new.texts[word] for word in there]
+        texts = [self.old.texts[word] for word in here], [*there.values()]
         return are_unlike(self.old.line(old), self.new.line(new), texts, shared)
 
     def _changes(self, gaps: Iterable[Gap]) -> Iterator[Change]:

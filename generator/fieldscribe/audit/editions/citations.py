@@ -10,7 +10,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
-from fieldscribe.audit.claims import by_line, claims_of
+from fieldscribe.audit.claims import by_line, claims_of, listed_in
 from fieldscribe.audit.editions.tracing import Trace
 from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
@@ -33,7 +33,7 @@ T = TypeVar("T", Claim, PrintedErratum)
 
 @dataclass(frozen=True, slots=True)
 class LookedThrough:
-    """Lines that the description says hold nothing for it, or only these numbers besides facts; where it says so."""
+    """Lines that the description says hold nothing for it, or only these texts besides facts; where it says so."""
 
     lines: frozenset[int]
     numbers: frozenset[str]
@@ -207,8 +207,7 @@ def _passages_of(files: Iterable[Map]) -> Iterator[LookedThrough]:
         for passage in file.get("looked_through", ()):
             spans = list(spans_of(passage["lines"]))
             lines = frozenset(line for first, last in spans for line in range(first, max(first, last) + 1))
-            numbers = frozenset(map(str, passage.get("numbers", ())))
-            yield LookedThrough(lines, numbers, passage.span("lines"), tuple(spans), beside)
+            yield LookedThrough(lines, listed_in(passage), passage.span("lines"), tuple(spans), beside)
 
 
 def _distance(place: Span, other: Span) -> tuple[bool, int]:

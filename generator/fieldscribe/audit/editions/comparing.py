@@ -11,7 +11,7 @@ from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.citations import Citations
 from fieldscribe.audit.editions.drafts import Drafts
 from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
-from fieldscribe.audit.editions.findings import Cite, Comparison, Finding, Place, Reason, Void
+from fieldscribe.audit.editions.findings import Cite, Comparison, Doubt, Finding, Place, Reason, Void
 from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere, with_void
 from fieldscribe.audit.editions.notes import Notes
 from fieldscribe.audit.editions.remarks import Remarks
@@ -45,9 +45,16 @@ class Edition:
 
 
 def compare(
-    subject: Subject, old: Edition, new: Edition, glossary: Mapping[str, str] = _NO_WORDS
+    subject: Subject,
+    old: Edition,
+    new: Edition,
+    glossary: Mapping[str, str] = _NO_WORDS,
+    held: frozenset[str] = frozenset(),
 ) -> tuple[Comparison, Citations]:
-    """What the new edition means for the description, and what that cites; the glossary gives drafts English titles."""
+    """What the new edition means for the description, and what that cites.
+
+    The glossary gives drafts English titles, `held` are the errata that somebody says still hold.
+    """
     editions = Editions(old.text, new.text)
     citations = Citations(subject, editions)
     names = Wordings(subject.scope.header["documents"]).names
@@ -55,7 +62,7 @@ def compare(
     citations.settle(*manuals, accepted=bool(new.is_recorded))
     device = str(subject.scope.header["device"])
     outcome = Comparison(device, old.name, new.name, old.is_recorded, new.is_recorded, editions.counts())
-    _Comparing(subject, citations, manuals, outcome, glossary).run()
+    _Comparing(subject, citations, manuals, outcome, glossary).run(held)
     return outcome, citations
 
 
@@ -81,8 +88,8 @@ class _Comparing:
         places = {line: _told(passage.place) for passage in self._looked_through for line in passage.lines}
         self.explaining = Explaining(self.editions, (self.old, self.new), pairs, Vocabulary(subject), places)
 
-    def run(self) -> None:
-        """All findings, in the order of the new edition."""
+    def run(self, held: frozenset[str]) -> None:
+        """All findings, in the order of the new edition, and what else is told; `held` are errata that still hold."""
         outcome, editions = self.outcome, self.editions
         self._beside = sorted(self._places_by_line().items())
         reasons: dict[int, list[Reason]] = {}
@@ -101,6 +108,7 @@ class _Comparing:
         outcome.findings, outcome.remarks = Remarks(editions, self.new.manual).sort(findings)
         passed_over = {place for remark in outcome.remarks if remark.kind != "wording" for place in remark.places}
         outcome.notes = self.notes.stale((change, one) for change, one in told if one.places[0] not in passed_over)
+        outcome.doubts = list(self._doubts(held))
         outcome.shifted = self._shifted()
         outcome.renumbered = self.citations.all_count_new
 
@@ -169,6 +177,21 @@ class _Comparing:
     def _order_of_old(self, line: int) -> int:
         return next((place[1] for above in range(line - 1, 0, -1) if (place := self.editions.now(above))), 0)
 
+    def _doubts(self, held: frozenset[str]) -> Iterator[Doubt]:
+        """The errata in words that cite lines of findings and are not void, but for those that are said to hold."""
+        void = {void.erratum for finding in self.outcome.findings for void in finding.void}
+        for erratum in self.citations.errata:
+            if not erratum.is_sentence or erratum.id in void | held:
+                continue
+            name, place = self._named(erratum)
+            lines = [
+                finding.new or finding.old
+                for finding in self.outcome.findings
+                if finding.kind != "moved" and any(cite.subject == name for cite in finding.cited_by)
+            ]
+            if lines:
+                yield Doubt(erratum.id, place, tuple(ends for ends in lines if ends))
+
     def _errata_at(self, change: Change) -> Iterator[Cite]:
         for erratum, in_old, in_new in self.errata:
             olds = [self._paragraph(self.old, *span) for span in in_old.cited] if in_old else []
@@ -190,10 +213,17 @@ class _Comparing:
 
     def _is_of(self, extent: Extent, change: Change) -> bool:
         """Whether a change is in these lines: what was added is if some of them stand below it, too."""
+        if change.kind == "added" and change.new[0] - 1 in extent and self._goes_on(change.new[0]):
+            return True
         if not any(line in extent for line in change.new):
             return False
         below = range(change.new[-1] + 1, extent.last + 1)
         return change.kind != "added" or any(self._was_there(line) for line in below)
+
+    def _goes_on(self, line: int) -> bool:
+        """Whether a row goes on in a line: its first cell is empty."""
+        text = self.editions.new.line(line)
+        return text.startswith("\t") or (text.startswith("|") and not text.split("|")[1].strip())
 
     def _was_there(self, line: int) -> bool:
         return any(not self.editions.is_new(word) for word in self.editions.new.of_line(line))

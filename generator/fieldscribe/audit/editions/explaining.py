@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from fractions import Fraction
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.audit.claims_of_flags import LIST_OF_BITS
 from fieldscribe.audit.editions.findings import Cite, Reason
 from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_title, turned
 from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
@@ -31,6 +33,8 @@ _REFERENCE = re.compile(
 """What stands before a number that is no fact: that of a page, a chapter, a picture."""
 _MOST = 8
 """A reason names at most so many numbers or words."""
+_MOST_WEAKENED = 4
+"""So many facts are told that were printed otherwise in one place: the first of them show what it is."""
 
 
 class Pair(NamedTuple):
@@ -95,7 +99,7 @@ class Explaining:
 
     def fails(self, pair: Pair) -> bool:
         """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
-        if self._lost_access(pair) or self._is_parted(pair):
+        if self._lost_access(pair) or self._is_parted(pair) or self._lost_list(pair):
             return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
             return False
@@ -113,6 +117,13 @@ class Explaining:
         was = self.old.named.get(pair.old, ()) if pair.old else ()
         return any(map(self.editions.is_gone, was)) and not (pair.new and self.new.named.get(pair.new))
 
+    def _lost_list(self, pair: Pair) -> bool:
+        """Whether a row that listed the bits of all flags lists others now."""
+        if pair.claim.fact != LIST_OF_BITS or pair.old is None or pair.new is None:
+            return False
+        borne = self.old.borne.get(pair.old, set())
+        return any(map(self.editions.is_gone, borne)) and not self.new.borne.get(pair.new)
+
     def _is_parted(self, pair: Pair) -> bool:
         """Whether a label that stood right beside its number does not any more."""
         if not pair.claim.beside or pair.old is None or pair.new is None:
@@ -128,7 +139,8 @@ class Explaining:
         exact, whole = dict[Cite, None](), dict[Cite, None]()
         for pair in self.pairs_of.get(number, ()):
             claim = pair.claim
-            if _borne(self.old, pair.old) & gone or _borne(self.new, pair.new) & come:
+            bears = _borne(self.old, pair.old) & gone or _borne(self.new, pair.new) & come
+            if bears and (not claim.beside or self._was_whole(pair, change) or self._is_whole(pair, change)):
                 exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
             whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
         named = {cite.subject for cite in exact}
@@ -139,7 +151,7 @@ class Explaining:
         reasons = list(self._by_facts(number, change))
         if not reasons and change.kind == "changed":
             meant = self._without_spellings(change)
-            reasons = [*self._passed_over(meant), *self._turned(meant)]
+            reasons = [*self._passed_over(meant), *self._turned(number, meant)]
         yield from reasons
 
     def _without_spellings(self, change: Change) -> Change:
@@ -147,12 +159,13 @@ class Explaining:
 
     def _by_facts(self, number: int, change: Change) -> Iterator[Reason]:
         yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
-        yield from self._weakened(number, change)
+        yield from islice(self._weakened(number, change), _MOST_WEAKENED)
         meant = self._without_spellings(change)
+        took_words = self._took_words(meant)
         for line in change.new:
             if line not in self.new.empty:
                 yield from self._numbers(line, meant)
-                yield from self._names(line, meant)
+                yield from self._names(line, meant, took_words=took_words)
         yield from self._signs(number, change)
         yield from self._units(number, change)
 
@@ -169,25 +182,37 @@ class Explaining:
             fresh = [token for token in fresh if not is_of_edition(self.editions.new.line(line), token.column)]
             has = Counter(token.text for place in change.new for token in self.new.manual.tokens[place - 1])
             if new := [token.text for token in fresh if has[token.text] != was[token.text]]:
-                yield self._list_them(new, line, "number")
+                names = (
+                    word
+                    for reason in self._names(line, change, took_words=self._took_words(change))
+                    for word in reason.words
+                )
+                yield self._list_them(new, line, "number", list(names))
 
-    def _turned(self, change: Change) -> Iterator[Reason]:
-        """Numbers in words, and words that turn a sentence round."""
+    def _turned(self, number: int, change: Change) -> Iterator[Reason]:
+        """Numbers in words, and words that turn a sentence round, but for those that the description followed."""
         olds, news = self.editions.old, self.editions.new
-        gaps = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in change.gaps]
+        claims = [pair.new for pair in self.pairs_of.get(number, ()) if pair.new and pair.old in self.old.missed]
+        followed = set().union(*(self.new.named[claim] for claim in claims if claim not in self.new.missed))
+        gaps = [(old, new) for old, new in change.gaps if followed.isdisjoint(new)]
+        texts = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in gaps]
         listed = set().union(*(self.new.no_facts.get(line, ()) for line in change.new))
-        told = [word for word in turned(gaps) if word not in listed]
+        told = [word for word in turned(texts) if word not in listed]
         if told:
             yield self._list_them(told, change.new[0], "word")
 
-    def _list_them(self, texts: list[str], line: int, what: str) -> Reason:
+    def _list_them(self, texts: list[str], line: int, what: str, names: Iterable[str] = ()) -> Reason:
         """A reason that goes when `looked_through` lists what is new."""
         place = self.passed_over.get(line, "")
         if not place:
             return self._unknown(texts, line, what)
         shown = ", ".join(f"`{text}`" for text in dict.fromkeys(texts))
-        said = f"looked_through passes over line {line}, where {shown} changed: list it in `numbers` if it is no fact"
+        said = f"looked_through passes over line {line}, where {shown} changed: {_way_out(texts, what, names)}"
         return Reason(what, said, place, words=tuple(texts))
+
+    def listed_words(self, line: int) -> set[str]:
+        """The words that the description says are no facts of a line, those of listed phrases one by one."""
+        return {word for listed in self.new.no_facts.get(line, ()) for word in Words(listed).texts}
 
     def swapped(self, finding: Finding) -> Finding:
         """A finding of labels that changed places, which asks for something even where nothing cites them."""
@@ -213,8 +238,20 @@ class Explaining:
             for pair in pairs:
                 if pair.new in self.new.missed or not _is_of_numbers(pair.claim) or self._stands_anew(pair, come):
                     continue
-                if self._lost_one(pair, old, new):
+                if self._lost_one(pair, old, new) and self._was_whole(pair, change):
                     yield _of_claim("otherwise", pair.claim, f"was printed as {self.editions.old.shown(old)} here")
+
+    def _was_whole(self, pair: Pair, change: Change) -> bool:
+        """Whether the changed lines had the label of a number, too: another place with the number is not its own."""
+        if not pair.claim.beside or pair.old is None:
+            return True
+        words = {word for line in change.old for word in self.editions.old.of_line(line)}
+        return not self.old.named[pair.old].isdisjoint(words)
+
+    def _is_whole(self, pair: Pair, change: Change) -> bool:
+        """Whether the lines have the label of a number now."""
+        words = {word for line in change.new for word in self.editions.new.of_line(line)}
+        return pair.new is not None and not self.new.named.get(pair.new, set()).isdisjoint(words)
 
     def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
         """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
@@ -265,10 +302,9 @@ class Explaining:
             yield self._unknown(unknown, line, "number")
 
     def _new_tokens(self, line: int, change: Change) -> Iterator[tuple[Token, range]]:
-        fresh = {word for _, new in change.gaps for word in new}
         for token in self.new.manual.tokens[line - 1]:
             words = self.new.words_of_token(token)
-            if fresh.intersection(words):
+            if any(_is_new(word, change) for word in words):
                 yield token, words
 
     def _is_known(self, token: Token, words: range) -> bool:
@@ -308,27 +344,28 @@ class Explaining:
                     with_or_without = "with" if has_sign else "without"
                     yield _of_claim("sign", bearing[0], f"is printed {with_or_without} a minus sign")
 
-    def _names(self, line: int, change: Change) -> Iterator[Reason]:
+    def _names(self, line: int, change: Change, *, took_words: bool) -> Iterator[Reason]:
         """The new words of a line that the description does not have for what cites it."""
         manual, text = self.new.manual, self.editions.new
         subjects = self.subjects_at.get(line, {})
         if not subjects and not (manual.is_row(line) or line in self.headings):
             return
         in_numbers = {word for token in manual.tokens[line - 1] for word in self.new.words_of_token(token)}
-        fresh = [word for _, new in change.gaps for word in new if text.line_of[word] == line]
+        fresh = [word for word in text.of_line(line) if _is_new(word, change)]
         fresh = [word for word in fresh if not self._is_respelled(word, change)]
         fresh = [word for word in fresh if word not in in_numbers or is_title(text.texts[word])]
         if change.kind == "added" and not subjects and self._is_prose_section(change):
             return
         written = text.line(line)
-        is_label = line in self.headings or self._took_words(change) or self._has_new_numbers(line, change)
+        is_label = line in self.headings or took_words or self._has_new_numbers(line, change)
         words = [
             text.texts[word]
             for word in fresh
             if is_name(text.texts[word])
             and (is_label or is_code(text.texts[word]) or not is_prose(written, text.column_of[word]))
         ]
-        unknown = [word for word in words if not self.words.has(word, subjects)]
+        listed = self.listed_words(line)
+        unknown = [word for word in words if word not in listed and not self.words.has(word, subjects)]
         if unknown:
             yield self._unknown(unknown, line, "word")
 
@@ -341,12 +378,8 @@ class Explaining:
     def _took_words(self, change: Change) -> bool:
         """Whether words went that a title, a label or another text of the description stood on."""
         gone = {word for old, _ in change.gaps for word in old}
-        pairs = (
-            pair
-            for line in change.old
-            for number in self._of_old.get(line, ())
-            for pair in self.pairs_of.get(number, ())
-        )
+        numbers = {number for line in change.old for number in self._of_old.get(line, ())}
+        pairs = (pair for number in numbers for pair in self.pairs_of.get(number, ()))
         return any(pair.old and not self.old.named.get(pair.old, set()).isdisjoint(gone) for pair in pairs)
 
     def _is_prose_section(self, change: Change) -> bool:
@@ -371,7 +404,10 @@ class Explaining:
         if not subjects:
             return Reason(what, f"nothing cites line {line}: {shown}{more}", words=tuple(unknown))
         said = f"no {what} of what cites line {line} is {shown}{more}"
-        return Reason(what, said, self.place_of.get(subjects[0], ""), words=tuple(unknown))
+        place = self.passed_over.get(line, "")
+        if place:
+            said += f"; looked_through has the line: {_way_out(unknown, what)}"
+        return Reason(what, said, place or self.place_of.get(subjects[0], ""), words=tuple(unknown))
 
     def _units(self, number: int, change: Change) -> Iterator[Reason]:
         """Units that no longer stand in the lines."""
@@ -382,6 +418,17 @@ class Explaining:
             unit, place = self.words.unit_of(subject)
             if gone.intersection(set(Words(unit).texts) - stands):
                 yield Reason("unit", f": unit {unit} is not there", place, (subject,), (unit,))
+
+
+def _way_out(texts: Iterable[str], what: str, names: Iterable[str] = ()) -> str:
+    """What to write under `looked_through` where numbers or words (and names, once numbers are listed) are no facts."""
+    lists = ((f"{what}s", texts), ("words", names))
+    written = ", ".join(f"{key}: [{', '.join(dict.fromkeys(listed))}]" for key, listed in lists if listed)
+    return f"add `{written}` there if no fact"
+
+
+def _is_new(word: int, change: Change) -> bool:
+    return any(word in new for _, new in change.gaps)
 
 
 def _is_of_numbers(claim: Claim) -> bool:

@@ -78,6 +78,15 @@ class Void:
 
 
 @dataclass(frozen=True, slots=True)
+class Doubt:
+    """An erratum in words about lines that changed: no claim can say whether it still holds, so a reader has to."""
+
+    erratum: str
+    place: str
+    lines: tuple[Ends, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class StaleNote:
     """A sentence of the description that says what a changed line said: whose it is, where, and what of which line."""
 
@@ -157,9 +166,10 @@ class Remark:
 class Comparison:
     """Everything that a new edition means for a description.
 
-    `remarks` are about what holds no fact. `void` are the errata that belong to no finding. `elsewhere` are facts that
-    do not hold though no line that they cite changed. `shifted` counts the cited lines that have another number in the
-    new edition, `renumbered` says that the description counts the lines of the new one.
+    `remarks` are about what holds no fact. `doubts` are errata that a reader has to look at. `void` are the errata that
+    belong to no finding. `elsewhere` are facts that do not hold though no line that they cite changed. `shifted` counts
+    the cited lines that have another number in the new edition, `renumbered` says that the description counts the lines
+    of the new one.
     """
 
     device: str
@@ -172,14 +182,20 @@ class Comparison:
     remarks: list[Remark] = field(default_factory=list)
     elsewhere: list[Reason] = field(default_factory=list)
     void: list[Void] = field(default_factory=list)
+    doubts: list[Doubt] = field(default_factory=list)
     notes: list[StaleNote] = field(default_factory=list)
     shifted: int = 0
     renumbered: bool = False
 
     @property
     def explained(self) -> bool:
-        """Whether nothing of the new edition is left to be looked at."""
+        """Whether every change is explained."""
         return self.unexplained == 0
+
+    @property
+    def settled(self) -> bool:
+        """Whether nothing of the new edition is left to be looked at."""
+        return self.explained and not self.doubts
 
     @property
     def unexplained(self) -> int:
@@ -203,5 +219,6 @@ class Comparison:
             "void_errata": [
                 values_of(void) for void in (*self.void, *(void for finding in self.findings for void in finding.void))
             ],
+            "doubtful_errata": [values_of(doubt) for doubt in self.doubts],
             "notes": [{**values_of(note), "said": dict(note.said)} for note in self.notes],
         }

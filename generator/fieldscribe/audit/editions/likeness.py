@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _AT = "at"
 """The number that a row was read to have as its address, where it prints no other."""
+_INDEX = re.compile(r"\[[0-9]+\]$")
+"""The index behind a code."""
 _NUMBERS = re.compile(r"[-0-9., ]+")
 
 
@@ -62,7 +64,9 @@ def like(point: DraftPoint, rows: Iterable[Described]) -> DraftPoint:
     at = point.at + apart[0][0]
     if by_rule:
         ruled = _by_rule(at, rows)
-        return replace(point, shown=str(ruled[0]), index=ruled[1]) if ruled else _asking(point, numbers)
+        if not ruled:
+            return _asking(point, numbers)
+        return replace(point, code=_code_beside(*ruled, rows) or point.code, shown=str(ruled[0]), index=ruled[1])
     return replace(point, at=at, shown=f"{at:04X}h" if point.shown.endswith("h") else str(at))
 
 
@@ -84,6 +88,13 @@ def _by_rule(address: int, rows: list[Described]) -> tuple[int, int] | None:
         if len(steps) == 1 and (index := first + (address - start) / steps.pop()).denominator == 1:
             return number, int(index)
     return None
+
+
+def _code_beside(number: int, index: int, rows: list[Described]) -> str:
+    """The code as the other indices of a number have theirs, such as `P050[7]`; "" if they have none."""
+    drafts = (row.resolved.draft for row in rows)
+    codes = [str(draft.code) for draft in drafts if draft.get("at") == number and draft.code]
+    return next((_INDEX.sub(f"[{index}]", code) for code in codes if _INDEX.search(code)), "")
 
 
 def _apart(row: Described) -> int | None:

@@ -26,6 +26,8 @@ _QUOTED = re.compile("[\"\u201c\u201e`][^\"\u201c\u201d\u201e`]{1,80}[\"\u201c\u
 _OPENS = re.compile(r"(?:^|[.:;!?(])\s*$")
 _TELLING = 4
 """A number of so many digits says by itself what it is about; a shorter one where its subject is named beside it."""
+_ANYTHING = ("#0", "#1")
+"""Numbers that every note may have."""
 _IN_QUOTES = ("printed",)
 """What the manual printed stays as it was printed: a claim of its own holds it against the text."""
 
@@ -78,20 +80,21 @@ class Notes:
         for key, shown in (gone.numbers | gone.words).items():
             for place in self.holders.get(key, ()):
                 sentence = self.sentences[place]
-                if self._is_about(sentence, key, names, is_number=key in gone.numbers):
+                is_removed = finding.kind == "removed" and _is_code_number(shown)
+                if is_removed or self._is_about(sentence, key, names, is_number=key in gone.numbers):
                     yield place, shown
         for code in {self.codes[subject] for subject in subjects if subject in self.codes} & gone.words.keys():
             yield from ((place, code) for place in self.holders.get(code, ()))
 
     def _is_about(self, sentence: Sentence, key: str, names: set[str], *, is_number: bool) -> bool:
-        """Whether a sentence says what was meant by the line: a number of one digit says little by itself."""
+        """Whether a sentence says what was meant by the line: its own, or one that says enough by itself."""
         if not is_number:
             if any(map(str.isdigit, key)):
                 return sentence.owner in names or key.casefold() not in self.still
             return key not in self.still and key in sentence.marked
         written = key.removeprefix("#").removeprefix("x")
         digits = len(written) + any(map(str.isalpha, written))
-        if digits >= _TELLING or (digits > 1 and sentence.owner in names):
+        if digits >= _TELLING or (sentence.owner in names and key not in _ANYTHING):
             return True
         beside = (name for at in sentence.numbers[key] for name in _beside(at, sentence.names))
         return any(name in names for name in beside)
@@ -175,6 +178,11 @@ def _codes_of(subject: Subject) -> dict[str, str]:
         if resolved.draft.code:
             points.setdefault(resolved.draft.code, []).append(resolved.point.item)
     return {items[0]: code for code, items in points.items() if len(items) == 1}
+
+
+def _is_code_number(text: str) -> bool:
+    """Whether a number is written as codes are, such as `0Fh`: where its row is gone, it is gone for all."""
+    return text[0].isdecimal() and text[-1] in "hH"
 
 
 def _key(number: str) -> str:

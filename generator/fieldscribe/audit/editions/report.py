@@ -40,8 +40,17 @@ def as_lines(outcome: Comparison, *, everything: bool) -> Iterator[Line]:
         yield [*_placed(void.place), ("error", "erratum"), ("", visible(f": {void.erratum}: {_of_void(void)}"))]
     for remark in outcome.remarks:
         yield from _of_remark(remark, whole=everything)
+    yield from _doubts(outcome)
     yield from stale_notes(outcome)
     yield from figures(outcome)
+
+
+def _doubts(outcome: Comparison) -> Iterator[Line]:
+    """Errata in words about lines that changed."""
+    for doubt in outcome.doubts:
+        lines = ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in doubt.lines)
+        said = f": {doubt.erratum}: lines that it cites changed ({lines}): does it still hold?"
+        yield [*_placed(doubt.place), ("error", "erratum"), ("", visible(said))]
 
 
 def stale_notes(outcome: Comparison) -> Iterator[Line]:
@@ -74,7 +83,6 @@ def _of_finding(finding: Finding, *, whole: bool) -> Iterator[Line]:
     explained = " (explained)" if finding.explained else ""
     yield [*_placed(places[0]), (severity, finding.kind), ("", visible(f": {_head(finding)}{explained}"))]
     if not whole:
-        yield from _errata_of(finding)
         return
     if finding.kind != "moved":
         yield from _shown("-", finding.was, finding.was_at)
@@ -103,13 +111,6 @@ def _cites_of(finding: Finding, places: list[str]) -> Iterator[Line]:
         yield [("", "  "), *_placed(place), ("", visible(f"{cites[0].subject}{fact}{more} cites it"))]
     if len(by_place) > _MOST_CITES:
         yield [("", f"  and {len(by_place) - _MOST_CITES} more places cite it")]
-
-
-def _errata_of(finding: Finding) -> Iterator[Line]:
-    """The errata about a line that is explained: whether they still hold is for a reader, as many are sentences."""
-    errata = [cite for cite in finding.cited_by if cite.is_erratum]
-    for cite in errata if finding.kind in ("changed", "swapped") else ():
-        yield [("", "  "), *_placed(cite.place), ("", visible(f"{cite.subject} cites it: does it still hold?"))]
 
 
 def _head(finding: Finding) -> str:
@@ -192,6 +193,10 @@ def figures(outcome: Comparison) -> Iterator[Line]:
     yield [("", f"  lines     {kinds}")]
     left = "all explained" if outcome.explained else f"{outcome.unexplained} not explained"
     yield [("", f"  findings  {len(outcome.findings)}, {left}")]
+    if outcome.doubts:
+        names = ",".join(doubt.erratum for doubt in outcome.doubts)
+        said = f"  errata    {len(outcome.doubts)} to look at: mend or remove them; if they hold, say --holds {names}"
+        yield [("", visible(said))]
     if outcome.notes:
         yield [("", f"  notes     {len(outcome.notes)} to read again: they say what changed")]
     if outcome.remarks:

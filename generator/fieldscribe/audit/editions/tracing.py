@@ -84,7 +84,8 @@ class Trace(Comparison):
         check()
         tokens = [token for place in self.used for token in self._of_line(place[0]) if token.column == place[1]]
         for claim in claims:
-            own = [token for token in tokens if not claim.beside or token.readings & claim.beside]
+            wanted = claim.beside or (claim.numbers if claim.entry is not None else frozenset())
+            own = [token for token in tokens if not wanted or token.readings & wanted]
             self.named[claim] = self._words_of(claim)
             self.borne[claim] = {word for token in own for word in self.words_of_token(token)} | self.named[claim]
         before |= self.used

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 from unicodedata import combining, normalize
 
+from fieldscribe.audit.claims_of_bus import parity_words
+
 if TYPE_CHECKING:
     from fieldscribe.resolve.subject import Subject
 
@@ -94,6 +96,8 @@ class Vocabulary:
             self._units[resolved.point.item] = str(draft.get("unit", "")), f"{span.file}:{span.line}:{span.column}"
         others = [value for file in subject.scope.files for key, value in file.items() if key != "points"]
         self._of_others = _words_in(others)
+        for bus in (file["bus"] for file in subject.scope.files if "bus" in file):
+            self._of_others |= _words_in([parity_words(setting) for setting in _settings_in(bus.get("serial", ()))])
 
     def unit_of(self, subject: str) -> tuple[str, str]:
         """The unit of a point, and where the description says it."""
@@ -103,6 +107,13 @@ class Vocabulary:
         """Whether the description has a word for one of these subjects."""
         folded = word.casefold()
         return any(folded in self._of_points.get(subject, self._of_others) for subject in subjects)
+
+
+def _settings_in(value: Any) -> list[Any]:
+    """Each setting of a line by itself."""
+    if isinstance(value, Mapping):
+        return [setting for item in value.values() for setting in _settings_in(item)]
+    return list(value) if isinstance(value, Sequence) and not isinstance(value, str) else [value]
 
 
 def _words_in(value: Any) -> set[str]:

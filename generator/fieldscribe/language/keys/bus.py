@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, CODE
-from fieldscribe.language.keys.shapes import SEVERAL, WORD_ORDER
+from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
 
 _BY_TYPE = Place("", "", "", ())
@@ -84,6 +84,14 @@ KEYS = (
         "Settings of the serial line: lists, or codes with their meanings.",
         [{"baud": {"4": 4800}, "stop_bits": [1, 2]}],
         by(forms.ANY, _SETTING),
+    ),
+    Key(
+        "lines",
+        BUS,
+        "Where the manual prints single facts of the bus, by their keys here, under `serial` and under `timing`: the "
+        "audit holds them against it.",
+        [{"units": 32, "parity": 28}],
+        by(forms.ANY, LINES_OF),
     ),
     Key("max", CODE, "The largest count of items in one request.", [4], Whole(1, 2000)),
     Key(

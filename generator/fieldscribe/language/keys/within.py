@@ -101,6 +101,13 @@ KEYS = (
         [[1, 2, "1028h"]],
         Items(PRINTED_NUMBER, 1),
     ),
+    Key(
+        "words",
+        LOOKED_THROUGH,
+        "The words and phrases there that are no facts, if the lines hold facts too; the audit passes them over.",
+        [["wrench size"]],
+        Items(Shape("A word or phrase as printed.", ["wrench size"], Text(200), Whole()), 1),
+    ),
     Key("why", LOOKED_THROUGH, "What stands there, in a few words.", ["Wiring."], Text(500), required=True),
     Key("document", LOOKED_THROUGH, "The document, if not the first one.", ["manual"], Text()),
 )

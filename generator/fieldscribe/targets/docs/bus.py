@@ -11,7 +11,7 @@ from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Bus, Code, Device, Role
 
@@ -28,8 +28,7 @@ class BusView:
 
 def bus_view(device: Device) -> BusView:
     """The bus section of a device."""
-    bus, own_family = device.bus, family(device.family)
-    part: OfFamily = own_family.part("targets.docs") or OfFamily()
+    bus, own_family, part = device.bus, family(device.family), part_of(device)
     asks = next((section for section in own_family.codes if section.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
     serial = [
@@ -55,6 +54,12 @@ def bus_view(device: Device) -> BusView:
     )
 
 
+def part_of(device: Device) -> OfFamily:
+    """What the family of a device says of itself in the documentation."""
+    part: OfFamily = family(device.family).part("targets.docs") or OfFamily()
+    return part
+
+
 class OfFamily:
     """The part `targets.docs` of a family. These are the defaults."""
 
@@ -66,6 +71,11 @@ class OfFamily:
         """Whether a function may be broadcast, where the description does not say it."""
         del function
         return False
+
+    def numbers(self, space: str, address: int) -> Mapping[str, int]:
+        """The numbers that people of this family use for an address, whatever the manual prints."""
+        del space, address
+        return {}
 
 
 def span(ends: tuple[int, int]) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.docs.tables import Column, Table, source_cells
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Device
     from fieldscribe.targets.docs.tables import Encode
@@ -28,13 +28,23 @@ COLUMNS = (
 )
 
 
+def items_of(device: Device) -> Mapping[str, list[str]]:
+    """The names in code of the points of a name, one for each variant."""
+    items: dict[str, list[str]] = {}
+    for point in device.points:
+        items.setdefault(point.name, []).append(point.item)
+    return items
+
+
 def errata_table(device: Device) -> Table:
     """The errata of a device."""
     return Table("errata", COLUMNS, partial(_rows, device))
 
 
 def _rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
+    items = items_of(device)
     for erratum in device.errata:
-        points, where = "; ".join(erratum.points), str(erratum.where)
+        points = "; ".join(item for name in erratum.points for item in items.get(name, ()))
+        where = str(erratum.where)
         told = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty)
         yield (*map(encode, told), *source_cells(erratum.source, encode))

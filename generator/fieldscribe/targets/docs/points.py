@@ -21,7 +21,7 @@ from fieldscribe.targets.docs.cells import (
 )
 from fieldscribe.targets.docs.numbers import Lists
 from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, more_below, own_remarks, remarks_text
-from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, reference_heads
+from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.words import Words
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ class _Rows:
             cell(point.code) if point.code else "",
             f"{name}{LINE_BREAK}{cell(wording.title_text(point.title))}",
             kin.space if with_space else "",
-            wording.words_text(point),
+            place_text(point),
             "" if point.index is None else str(point.index),
             numbers_text(point, references),
             *kin.meaning,
@@ -148,5 +148,6 @@ def _with_default(point: Point, allowed: str) -> str:
     """The range, and below it the factory setting: few points have one, so a column of its own would be empty."""
     if point.default is None and point.default_raw is None:
         return allowed
-    default = f"default {narrow(cell(wording.default_text(point, unit=False)))}"
+    text = wording.default_parts(point) or wording.default_text(point, unit=False)
+    default = f"default {narrow(cell(text))}"
     return f"{allowed}{LINE_BREAK}{default}" if allowed else default

@@ -41,13 +41,25 @@ def ends_of(point: Point) -> tuple[str, str, str, str]:
     if point.info.floating:
         units = point.allowed.units
         return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
-    outer, line = wording.outer_raw(point), line_of(point)
+    outer, line = _without_codes(point, wording.outer_raw(point)), line_of(point)
     if outer is None or point.text is not None:
         return "", "", "", ""
     if line is None:
         return str(outer[0]), str(outer[1]), "", ""
     low, high = (exact(raw * line.factor + line.add, line.divisor) for raw in (outer[:: -1 if line.factor < 0 else 1]))
     return str(outer[0]), str(outer[1]), decimal(low), decimal(high)
+
+
+def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int] | None:
+    """The ends without the special codes there; None if nothing is left."""
+    if ends is None or not point.specials:
+        return ends
+    low, high = ends
+    while low <= high and (code := point.special(low)) is not None:
+        low = code.high + 1
+    while low <= high and (code := point.special(high)) is not None:
+        high = code.low - 1
+    return (low, high) if low <= high else None
 
 
 def range_of(point: Point, points: Mapping[str, Point]) -> str:

@@ -122,6 +122,7 @@ def _others(scope: Scope, point: Point, own: OwnRemarks) -> Iterator[str]:
         yield cell(f"telegram {terms.telegram}")
     if own.bits:
         yield f"bits: {own.bits}"
+    yield cell(wording.shared_text(point))
     if shape.fixed is not None:
         yield cell(wording.fixed_text(point))
     if shape.specials_of:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.model import Shape
-from fieldscribe.targets.docs.cells import cell, narrow, number_cell
+from fieldscribe.targets.docs.cells import LINE_BREAK, cell, narrow, number_cell
 from fieldscribe.wording.exact import fixed_rule
 from fieldscribe.wording.rules import Called
 
@@ -59,6 +59,15 @@ def _codes(points: Iterable[Point]) -> dict[str, str]:
         if point.code:
             names.setdefault(point.code, set()).add(point.name)
     return {next(iter(alike)): code for code, alike in names.items() if len(alike) == 1}
+
+
+def place_text(point: Point) -> str:
+    """Where a point starts, and how many words it has from there: `3100h (12544)`, then `2 words, low word first`."""
+    if not point.addresses:
+        return ""
+    start = wording.address_text(min(point.addresses))
+    order = wording.order_text(point)
+    return f"{start}{LINE_BREAK}{len(point.addresses)} words, {cell(order)}" if order else start
 
 
 def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:

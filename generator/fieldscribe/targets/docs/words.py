@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from itertools import groupby, zip_longest
+from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
@@ -11,13 +11,14 @@ from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, by_rows, cell, code, target
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Flag, Point
 
 _BREAKS = re.compile("<w?br>")
-_BROKEN_ROW = 8
-"""A word that is too wide for one row is drawn in rows of so many cells."""
+_BYTE = 8
+_SAME = "←"
+"""One more bit of the name on its left."""
 _WIDEST = 1200
 _SIGN, _BORDERS = 9, 18
 """About how many pixels a page of 1,280 leaves to a row, and how many a sign and the borders of a cell take."""
@@ -52,26 +53,68 @@ class Words:
 
 
 class _Field(NamedTuple):
-    """Neighbouring bits that have a name together, or none."""
+    """Neighbouring bits that have a name together, or none; `always` are bits that are always written so."""
 
-    bits: str
+    high: int
+    low: int
     name: str
+    always: str
+
+    @property
+    def bits(self) -> str:
+        return str(self.low) if self.high == self.low else f"{self.high}..{self.low}"
+
+    @property
+    def text(self) -> str:
+        return _text(self.name, self.always)
 
     @property
     def pixels(self) -> int:
-        parts = (self.bits, *_BREAKS.split(self.name))
+        parts = (self.bits, *_BREAKS.split(self.text))
         return _BORDERS + _SIGN * max(map(len, parts))
+
+    def bit(self, number: int) -> str:
+        """What stands at one bit: the name at the highest, and again where a byte begins."""
+        is_first = number == self.high or number % _BYTE == _BYTE - 1
+        name = self.name if is_first or not self.name else _SAME
+        return _text(name, self.always[self.high - number] if self.always else "")
+
+
+def _text(name: str, always: str) -> str:
+    return LINE_BREAK.join(filter(None, (name, f"always {always}" if always else "")))
 
 
 def _drawn(point: Point) -> str:
-    """The word as a table, the highest bit first, in as few rows as fit a page."""
+    """The word as a table, the highest bit first: in one row, or byte by byte where that is wider than a page."""
     fields = list(_fields(point))
-    count = len(fields) if sum(field.pixels for field in fields) <= _WIDEST else _BROKEN_ROW
-    runs = [fields[start : start + count] for start in range(0, len(fields), count)]
-    rows = [row for run in runs for row in ([f"**{field.bits}**" for field in run], [field.name for field in run])]
-    columns = list(zip_longest(*rows, fillvalue=""))
-    heads = [bits.strip("*") for bits, *_ in columns]
-    return by_rows(heads, list(zip(*(column[1:] for column in columns), strict=True)), always=heads)
+    if _is_wide(fields):
+        heads, *rows = _bytes(fields)
+    else:
+        heads, *rows = [field.bits for field in fields], [field.text for field in fields]
+    return by_rows(heads, rows, always=heads)
+
+
+def is_broken(point: Point) -> bool:
+    """Whether a point has a word of bits that is drawn byte by byte."""
+    return bool(point.flags) and _is_wide(list(_fields(point)))
+
+
+def _is_wide(fields: Sequence[_Field]) -> bool:
+    return sum(field.pixels for field in fields) > _WIDEST
+
+
+def _bytes(fields: Sequence[_Field]) -> Iterator[list[str]]:
+    """Two rows a byte, its bits and what they say; only the first bits are the head of the table."""
+    texts = {bit: field.bit(bit) for field in fields for bit in range(field.low, field.high + 1)}
+    highest = fields[0].high // _BYTE
+    for byte in range(highest, fields[-1].low // _BYTE - 1, -1):
+        bits = range(byte * _BYTE + _BYTE - 1, byte * _BYTE - 1, -1)
+        yield [_numbered(bit, bit in texts, byte < highest) for bit in bits]
+        yield [texts.get(bit, "") for bit in bits]
+
+
+def _numbered(bit: int, is_there: bool, in_body: bool) -> str:
+    return "" if not is_there else f"**{bit}**" if in_body else str(bit)
 
 
 def _fields(point: Point) -> Iterator[_Field]:
@@ -94,9 +137,7 @@ def _nameless(point: Point, above: int, lowest: int) -> Iterator[_Field]:
 
 
 def _field(point: Point, high: int, low: int, name: str = "") -> _Field:
-    always = _constant(point, high, low)
-    said = LINE_BREAK.join(filter(None, (name, f"always {always}" if always else "")))
-    return _Field(str(low) if high == low else f"{high}..{low}", said)
+    return _Field(high, low, name, _constant(point, high, low))
 
 
 def _constant(point: Point, high: int, low: int) -> str:

@@ -26,10 +26,23 @@ _MOST = 1 << 53
 """Workbooks hold floating point: greater whole numbers stay exact as text."""
 _NARROW, _WIDE = 6, 48
 _HEAD = {"bold": True, "bottom": 1}
+_TOP = {"valign": "top"}
 _STAYS = {"points": 2}
 """How many columns on the left stay when a sheet is scrolled."""
 _WHEN = datetime(2000, 1, 1)  # the format wants a date, and the bytes may not depend on today
 _COLUMNS = (Column("sheet", ""), Column("column", ""), Column("says", ""))
+
+
+class _Formats:
+    """How cells look; a text that is wider than its column is broken."""
+
+    def __init__(self, book: Any) -> None:
+        self.head, self.plain = book.add_format(_HEAD), book.add_format()
+        self._short, self._long = book.add_format(_TOP), book.add_format({**_TOP, "text_wrap": True})
+
+    def column(self, width: int) -> object:
+        """The format of a column whose longest text is so long."""
+        return self._long if width > _WIDE else self._short
 
 
 def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
@@ -47,10 +60,10 @@ def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
             "created": _WHEN,
         }
     )
-    head, plain = book.add_format(_HEAD), book.add_format()
+    formats = _Formats(book)
     shown = tuple(tables)
     for table in (*shown, Table("columns", _COLUMNS, lambda encode: _explained(shown, encode))):
-        _write(book.add_worksheet(table.name), table, head, plain)
+        _write(book.add_worksheet(table.name), table, formats)
     book.close()
     return contents.getvalue()
 
@@ -61,10 +74,10 @@ def _explained(tables: Iterable[Table], encode: Encode) -> Iterator[tuple[str, .
             yield table.name, column.name, encode(column.says.replace("`", ""))
 
 
-def _write(sheet: Any, table: Table, head: object, plain: object) -> None:
+def _write(sheet: Any, table: Table, formats: _Formats) -> None:
     widths = [len(column.name) + 2 for column in table.columns]
     for place, column in enumerate(table.columns):
-        sheet.write_string(0, place, column.name, head)
+        sheet.write_string(0, place, column.name, formats.head)
     last = 0
     for last, row in enumerate(table.rows(line), 1):
         for place, text in enumerate(row):
@@ -73,11 +86,19 @@ def _write(sheet: Any, table: Table, head: object, plain: object) -> None:
                 if table.columns[place].is_number and _fits(text):
                     sheet.write_number(last, place, float(text))
                 else:
-                    _write_text(sheet, (last, place), text, plain)
+                    _write_text(sheet, (last, place), text, formats.plain)
     for place, width in enumerate(widths):
-        sheet.set_column(place, place, min(max(width, _NARROW), _WIDE) + 1)
+        sheet.set_column(place, place, min(max(width, _NARROW), _WIDE) + 1, formats.column(width))
     sheet.freeze_panes(1, _STAYS.get(table.name, 1))
     sheet.autofilter(0, 0, last, len(widths) - 1)
+    _print_wide(sheet)
+
+
+def _print_wide(sheet: Any) -> None:
+    """On paper: all columns beside each other, the head on each page."""
+    sheet.set_landscape()
+    sheet.fit_to_pages(1, 0)
+    sheet.repeat_rows(0)
 
 
 def _fits(text: str) -> bool:

@@ -111,6 +111,8 @@ def _arguments(point: Point, limits: Limits, words: Words, scope: PackageScope) 
         yield f"changes={python_string(point.changes)}"
     if point.changes_with:
         yield Group("changes_with=(", tuple([python_string(name) for name in point.changes_with]))
+    if point.conditions and point.writable:
+        yield Group("conditions=(", tuple([python_string(condition) for condition in point.conditions]))
     yield from _existence(point, scope)
 
 

@@ -55,7 +55,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
         return ()
     family, name_of_point = in_python(device), attribute(point.item)
     line = family.line(device)
-    settings = "".join([f", {setting}" for setting, _ in family.settings])
+    settings = "".join([f", {setting}" for setting in line.settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
     inside = [f"drive = {name}(line, 1{settings}{variants})", f"print({wait}drive.{name_of_point}.read())"]
     if point.writable:

@@ -38,6 +38,8 @@ class Line:
     awaiting: str
     first: tuple[str, ...] = ()
     """Lines of import that the expressions need besides."""
+    settings: tuple[str, ...] = ()
+    """What the device is made with beside the line and the unit."""
 
     def imports(self, wait: str) -> tuple[str, ...]:
         """The classes that the expression names, in order."""

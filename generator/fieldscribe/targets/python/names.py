@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
+LIBRARIES = frozenset({"can", "pymodbus", "serial"})
+"""What the transports of the runtime import where a project asks for them."""
+
 _OWN = Owner("target", "what the package needs")
 _POINTS = "Python, the points"
 _CLASSES = "Python, the classes of numbers and flags"
@@ -33,6 +36,8 @@ def device_name_taken(name: str) -> str:
         return "is a word that Python reserves, so that no program could name its package"
     if name in sys.stdlib_module_names:
         return "is a module of Python's own, which the generated package would hide"
+    if name in LIBRARIES:
+        return "is a library that the runtime's transports import, which the generated package would hide"
     return ""
 
 

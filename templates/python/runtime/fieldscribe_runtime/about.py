@@ -6,11 +6,13 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from .errors import FieldscribeError
+from .errors import EchoError, FieldscribeError, FrameError, LineError, NoReplyError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from .commands import Command
+    from .facts import Place
     from .points import Point
 
 _LISTED = 4
@@ -18,13 +20,25 @@ _LISTED = 4
 
 
 @contextmanager
-def about(*points: Point) -> Iterator[None]:
-    """What goes wrong meanwhile says which point was asked for, or which ones one request reads."""
+def about(*asked: Point | Command) -> Iterator[None]:
+    """What goes wrong meanwhile says what was asked for: points that one request reads, or a command."""
     try:
         yield
     except FieldscribeError as error:
-        more = f" and {len(points) - _LISTED} more" if len(points) > _LISTED else ""
-        error.point = error.point or ", ".join([one.label for one in points[:_LISTED]]) + more
+        more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
+        error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
+        raise
+
+
+@contextmanager
+def about_place(place: Place) -> Iterator[None]:
+    """What goes wrong on the line meanwhile says at which place, unless it does already."""
+    try:
+        yield
+    except EchoError:
+        raise
+    except (FrameError, LineError, NoReplyError) as error:
+        error.point = error.point or place.label
         raise
 
 

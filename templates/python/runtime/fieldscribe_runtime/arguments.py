@@ -39,8 +39,15 @@ def whole(number: Any) -> int:
         return operator.index(number)
     except TypeError:
         if hasattr(number, "__float__"):
-            raise RangeError(f"{shown(number)} is no integer") from None
+            raise RangeError(f"{shown(number)} is no integer: only whole numbers are taken") from None
         raise WrongTypeError(f"takes an integer, not {shown(number)}") from None
+
+
+def integral(number: Any) -> int:
+    """The same for a value of a point: a float that is a whole number is that number, exactly."""
+    if type(number) is float and number.is_integer():
+        return int(number)
+    return whole(number)
 
 
 def raw_number(number: Any, width: int) -> int:
@@ -72,6 +79,12 @@ def check_words(status: str, what: str, words: Any) -> None:
         raise RequestError(status, f"{what} are a tuple of words, not {shown(words)}")
     for word in words:
         check_number(status, "a word", word, (0, 0xFFFF))
+
+
+def check_values(values: tuple[Any, ...]) -> None:
+    """Raises RequestError for a list where each word is an argument of its own."""
+    if len(values) == 1 and isinstance(values[0], (tuple, list)):
+        raise RequestError("bad_value", f"each word is an argument: write_at(space, address, *{shown(values[0])})")
 
 
 def check_place(space: Any, address: Any, count: Any) -> None:

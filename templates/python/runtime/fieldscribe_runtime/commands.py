@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, overload
 
+from .about import about
 from .arguments import check_integer, shown
 from .errors import AccessError
 from .guided import Guided
@@ -27,6 +28,11 @@ class Command(Guided):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.at}>"
+
+    @property
+    def label(self) -> str:
+        """The name, for messages."""
+        return self.name
 
     def _guide(self) -> str:
         sent = "any number (1 if none is given)" if self.value is None else f"the number {self.value}"
@@ -51,7 +57,11 @@ class Command(Guided):
         if self.value is not None and value not in (None, self.value):
             raise AccessError(f"{self.name} is the number {self.value}, not {shown(value)}")
         number = 1 if value is None else value
-        return device._put_steps(self.at, (number if self.value is None else self.value,))
+        return self._given_steps(device, number if self.value is None else self.value)
+
+    def _given_steps(self, device: Session, number: int) -> Steps[None]:
+        with about(self):
+            yield from device._put_steps(self.at, (number,))
 
 
 class CommandHandle:

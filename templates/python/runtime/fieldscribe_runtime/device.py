@@ -8,8 +8,9 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .errors import AccessError, LineError
+from .errors import LineError
 from .session import Session, Steps, Value
+from .turns import Turns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -81,8 +82,7 @@ class AnyAsyncDevice(Session):
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
-        self._loop: Any = None
-        self._turn: Any = None
+        self._turns = Turns("the device")
         self._handles: dict[Point, AsyncHandle] = {}
 
     @abstractmethod
@@ -109,26 +109,9 @@ class AnyAsyncDevice(Session):
         """The command, bound to this device."""
         return AsyncCommandHandle(command, self)
 
-    def _lock(self) -> Any:
-        """What lets one task at a time talk to the device: asyncio's locks are bound to one event loop.
-
-        The device may be used in the next loop once the one before is done; raises AccessError where it is not.
-        """
-        import asyncio  # costs more than all of this package, so it is imported where it is needed
-
-        try:
-            loop = asyncio.get_running_loop()
-        except RuntimeError:  # whoever drives the coroutines is no event loop
-            loop = None
-        if self._turn is None or loop is not self._loop:
-            if self._turn is not None and self._turn.locked() and self._loop is not None and self._loop.is_running():
-                raise AccessError("another event loop is talking to the device: use it in one at a time")
-            self._loop, self._turn = loop, asyncio.Lock()
-        return self._turn
-
     async def _run(self, steps: Steps[T]) -> T:
         """Carry out an operation."""
-        async with self._lock():
+        async with self._turns.lock():
             try:
                 request = next(steps)
                 while True:

@@ -9,14 +9,20 @@ from typing import Any
 class FieldscribeError(Exception):
     """Base of all errors of generated devices; `status` is a stable name for programs.
 
-    `point` says which point was asked for, with its code, where it was one; of several that one request reads, which
-    they are. `group` is the group that was read, where it was one, and `needs` another point that had to be read first.
+    `point` says which point was asked for, with its code (`device.point(error.point)` is that point); of several that
+    one request reads, which they are; else the command or the place. `group` is the group that was read, where it was
+    one, and `needs` another point that had to be read first.
     """
 
     status: str = "error"
     group: str | None = None
     point: str | None = None
     needs: str | None = None
+
+    @property
+    def lost(self) -> bool:
+        """Whether the line lost a frame or spoiled it, so that trying again may help: no refusal, and no mistake."""
+        return False
 
     def __str__(self) -> str:
         about = [self.group and f"group {self.group}", self.point, self.needs and f"needs {self.needs}"]
@@ -119,6 +125,9 @@ class RequestError(FieldscribeError, ValueError):
         self.status = status
 
 
+_FINAL = frozenset({"exception", "refused", "no_rights", "echo_mismatch", "wrong_type"})
+
+
 class FrameError(FieldscribeError):
     """The reply is not a good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...).
 
@@ -126,6 +135,11 @@ class FrameError(FieldscribeError):
     """
 
     words: tuple[int, ...] = ()
+
+    @property
+    def lost(self) -> bool:
+        """Whether trying again may help: not if the device refused, and not if a transport gives no bytes."""
+        return self.status not in _FINAL
 
     def __init__(self, status: str, message: str) -> None:
         super().__init__(message)
@@ -174,9 +188,11 @@ class NoReplyError(FieldscribeError, TimeoutError):
     """Nothing came that answers, in time; what was heard last, if it tells why, is the `__cause__`."""
 
     status = "timeout"
+    lost = True
 
 
 class LineError(FieldscribeError, ConnectionError):
     """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more."""
 
     status = "line"
+    lost = True

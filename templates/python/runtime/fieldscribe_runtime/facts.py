@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         variant: NotRequired[tuple[str, str]]
         only_for: NotRequired[tuple[str, tuple[str, ...]]]
         uncertain: NotRequired[bool]
+        conditions: NotRequired[tuple[str, ...]]
         name: NotRequired[str]
 
 
@@ -54,6 +55,11 @@ class Place(Record):
         notation = str if self.space == "parameter" else "0x{:04X}".format
         index = "" if self.index is None else f" index {self.index}"
         return f"{self.space} {', '.join(map(notation, self.addresses))}{index}"
+
+    @property
+    def label(self) -> str:
+        """The place for messages: the first of several words."""
+        return str(self.replaced(addresses=(self.address,)))
 
     @property
     def address(self) -> int:
@@ -141,7 +147,7 @@ class Facts:
     with how many decimals people see its value, if the description says so. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
     `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
-    it too, such as another point or a firmware.
+    it too, such as another point or a firmware. `conditions` name what has to hold before it is written.
     """
 
     at: Place
@@ -160,11 +166,15 @@ class Facts:
     variant: tuple[str, str] | None = None
     only_for: tuple[str, tuple[str, ...]] | None = None
     uncertain: bool = False
+    conditions: tuple[str, ...] = ()
     name: str = ""
     item: str = ""
 
     def __init__(self, **facts: Unpack[FactArguments]) -> None:
         self.__dict__.update(facts)
+
+    def __repr__(self) -> str:
+        return f"Facts({', '.join([f'{name}={value!r}' for name, value in self.__dict__.items()])})"
 
     @property
     def where(self) -> str:

@@ -36,6 +36,8 @@ _KEPT = frozenset({_NEVER, "rarely"})
 class Session(NamedPoints, ABC):
     """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
 
+    unit: int
+
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         check_variants(self.VARIANTS, variants)
         self.unit = unit

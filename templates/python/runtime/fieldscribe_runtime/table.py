@@ -42,6 +42,11 @@ def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
     return left and (variant is None or variants.get(variant[0]) == variant[1])
 
 
+def _declares(kind: type, name: str) -> bool:
+    """Whether a class says that its objects have such an attribute."""
+    return name in getattr(kind, "__annotations__", ())
+
+
 class PointTable:
     """A device's points, with what its bus needs to know."""
 
@@ -68,6 +73,16 @@ class PointTable:
                 message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
             )
 
+        def __setattr__(self, name: str, value: object) -> None:
+            """Refuse what the class does not know: a misspelt point that is assigned to would pass without a word."""
+            if name[:1] != "_" and not any(name in vars(kind) or _declares(kind, name) for kind in type(self).__mro__):
+                near = nearest(self.POINTS.values(), name)
+                own = f"an attribute of your own is declared in your class, as in `{name}: object`"
+                meant = f"did you mean {' or '.join(near)}? Use its write method" if near else own
+                text = f"{type(self).__name__!r} object has no attribute {name!r}: {meant}"
+                raise AttributeError(text, name=name, obj=self)
+            super().__setattr__(name, value)
+
     def __init_subclass__(cls) -> None:
         points = [point for point in vars(cls).values() if isinstance(point, PointAttribute)]
         cls.POINTS = {**cls.POINTS, **{point.facts.item: point for point in points}}
@@ -87,7 +102,7 @@ class NamedPoints(PointTable):
         if (old := self.OLD_NAMES.get(what)) is not None:
             old.warn(stacklevel=4)
             name = old.new_name.rstrip("_")
-        found = self._found(name)
+        found = self._found(name) or self._labelled(name)
         if found is not None:
             return found
         coded = find(self.POINTS.values(), what)
@@ -102,6 +117,12 @@ class NamedPoints(PointTable):
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
         """The points of that name, one for each variant that has its own."""
         return [point for point in self.POINTS.values() if point.facts.name == name]
+
+    def _labelled(self, label: str) -> PointAttribute[Any, Any] | None:
+        """The point that errors call so, by code and name."""
+        code, _, name = label.rpartition(" ")
+        found = self._found(name) if code else None
+        return found if found is not None and found.label == label else None
 
     def _found(self, name: str) -> PointAttribute[Any, Any] | None:
         return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)

@@ -157,7 +157,7 @@ class WithWritableCodes(_Coded[R, W | Special]):
     def converted(self, value: W | Special, raws: Raws) -> int | None:
         """As in the form, or the raw number of a special code; raises UnknownValueError for one of another point."""
         if isinstance(value, str):
-            raise WrongTypeError(f"takes a number or a special code, as in special.name, not {value!r}")
+            raise WrongTypeError(self.codes.not_a_text(value))
         if not isinstance(value, Special):
             return super().converted(value, raws)
         if self.codes(value.raw) != value:

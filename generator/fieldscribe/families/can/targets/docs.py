@@ -8,7 +8,7 @@ from fieldscribe.families.can.facts import of_bus
 from fieldscribe.targets.docs.bus import span
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Bus, Code
 
@@ -21,6 +21,12 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     if own.identifier_bits is not None:
         yield "Identifier", f"{own.identifier_bits} bits"
     yield "Unit numbers", span(bus.units)
+
+
+def numbers(space: str, address: int) -> Mapping[str, int]:
+    """The numbers that people use for an address, whatever the manual prints."""
+    del space, address  # an address is a number for people already
+    return {}
 
 
 def goes_to_all(function: Code) -> bool:

@@ -11,9 +11,12 @@ from fieldscribe.targets.docs.cells import cell
 from fieldscribe.wording import address_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Bus, Code
+
+_DIGITS = {"discrete": 1, "input": 3, "holding": 4}
+"""The first digit of traditional references; that of coils is 0, which leaves the number as it is."""
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
@@ -27,6 +30,12 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     for space, gaps in bus.gaps.items():
         spans = ", ".join(f"{address_text(low)} to {address_text(high)}" for low, high in gaps)
         yield cell(f"No request may cross ({space})"), spans
+
+
+def numbers(space: str, address: int) -> Mapping[str, int]:
+    """The numbers of an address as PLC and panel tools count: from 1, and with the digit of the space before it."""
+    modicon = {"modicon": address + 1}
+    return modicon if space == "coil" else {**modicon, "reference": _DIGITS[space] * 100000 + address + 1}
 
 
 def goes_to_all(function: Code) -> bool:

@@ -11,7 +11,7 @@ from fieldscribe.targets.docs.cells import cell
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Bus, Code
 
@@ -25,6 +25,12 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in own.pkw)
     yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
     yield "Words of process data (PZD)", span(own.pzd)
+
+
+def numbers(space: str, address: int) -> Mapping[str, int]:
+    """The numbers that people use for an address, whatever the manual prints."""
+    del space, address  # an address is a number for people already
+    return {}
 
 
 def goes_to_all(function: Code) -> bool:

@@ -61,8 +61,17 @@ def _maker(point: Point) -> str:
     return _STORED.get(usual, usual) if stored else usual
 
 
-def _line(_: Device) -> Line:
-    return Line("serial", 'UssLine("/dev/ttyUSB0", 9600)', 'AsyncSerialLine(UssLine("/dev/ttyUSB0", 9600))')
+def _line(device: Device) -> Line:
+    own = of_bus(device.bus)
+    pkw = own.pkw[0] if own.pkw and 4 not in own.pkw else 4  # a bus with errors may have none
+    pzd = min(max(2, own.pzd[0]), own.pzd[1])
+    return Line(
+        "serial",
+        'UssLine("/dev/ttyUSB0", 9600)',
+        'AsyncSerialLine(UssLine("/dev/ttyUSB0", 9600))',
+        first=(f"from {RUNTIME}.uss import Link",),
+        settings=(f"Link(pkw={pkw}, pzd={pzd})",),
+    )
 
 
 IN_PYTHON = PythonFamily(

@@ -60,20 +60,39 @@ class AsyncWaitingCanTransport(AsyncCanTransport, Protocol):
         """The next frame that is there already; None at once when there is none. It does not wait: it is not async."""
 
 
+@runtime_checkable
+class SharedCanTransport(CanTransport, Protocol):
+    """A transport that several devices share, each with its own view of it."""
+
+    def listener(self) -> CanTransport:
+        """A transport over the same bus which hears every frame, whatever the others receive."""
+
+
+@runtime_checkable
+class AsyncSharedCanTransport(AsyncCanTransport, Protocol):
+    """The same for async devices."""
+
+    def listener(self) -> AsyncCanTransport:
+        """A transport over the same bus which hears every frame, whatever the others receive."""
+
+
 class CanDevice(CanSession, AnyDevice):
     """A device on a CAN bus."""
+
+    transport: CanTransport
 
     def __init__(self, transport: CanTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
         check_transport(transport, **_PARTS)
         super().__init__(unit, variants or {})
         self.transport = transport
+        self._line: CanTransport = transport.listener() if isinstance(transport, SharedCanTransport) else transport
 
     def _carry(self, request: Frame | Wanted) -> Frame | None:
         if request is Wanted.NEXT:
-            return self.transport.receive()
+            return self._line.receive()
         if isinstance(request, Wanted):
-            return self.transport.receive_waiting() if isinstance(self.transport, WaitingCanTransport) else None
-        self.transport.send(request)
+            return self._line.receive_waiting() if isinstance(self._line, WaitingCanTransport) else None
+        self._line.send(request)
         return None
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
@@ -88,19 +107,24 @@ class CanDevice(CanSession, AnyDevice):
 class AsyncCanDevice(CanSession, AnyAsyncDevice):
     """A device on a CAN bus, asynchronously."""
 
+    transport: AsyncCanTransport
+
     def __init__(
         self, transport: AsyncCanTransport, unit: int, variants: Mapping[str, str | None] | None = None
     ) -> None:
         check_transport(transport, **_PARTS)
         super().__init__(unit, variants or {})
         self.transport = transport
+        self._line: AsyncCanTransport = (
+            transport.listener() if isinstance(transport, AsyncSharedCanTransport) else transport
+        )
 
     async def _carry(self, request: Frame | Wanted) -> Frame | None:
         if request is Wanted.NEXT:
-            return await awaited(self.transport, self.transport.receive())
+            return await awaited(self.transport, self._line.receive())
         if isinstance(request, Wanted):
-            return self.transport.receive_waiting() if isinstance(self.transport, AsyncWaitingCanTransport) else None
-        await awaited(self.transport, self.transport.send(request))
+            return self._line.receive_waiting() if isinstance(self._line, AsyncWaitingCanTransport) else None
+        await awaited(self.transport, self._line.send(request))
         return None
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:

@@ -8,7 +8,8 @@ from collections.abc import Generator, Mapping, Sequence
 from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..arguments import check_name, check_place, check_words, shown
+from ..about import about_place
+from ..arguments import check_name, check_place, check_values, check_words, shown
 from ..errors import (
     EchoError,
     FrameError,
@@ -166,13 +167,17 @@ class CanSession(Session):
 
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
         """Read by address; raises RequestError for what is no place."""
-        return (yield from self._get_steps(self._place(space, address, count)))
+        place = self._place(space, address, count)
+        with about_place(place):
+            return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
         """Write by address; raises RequestError for what is no place, or no words."""
+        check_values(values)
         place = self._place(space, address, len(values))
         check_words("bad_value", "values", values)
-        yield from self._put_steps(place, values)
+        with about_place(place):
+            yield from self._put_steps(place, values)
 
     def _place(self, space: str, address: int, count: int) -> Place:
         """Parameters by address, or words of the telegram of that name."""

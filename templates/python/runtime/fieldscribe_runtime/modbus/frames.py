@@ -24,6 +24,8 @@ WRITES = SINGLE_WRITES | BLOCK_WRITES
 ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 
 RTU, TCP = "rtu", "tcp"
+PDU = "pdu"
+"""Unit and request as they are, for transports that frame them as they like."""
 _FRAMINGS = (RTU, TCP)
 
 
@@ -83,8 +85,15 @@ def crc(data: bytes) -> int:
 
 def check_framing(framing: str, profile: Profile) -> None:
     """Raises RequestError (bad_framing) if the device does not frame its telegrams so."""
-    if framing not in profile.framings:
-        raise RequestError("bad_framing", f"the device speaks {' and '.join(profile.framings)}, not {shown(framing)}")
+    if framing in (*profile.framings, PDU):
+        return
+    hint = ""
+    if framing in _FRAMINGS:
+        spoken = profile.framings[0]
+        subclass = f"a subclass with PROFILE = Device.PROFILE.replaced(framings=({framing!r},))"
+        hint = f"; take a line with framing={spoken!r}, or where a gateway translates {subclass}"
+    text = f"the device speaks {' and '.join(profile.framings)}, not {shown(framing)}{hint}"
+    raise RequestError("bad_framing", text)
 
 
 def _check_kinds(request: Request) -> None:
@@ -160,7 +169,7 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
         check_integer("bad_transaction", "transaction", transaction)
         return _words(transaction & 0xFFFF, 0, len(pdu) + 1) + bytes([request.unit]) + pdu
     frame = bytes([request.unit]) + pdu
-    return frame + crc(frame).to_bytes(2, "little")
+    return frame if framing == PDU else frame + crc(frame).to_bytes(2, "little")
 
 
 def reply_size(received: bytes, framing: str = RTU) -> int | None:
@@ -214,6 +223,8 @@ def parse(
     """
     check_framing(framing, profile)
     check_bytes(reply)
+    if framing == PDU:
+        reply = bytes(reply) + crc(reply).to_bytes(2, "little")  # as if it had come with a CRC
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
         raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))

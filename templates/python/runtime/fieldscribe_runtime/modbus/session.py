@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import ClassVar, TypeVar
 
-from ..about import about
-from ..arguments import check_name, check_place
+from ..about import about, about_place
+from ..arguments import check_name, check_place, check_values
 from ..bits import BitLayout
 from ..errors import AccessError, NoReplyError, RequestError
 from ..facts import Place
@@ -77,12 +77,17 @@ class ModbusSession(Session):
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
         """Read by address; raises RequestError for what is no place."""
         check_place(space, address, count)
-        return (yield from self._ask(read_function(Place(space, (address,))), address, count))
+        place = Place(space, (address,))
+        with about_place(place):
+            return (yield from self._ask(read_function(place), address, count))
 
     def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
         """Write by address; raises RequestError for what is no place."""
+        check_values(values)
         check_place(space, address, len(values))
-        yield from self._put_steps(Place(space, tuple(range(address, address + len(values)))), values)
+        place = Place(space, tuple(range(address, address + len(values))))
+        with about_place(place):
+            yield from self._put_steps(place, values)
 
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place."""

@@ -1,33 +1,44 @@
 # SPDX-License-Identifier: 0BSD
 """A CAN bus, by python-can.
 
-import can
-from fieldscribe_runtime.transports.can import CanLine
+    import can
+    from fieldscribe_runtime.transports.can import CanLine
 
-with CanLine(can.Bus("can0", interface="socketcan")) as line:
-genset = WoodwardMpu2s(line, unit=1)
+    with CanLine(can.Bus("can0", interface="socketcan")) as line:
+        genset = WoodwardMpu2s(line, unit=1)
+
+Several devices, in threads or tasks of their own, may share a line: each hears every frame of the bus, and so does a
+program that calls `receive` itself.
 """
 
 from __future__ import annotations
 
 import asyncio
+import threading
 import time
+from collections import deque
 from contextlib import suppress
 from typing import TYPE_CHECKING
+from weakref import WeakSet
 
 from ..can.frames import Frame
 from ..errors import LineError
+from . import checks
 
 try:
     import can
 except ModuleNotFoundError as missing:
-    hint = 'this needs python-can: pip install "fieldscribe-runtime[can]"'
+    hint = "this needs python-can: pip install python-can"
     raise ModuleNotFoundError(hint, name=missing.name) from None
 
 if TYPE_CHECKING:
     from typing import Self
 
 _PLAIN_BITS = 11
+_LATE = 64
+"""So many messages are taken off the bus when time is over: a flood of such that are no frames ends, too."""
+_KEPT = 4096
+"""So many frames are kept for who does not ask; the oldest are dropped."""
 
 
 def _message(frame: Frame) -> can.Message:
@@ -42,11 +53,54 @@ def _frame(message: can.Message) -> Frame | None:
     return Frame(message.arbitration_id, bytes(message.data))
 
 
+def _checked(bus: can.BusABC) -> can.BusABC:
+    takes = 'one of python-can, as in can.Bus("can0", interface="socketcan")'
+    checks.object_with("the bus", takes, bus, "send", "recv", "shutdown")
+    return bus
+
+
+class Listener:
+    """Who hears all frames of a `CanLine`: what a device makes of it for its own use."""
+
+    def __init__(self, line: CanLine) -> None:
+        self._line = line
+        self.frames: deque[Frame] = deque(maxlen=_KEPT)
+
+    def send(self, frame: Frame) -> None:
+        """Send a frame; raises LineError."""
+        self._line.send(frame)
+
+    def receive(self) -> Frame:
+        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        frame = self._line.next_of(self.frames, self._line.timeout)
+        if frame is None:
+            raise TimeoutError("no frame came")
+        return frame
+
+    def receive_waiting(self) -> Frame | None:
+        """The next frame that has come already; None when there is none."""
+        return self._line.next_of(self.frames, 0)
+
+
 class CanLine:
-    """A bus for devices; leaving the context shuts it down."""
+    """A bus for devices; leaving the context shuts it down. A frame has `timeout` seconds to come."""
 
     def __init__(self, bus: can.BusABC, *, timeout: float = 1.0) -> None:
-        self.bus, self.timeout = bus, timeout
+        self.bus, self.timeout = _checked(bus), checks.seconds(timeout)
+        self._listeners: WeakSet[Listener] = WeakSet()
+        self._own: Listener | None = None
+        self._turn = threading.Condition()
+        self._is_heard = False
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.bus}>"
+
+    def listener(self) -> Listener:
+        """One more that hears every frame from now on, and sends."""
+        made = Listener(self)
+        with self._turn:
+            self._listeners.add(made)
+        return made
 
     def send(self, frame: Frame) -> None:
         """Send a frame; raises LineError."""
@@ -57,25 +111,51 @@ class CanLine:
 
     def receive(self) -> Frame:
         """The next data frame, whoever sent it; raises TimeoutError and LineError."""
-        until = time.monotonic() + self.timeout
-        while (left := until - time.monotonic()) > 0:
-            frame = self._next(left)
-            if frame is not None:
-                return frame
-        raise TimeoutError("no frame came")
+        return self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
         """The next frame that has come already; None when there is none."""
-        return self._next(0)
+        return self._listening().receive_waiting()
 
-    def _next(self, timeout: float) -> Frame | None:
+    def _listening(self) -> Listener:
+        if self._own is None:
+            self._own = self.listener()
+        return self._own
+
+    def next_of(self, frames: deque[Frame], timeout: float) -> Frame | None:
+        """The next frame of a listener; None when none comes in time."""
+        until, late = time.monotonic() + timeout, 0
+        with self._turn:
+            while not frames:
+                left = until - time.monotonic()
+                late += left <= 0
+                if not self._is_heard:
+                    if not self._hear(max(0.0, left)) and left <= 0:
+                        return None
+                    if late > _LATE:
+                        return frames.popleft() if frames else None
+                elif left <= 0:
+                    return None
+                else:
+                    self._turn.wait(left)
+            return frames.popleft()
+
+    def _hear(self, timeout: float) -> bool:
+        """Hear one message for all listeners, while other threads wait for it or send; whether one came."""
+        self._is_heard = True
+        self._turn.release()
         try:
             message = self.bus.recv(timeout)
-            while message is not None and (frame := _frame(message)) is None:
-                message = self.bus.recv(0)
         except (can.CanError, OSError) as error:
             raise LineError(f"{self.bus}: {error}") from error
-        return None if message is None else frame
+        finally:
+            self._turn.acquire()
+            self._is_heard = False
+            self._turn.notify_all()
+        if message is not None and (frame := _frame(message)) is not None:
+            for listener in self._listeners:
+                listener.frames.append(frame)
+        return message is not None
 
     def close(self) -> None:
         """Shut the bus down."""
@@ -88,13 +168,51 @@ class CanLine:
         self.close()
 
 
+class AsyncListener:
+    """Who hears all frames of an `AsyncCanLine`: what an async device makes of it for its own use."""
+
+    def __init__(self, line: AsyncCanLine) -> None:
+        self._line = line
+        self._frames: asyncio.Queue[Frame] = asyncio.Queue(_KEPT)
+
+    def keep(self, frame: Frame) -> None:
+        """A frame came."""
+        if self._frames.full():
+            self._frames.get_nowait()
+        self._frames.put_nowait(frame)
+
+    async def send(self, frame: Frame) -> None:
+        """Send a frame; raises LineError."""
+        await self._line.send(frame)
+
+    async def receive(self) -> Frame:
+        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        self._line.check()
+        try:
+            async with asyncio.timeout(self._line.timeout):
+                return await self._frames.get()
+        except TimeoutError:
+            self._line.check()
+            raise
+
+    def receive_waiting(self) -> Frame | None:
+        """The next frame that has come already; None when there is none."""
+        with suppress(asyncio.QueueEmpty):
+            return self._frames.get_nowait()
+        return None
+
+
 class AsyncCanLine:
     """A bus for async devices: `async with AsyncCanLine(bus) as line`."""
 
     def __init__(self, bus: can.BusABC, *, timeout: float = 1.0) -> None:
-        self.bus, self.timeout = bus, timeout
-        self._frames: asyncio.Queue[Frame] = asyncio.Queue()
+        self.bus, self.timeout = _checked(bus), checks.seconds(timeout)
+        self._listeners: WeakSet[AsyncListener] = WeakSet()
+        self._own: AsyncListener | None = None
         self._notifier: can.Notifier | None = None
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.bus}>"
 
     async def __aenter__(self) -> Self:
         self._notifier = can.Notifier(self.bus, [self._keep], loop=asyncio.get_running_loop())
@@ -106,9 +224,22 @@ class AsyncCanLine:
         self.bus.shutdown()
 
     def _keep(self, message: can.Message) -> None:
-        frame = _frame(message)
-        if frame is not None:
-            self._frames.put_nowait(frame)
+        if (frame := _frame(message)) is not None:
+            for listener in self._listeners:
+                listener.keep(frame)
+
+    def check(self) -> None:
+        """Raises LineError unless the bus is heard."""
+        if self._notifier is None:
+            raise LineError("nobody listens yet: use it as `async with AsyncCanLine(bus) as line`")
+        if self._notifier.exception is not None:
+            raise LineError(f"{self.bus}: {self._notifier.exception}") from self._notifier.exception
+
+    def listener(self) -> AsyncListener:
+        """One more that hears every frame from now on, and sends."""
+        made = AsyncListener(self)
+        self._listeners.add(made)
+        return made
 
     async def send(self, frame: Frame) -> None:
         """Send a frame; raises LineError."""
@@ -118,14 +249,14 @@ class AsyncCanLine:
             raise LineError(f"{self.bus}: {error}") from error
 
     async def receive(self) -> Frame:
-        """The next data frame, whoever sent it; raises TimeoutError."""
-        if self._notifier is None:
-            raise LineError("nobody listens yet: use it as `async with AsyncCanLine(bus) as line`")
-        async with asyncio.timeout(self.timeout):
-            return await self._frames.get()
+        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        return await self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
         """The next frame that has come already; None when there is none."""
-        with suppress(asyncio.QueueEmpty):
-            return self._frames.get_nowait()
-        return None
+        return self._listening().receive_waiting()
+
+    def _listening(self) -> AsyncListener:
+        if self._own is None:
+            self._own = self.listener()
+        return self._own

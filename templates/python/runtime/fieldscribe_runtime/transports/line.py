@@ -12,12 +12,11 @@ from ..errors import FrameError, LineError
 from ..modbus import frames as modbus
 from ..receiving import whole
 from ..uss import frames as uss
+from ..uss.frames import USS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Self
-
-USS = "uss"
 
 
 def size_of_reply(framing: str) -> Callable[[bytes], int | None]:
@@ -50,7 +49,7 @@ class Line(ABC):
         """Give the line back; the next exchange opens it again."""
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self}>"
+        return f"<{type(self).__name__} {self}, {self.framing}>"
 
     def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""

@@ -1,49 +1,109 @@
 # SPDX-License-Identifier: 0BSD
 """A Modbus device, or a gateway to several, in a network: a plain socket, nothing to install.
 
-from fieldscribe_runtime.transports.tcp import TcpLine
+    from fieldscribe_runtime.transports.tcp import TcpLine
 
-with TcpLine("192.168.0.20") as line:
-drive = HitachiL200(line, unit=1)
+    with TcpLine("192.168.0.20") as line:
+        drive = HitachiL200(line, unit=1)
+
+What came before a request is dropped, and after a failure the line connects anew: a reply that comes late or twice is
+not taken for the next one.
 """
 
 from __future__ import annotations
 
 import asyncio
 import socket
+import time
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ..errors import LineError
 from ..modbus.frames import TCP
+from ..turns import Turns
+from . import checks
 from .line import Line, size_of_reply
 
 if TYPE_CHECKING:
     from typing import Self
 
 MODBUS_PORT = 502
+_OLD = 16
+"""So many pieces of old bytes are read before a connection is given up."""
 _CLOSED = "the other side closed the connection"
 
 
-class TcpLine(Line):
-    """Connects when it is used first, and anew after a failure. `framing="rtu"` is for RTU frames over TCP."""
+class _Connection:
+    """Where a line leads, and the socket while it is open."""
 
-    def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
-        super().__init__(framing)
-        self.host, self.port, self.timeout = host, port, timeout
-        self._socket: socket.socket | None = None
+    def __init__(self, host: str, port: int, timeout: float) -> None:
+        takes = "a name or an address such as '192.168.0.20'"
+        self.host = checks.text("the host", takes, host)
+        if host.count(":") == 1:
+            checks.refuse("the host", f"{takes}, and the port another argument", host)
+        self.port = checks.number("the port", port, (1, 65535))
+        self.timeout = checks.seconds(timeout)
+        self.socket: socket.socket | None = None
 
     def __str__(self) -> str:
         return f"{self.host}:{self.port}"
 
+    def drop_old(self) -> None:
+        """Drop what has come already; a connection that the other side has closed is opened anew."""
+        if self.socket is None:
+            return
+        self.socket.setblocking(False)
+        with suppress(BlockingIOError):
+            with suppress(ConnectionError):
+                for _ in range(_OLD):
+                    if not self.socket.recv(4096):
+                        break
+            self.close()  # the other side has closed it, or floods it
+
+    def opened(self, made: socket.socket) -> socket.socket:
+        """Keep a socket that is connected."""
+        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.socket = made
+        return made
+
+    def close(self) -> None:
+        """Close the connection."""
+        if self.socket is not None:
+            self.socket.close()
+            self.socket = None
+
+
+class TcpLine(Line):
+    """Connects when it is used first, and anew after a failure. `framing="rtu"` is for RTU frames over TCP.
+
+    The whole exchange has `timeout` seconds.
+    """
+
+    def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
+        super().__init__(framing)
+        self._connection = _Connection(host, port, timeout)
+        self._until = 0.0
+
+    def __str__(self) -> str:
+        return str(self._connection)
+
     def _send(self, request: bytes) -> None:
-        if self._socket is None:
-            self._socket = socket.create_connection((self.host, self.port), self.timeout)
-            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        self._socket.sendall(request)
+        connection = self._connection
+        connection.drop_old()
+        if connection.socket is None:
+            connection.opened(socket.create_connection((connection.host, connection.port), connection.timeout))
+        assert connection.socket is not None
+        self._until = time.monotonic() + connection.timeout
+        connection.socket.settimeout(connection.timeout)
+        connection.socket.sendall(request)
 
     def _read(self, most: int) -> bytes:
-        assert self._socket is not None
-        received = self._socket.recv(most)
+        assert self._connection.socket is not None
+        left = self._until - time.monotonic()
+        if left <= 0:
+            return b""
+        self._connection.socket.settimeout(left)
+        received = self._connection.socket.recv(most)
         if not received:
             raise ConnectionError(_CLOSED)
         return received
@@ -52,58 +112,72 @@ class TcpLine(Line):
         self.close()  # an answer that comes too late comes to nobody
 
     def close(self) -> None:
-        """Close the connection."""
-        if self._socket is not None:
-            self._socket.close()
-            self._socket = None
+        """Close the connection; the next exchange opens it again."""
+        self._connection.close()
 
 
 class AsyncTcpLine:
-    """The same for async devices."""
+    """The same for async devices, in one event loop after the other; the whole exchange has `timeout` seconds."""
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
-        self.host, self.port, self.framing, self.timeout = host, port, framing, timeout
+        self.framing = framing
         self._size = size_of_reply(framing)
-        self._turn = asyncio.Lock()
-        self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
+        self._connection = _Connection(host, port, timeout)
+        self._turns = Turns("the line")
 
     def __repr__(self) -> str:
-        return f"<AsyncTcpLine {self.host}:{self.port}>"
+        return f"<{type(self).__name__} {self._connection}, {self.framing}>"
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
-        async with self._turn:
+        async with self._turns.lock():
             try:
-                async with asyncio.timeout(self.timeout):
+                async with asyncio.timeout(self._connection.timeout):
                     return await self._exchanged(request)
             except OSError as error:
                 self.close()
                 if isinstance(error, TimeoutError):
                     raise
-                raise LineError(f"{self.host}:{self.port}: {error.strerror or error}") from error
+                raise LineError(f"{self._connection}: {error.strerror or error}") from error
             except BaseException:
                 self.close()  # also when the task is cancelled: the answer must not come to the next one
                 raise
 
     async def _exchanged(self, request: bytes) -> bytes:
-        if self._streams is None:
-            self._streams = await asyncio.open_connection(self.host, self.port)
-        reader, writer = self._streams
-        writer.write(request)
-        await writer.drain()
+        loop = asyncio.get_running_loop()
+        self._connection.drop_old()
+        line = self._connection.socket or await self._connected()
+        await loop.sock_sendall(line, request)
         received = b""
         while (size := self._size(received)) is None or len(received) < size:
-            more = await reader.read(1 if size is None else size - len(received))
+            more = await loop.sock_recv(line, 1 if size is None else size - len(received))
             if not more:
                 raise ConnectionError(_CLOSED)
             received += more
         return received
 
+    async def _connected(self) -> socket.socket:
+        """A connection to the first address of the host that answers."""
+        loop, to = asyncio.get_running_loop(), self._connection
+        failure = OSError("the host has no address")
+        for family, kind, protocol, _, address in await loop.getaddrinfo(to.host, to.port, type=socket.SOCK_STREAM):
+            made = socket.socket(family, kind, protocol)
+            made.setblocking(False)
+            try:
+                await loop.sock_connect(made, address)
+            except OSError as error:
+                made.close()
+                failure = error
+            except BaseException:
+                made.close()
+                raise
+            else:
+                return to.opened(made)
+        raise failure
+
     def close(self) -> None:
         """Close the connection; the next exchange opens it again."""
-        if self._streams is not None:
-            self._streams[1].close()
-            self._streams = None
+        self._connection.close()
 
     async def __aenter__(self) -> Self:
         return self
