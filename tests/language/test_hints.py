@@ -214,6 +214,8 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
         ("sets: 4", "missing-key", "`sets: {2: {at: …}}`"),
         ("title: {english: X}", "unknown-key", "write `en`"),
+        ("values: {0: off, 1: on}", "unknown-key", "did you mean `enum`?"),
+        ("values: 0..4", "unknown-key", "did you mean `range`?"),
         (
             "keeps: choice",
             "wrong-choice",

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncClient, AsyncTransport, Client, ClientError, LocalClient, LocalTransport, Transport};
-use fieldscribe_runtime::modbus::{crc, reply_length, BuildError, Framing, Profile, ReplyError, Request};
+use fieldscribe_runtime::modbus::{crc, reply_length, About, BuildError, Framing, Profile, ReplyError, Request};
 use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, Error, PointInfo, Readable, POINTS, PROFILE};
 
 /// Requests that came, and replies to give, as hexadecimal PDUs behind the unit.
@@ -107,7 +107,7 @@ fn reads_and_writes(framing: Framing) {
     assert_eq!(client.update::<points::DelayClass>(3), Ok(()));
     let refused = client.read::<points::BaseFrequency>().unwrap_err();
     let (code, name) = (exceptions::VALUE_OUT_OF_RANGE, Some("value_out_of_range"));
-    assert_eq!(refused, ClientError::Reply(ReplyError::Exception { code, name }, Some("base_frequency")));
+    assert_eq!(refused, ClientError::Reply(ReplyError::Exception { code, name }, Some(About::Point("base_frequency"))));
     assert_eq!(refused.to_string(), "base_frequency: the device refused with exception 21h (value_out_of_range)");
     assert_eq!(refused.point(), Some("base_frequency"));
     let far = client.write::<points::BaseFrequency>(401.0).unwrap_err();
@@ -118,7 +118,7 @@ fn reads_and_writes(framing: Framing) {
     assert_eq!(points::AccelerationTime::decode(raw), 808_714.25);
     assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::NotBrought(Some("base_frequency"))));
     assert_eq!(reply.value::<points::AccelerationTime>(), Ok(808_714.25));
-    assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came", Some("base_frequency"))));
+    assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came", Some(About::Point("base_frequency")))));
     let sent = client.into_transport().sent;
     assert_eq!(sent[1..3], ["0106102801f4", "010320080001"]);
     assert_eq!(sent[4..6], ["010320120001", "01062012ffff"]);
@@ -153,7 +153,7 @@ fn a_gateway_speaks_another_framing() {
     static BEHIND_GATEWAY: Profile = RTU.with_framings(&[Framing::Tcp]);
     let line = || Line::new(Framing::Tcp, &["01030201f4"]);
     let mut client = Client::new(line(), &RTU, Framing::Tcp, 1);
-    let refused = Err(ClientError::Build(BuildError::BadFraming, Some("base_frequency")));
+    let refused = Err(ClientError::Build(BuildError::BadFraming, Some(About::Point("base_frequency"))));
     assert_eq!(client.read::<points::BaseFrequency>(), refused);
     let mut client = Client::new(line(), &BEHIND_GATEWAY, Framing::Tcp, 1);
     assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
@@ -172,8 +172,8 @@ fn errors_say_all_once_and_name_the_point() {
     let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 1);
     let error = client.write::<points::BaseFrequency>(f64::NAN).unwrap_err();
     assert_eq!(error.to_string(), "base_frequency: the value is not a number");
-    let error: ClientError<std::io::Error> = Error::Special("level").into();
-    assert_eq!(error.to_string(), "level: the raw number is a special code and no quantity");
+    let error: ClientError<std::io::Error> = Error::NotANumber("level").into();
+    assert_eq!(error.to_string(), "level: the value is not a number");
     assert!(std::error::Error::source(&error).is_none());
     assert_eq!(enums::FrequencySource::Unknown(999).to_string(), "999");
     assert_eq!(enums::FrequencySource::from(1).to_string(), enums::FrequencySource::from(1).name().unwrap());
@@ -184,7 +184,7 @@ fn all_units_get_a_write_and_none_answers() {
     assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
     assert!(client.exchange(Request::command(0, &commands::ENTER)).unwrap().is_none());
     let none = client.read::<points::BaseFrequency>().unwrap_err();
-    assert_eq!(none, ClientError::Build(BuildError::NotForAll, Some("base_frequency")));
+    assert_eq!(none, ClientError::Build(BuildError::NotForAll, Some(About::Point("base_frequency"))));
     assert_eq!(none.to_string(), "base_frequency: this cannot be sent to all units");
     assert_eq!(client.into_transport().sent, ["0006102801f4", "000609000001"]);
 }

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 @contextmanager
 def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7) -> Iterator[int]:
-    """A server of pymodbus in a thread of its own, with that number in each register; its port."""
+    """A server of pymodbus in a thread of its own, of units 1 and 2, with that number in each register; its port."""
     words = [SimData(0, count=0x1400, values=word, datatype=DataType.REGISTERS)]
     bits = [SimData(0, count=64, values=False, datatype=DataType.BITS)]
-    device = SimDevice(id=1, simdata=(bits, bits, words, words))
+    devices = [SimDevice(id=unit, simdata=(bits, bits, words, words)) for unit in (1, 2)]
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -30,7 +30,7 @@ def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7) -> Iterator
     made: list[ModbusTcpServer] = []
 
     async def serve() -> None:
-        made.append(ModbusTcpServer(device, framer=framer, address=("127.0.0.1", port)))
+        made.append(ModbusTcpServer(devices, framer=framer, address=("127.0.0.1", port)))
         await made[0].serve_forever(background=True)
         ready.set()
 

@@ -84,6 +84,8 @@ def meant_key(key: str, value: Any, known: Collection[str]) -> str | None:
         return _GROUP
     if "group" in known and key in keys_of(DEVICE):
         return "this stands in the head of device.yaml, its first document"
+    if ours == "range" and isinstance(value, dict) and "enum" in known:
+        return "did you mean `enum`?"  # such as `values: {0: off}`
     if ours not in known:
         return _of_an_entry(key, known)
     if hint in ("*", "/"):

@@ -151,20 +151,25 @@ def test_transports(project: Path, name: str) -> None:
 def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     programs = sorted((project.parent / "built").glob("page_??"))
     assert len(programs) == len(BLOCKS["rust"])
-    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp, serial_line(rtu) as path:
-        for variable, value in (("RTU", f"127.0.0.1:{rtu}"), ("TCP", f"127.0.0.1:{tcp}"), ("TTY", path)):
-            monkeypatch.setenv(variable, value)
-        printed = [succeed([place]).splitlines() for place in programs]
-    first, serial, gateway, own, tokio, many, values, by_address, by_name, failing, uart, genset = printed
-    assert first == serial == ["0.1 Hz"]
+    printed = []
+    with server(FramerType.RTU, word=1) as rtu, server(word=1) as tcp:
+        monkeypatch.setenv("RTU", f"127.0.0.1:{rtu}")
+        monkeypatch.setenv("TCP", f"127.0.0.1:{tcp}")
+        for place in programs:
+            with serial_line(rtu) as path:  # programs keep a port to themselves
+                monkeypatch.setenv("TTY", path)
+                printed.append(succeed([place]).splitlines())
+    first, serial, gateway, shared, own, tokio, anew, many, values, by_address, by_name, failing, uart, genset = printed
+    assert first == serial == anew == ["0.1 Hz"]
+    assert shared == ["0.1", "0.1"]
     assert gateway == tokio == ["0.1"]
     assert own == ["> [01, 03, 10, 01, 00, 01, D1, 0A]", "0.1"]
     assert many == ["0.1 Hz", "0.1 A"]
-    assert values == ["Modbus 500", "50 Ok(500)", "500", "inactive"]
+    assert values == ["Modbus 500", "50 Ok(500)", "500", "inactive", "None"]
     assert by_address == ["Some(500)"]
     assert by_name == ["base_frequency at 1028h in Hz"]
     assert failing[0] == "0.1"
-    assert failing[1].startswith("base_frequency: ")
+    assert f"// {failing[1]}\n" in PAGE
     assert failing[2].endswith(" A")
     assert uart == ["Ok(0.7)"]
     assert genset == ["49.98 Hz", "Ok(())"]
@@ -251,6 +256,8 @@ def test_a_description_is_compiled_on_build(tmp_path: Path, monkeypatch: pytest.
     refused = check()
     assert refused.returncode != 0
     assert "fieldscribe did not compile the description" in refused.stderr
+    monkeypatch.setenv("FIELDSCRIBE", "no_such_program")
+    assert "is fieldscribe on PATH, or in FIELDSCRIBE?" in check().stderr
 
 
 def test_the_page_says_what_is_vendored() -> None:

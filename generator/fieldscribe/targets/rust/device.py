@@ -94,7 +94,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "description_toml": toml_string(f"{device.vendor} {device.model}: points, exact conversions and frames"),
         "title_markdown": markdown(f"{device.vendor} {device.model}"),
         "transports": of_family.transports,
-        "first_program": first_program(device.id, scope, of_family, str(family_context["example_link"])),
+        "first_program": first_program(device, scope, of_family, str(family_context["example_link"])),
         "family": device.family,
         **family_context,
     }

@@ -41,20 +41,21 @@ def example_of(device: Device, scope: CrateScope) -> Snippet:
     return first + _writes(asked) + _special(asked) + _blocks(device, asked) + _command(device)
 
 
-def first_program(device: str, scope: CrateScope, family: OfFamily, link: str) -> Lines:
+def first_program(device: Device, scope: CrateScope, family: OfFamily, link: str) -> Lines:
     """A whole program over a transport of the runtime; nothing if there is none, or no point read by itself alone."""
     asked = _asked(scope)
     only_read = (subject for subject in _plain(asked) if subject.form == "scaled" and not subject.point.writable)
     read = _first(only_read) or _first(_plain(asked))
-    if read is None or not family.line:
+    line = family.line(device)
+    if read is None or not line:
         return ()
     names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names, "PROFILE")
     written = _first(subject for subject in asked if not subject.arguments and _takes_a_value(subject))
     return (
-        *filled(f"use {device}::{{", ", ", names, "};"),
+        *filled(f"use {device.id}::{{", ", ", names, "};"),
         "",
         "fn main() -> Result<(), Box<dyn std::error::Error>> {",
-        f"    let line = {family.line};",
+        f"    let line = {line};",
         f"    let mut client = Client::new(line, &PROFILE, {link});",
         f'    println!("{{:?}}", client.read::<p::{read.name}>()?);',
         *((f"    client.write::<p::{written.name}>({_inside(written)})?;",) if written else ()),

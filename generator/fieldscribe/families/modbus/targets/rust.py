@@ -24,6 +24,9 @@ _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 _COILS = 15
 """The function that writes several coils; some devices want its bytes padded."""
 
+_PORTS = {"rtu": 4001, "tcp": 502}
+"""The usual port of a serial server, and that of Modbus TCP."""
+
 
 def context(device: Device) -> dict[str, object]:
     """The names that the family's template uses."""
@@ -91,10 +94,15 @@ def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
         yield f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 
+def _line(device: Device) -> str:
+    """A device that speaks RTU is behind a serial server."""
+    return f'TcpLine::new("192.168.0.20:{_PORTS[framings_of(device.bus)[0]]}")'
+
+
 IN_RUST = OfFamily(
     context,
     names=("Framing",),
     transports=("std", "tokio-modbus", "embedded-io", "embedded-io-async"),
-    line='TcpLine::new("192.168.0.20:502")',
+    line=_line,
     line_names="tcp::TcpLine",
 )

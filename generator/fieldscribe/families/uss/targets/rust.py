@@ -111,6 +111,6 @@ IN_RUST = OfFamily(
     ways,
     names=("Link",),
     transports=("std", "embedded-io", "embedded-io-async"),
-    line='TcpLine::speaking(Protocol::Uss, "192.168.0.20:4001")',
+    line=lambda _: 'TcpLine::speaking(Protocol::Uss, "192.168.0.20:4001")',
     line_names="{tcp::TcpLine, Protocol}",
 )

@@ -58,6 +58,11 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
+def no_line(_: Device) -> str:
+    """For families whose transports need a whole page."""
+    return ""
+
+
 def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
     """For families whose devices send nothing unasked."""
     return "", Snippet()
@@ -72,7 +77,8 @@ class OfFamily:
     read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
     for the codes of refusals. The first page of a crate imports these `names`; `heard` is the telegram to which it
     listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features of the
-    runtime; its first program talks over `line` (none: it has none), and imports `line_names` of the runtime.
+    runtime; its first program talks over the `line` of a device (none: it has none), and imports `line_names` of the
+    runtime.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -84,7 +90,7 @@ class OfFamily:
     refusals: str = "code"
     names: tuple[str, ...] = ()
     transports: tuple[str, ...] = ()
-    line: str = ""
+    line: Callable[[Device], str] = no_line
     line_names: str = ""
     heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 

@@ -5,7 +5,7 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::modbus::Request;
+use fieldscribe_runtime::modbus::{About, Request};
 use fieldscribe_runtime::transports::{embedded_io, embedded_io_async, LineError, Protocol};
 use hitachi_l200::{points as p, Client, ClientError, Framing, LocalClient, PROFILE};
 use programs::uart::{word, Uart};
@@ -21,7 +21,7 @@ fn blocking() {
     client.transport().port().came.extend([1, 3, 2, 0]); // half an answer of before
     assert_eq!(client.read::<p::OutputFrequency>(), Ok(0.7));
     let late = client.read::<p::OutputFrequency>();
-    assert_eq!(late, Err(ClientError::Transport(LineError::TimedOut, Some("output_frequency"))));
+    assert_eq!(late, Err(ClientError::Transport(LineError::TimedOut, Some(About::Point("output_frequency")))));
     client.transport().port().came.extend(word(66));
     assert_eq!(client.read::<p::OutputFrequency>(), Ok(0.8));
     assert!(matches!(client.read::<p::OutputFrequency>(), Err(ClientError::Reply(..))));

@@ -8,6 +8,7 @@ use hitachi_l200::enums::RunCommand;
 use hitachi_l200::runtime::modbus::{Profile, ReplyError, Request};
 use hitachi_l200::runtime::transports::tokio_modbus::Attached;
 use hitachi_l200::{blocks, points as p, AsyncClient, ClientError, Framing, PROFILE};
+use tokio::io::AsyncReadExt;
 use tokio::net::{TcpListener, TcpStream};
 use tokio_modbus::client::{rtu, tcp, Context};
 
@@ -27,7 +28,7 @@ async fn talks(context: Context, profile: &'static Profile, framing: Framing) {
     let reply = client.read_block(&blocks::COILS[0]).await.unwrap();
     assert_eq!(reply.items().collect::<Vec<_>>(), [1, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0]);
     let refused = client.exchange(Request::new(1, 3, 0x2000, 1)).await.unwrap_err();
-    assert!(matches!(refused, ClientError::Reply(ReplyError::Exception { code: 2, .. }, None)), "{refused}");
+    assert!(matches!(refused, ClientError::Reply(ReplyError::Exception { code: 2, .. }, Some(_))), "{refused}");
     let spawned = tokio::spawn(async move { client.read::<p::BaseFrequency>().await });
     assert_eq!(spawned.await.unwrap().unwrap(), 50.0);
 }
@@ -57,6 +58,18 @@ async fn whoever_does_not_answer_is_given_up(server: SocketAddr) {
     let dropped = tokio::time::timeout(Duration::from_millis(10), client.read::<p::OutputFrequency>()).await;
     assert!(dropped.is_err());
     assert_eq!(kind(&client.read::<p::OutputFrequency>().await.unwrap_err()), Some(ErrorKind::NotConnected));
+
+    let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
+    client.transport().attach(rtu::attach(stream));
+    client.transport().detach(); // a serial port could be opened anew
+    assert!(client.transport().context().is_none());
+    assert_eq!(kind(&client.read::<p::OutputFrequency>().await.unwrap_err()), Some(ErrorKind::NotConnected));
+    let mut left = [0; 64];
+    let (mut heard, _) = silent.accept().await.unwrap();
+    for _ in 0..2 {
+        heard = silent.accept().await.unwrap().0;
+    }
+    while heard.read(&mut left).await.unwrap() > 0 {} // it was closed
 
     let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
     client.transport().attach(rtu::attach(stream));
