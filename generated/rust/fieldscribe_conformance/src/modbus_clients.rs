@@ -4,8 +4,8 @@
 #![allow(clippy::too_many_lines, reason = "a line for each case")]
 
 use fieldscribe_runtime::modbus::{
-    crc, read_function, reply_length, write_function, AsyncClient, Block, BuildError, Client,
-    ClientError, Command, Framing, Function, LocalClient, Profile, ReplyError, Request,
+    crc, read_function, reply_length, write_function, About, AsyncClient, Block, BuildError,
+    Client, ClientError, Command, Framing, Function, LocalClient, Profile, ReplyError, Request,
 };
 use fieldscribe_runtime::{BitGroup, Error, Space, Whole};
 
@@ -597,9 +597,26 @@ macro_rules! conversations {
             let text = |name| format!("{name}: the reply does not bring the point");
             assert_eq!(missing, Ok((Ok(0x0002_0003), text("Word"), text("Wide"))));
             let (code, name) = (2, Some("no_such_address"));
-            let refused = ClientError::Reply(ReplyError::Exception { code, name }, None);
-            let reply = $wait(client.read_block(&block)).map(|_| ());
-            assert_eq!(reply, Err(refused));
+            let refused = $wait(client.read_block(&block)).map(|_| ()).unwrap_err();
+            let about = About::Request {
+                unit: 5,
+                function: block.function,
+                address: block.address,
+                count: block.count,
+            };
+            let exception = ReplyError::Exception { code, name };
+            assert_eq!(refused, ClientError::Reply(exception, Some(about)));
+            assert_eq!(refused.point(), None);
+            let what = format!(
+                "unit 5, function 3 at {:04X}h, {} items: ",
+                block.address, block.count
+            );
+            assert_eq!(refused.to_string(), format!("{what}{exception}"));
+            let point = About::Point("Word");
+            assert_eq!(
+                refused.of::<Word>(),
+                ClientError::Reply(exception, Some(point))
+            );
             client.into_transport().done();
         }
 
@@ -619,13 +636,16 @@ macro_rules! conversations {
             ]);
             let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
-            let lost = |point| Err(ClientError::Transport(Lost, Some(point)));
+            let lost = |point| Err(ClientError::Transport(Lost, Some(About::Point(point))));
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost("Long"));
-            let long = Err(ClientError::Reply(ReplyError::LongFrame, Some("Word")));
+            let long = Err(ClientError::Reply(
+                ReplyError::LongFrame,
+                Some(About::Point("Word")),
+            ));
             assert_eq!($wait(client.write_with::<Word>(7, ())), long);
             let (code, name) = (2, Some("no_such_address"));
             let exception = ReplyError::Exception { code, name };
-            let refused = Err(ClientError::Reply(exception, Some("Word")));
+            let refused = Err(ClientError::Reply(exception, Some(About::Point("Word"))));
             assert_eq!($wait(client.write::<Word>(8)), refused);
             let wrong = Err(ClientError::Point(REFUSED));
             assert_eq!($wait(client.write::<Word>(0xFFFF)), wrong);
@@ -641,7 +661,10 @@ macro_rules! conversations {
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), Ok(()));
             assert_eq!(client.transport().space, 0);
             assert_eq!($wait(client.command(&Command::new(16, 0x20, None))), Ok(()));
-            let none = Err(ClientError::Build(BuildError::NotForAll, Some("Long")));
+            let none = Err(ClientError::Build(
+                BuildError::NotForAll,
+                Some(About::Point("Long")),
+            ));
             assert_eq!($wait(client.read::<Long>()), none);
             client.into_transport().done();
         }

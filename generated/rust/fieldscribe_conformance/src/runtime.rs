@@ -268,7 +268,11 @@ fn errors() {
     for error in [
         REFUSED,
         Error::NotANumber("made_up"),
-        Error::Special("made_up"),
+        Error::Special {
+            point: "made_up",
+            code: "off",
+            is_writable: false,
+        },
     ] {
         assert_eq!(error.point(), Some("made_up"));
         assert_eq!(error.of::<Number>(), error);
@@ -299,6 +303,20 @@ fn errors() {
                 }),
                 "out_of_range",
                 "level: 7.5 kPa is outside -1 to 2.5 kPa (raw -100 to 250)",
+            ),
+            (
+                Error::OutOfRange(Refused::Value {
+                    outside: Outside {
+                        low: 65.0,
+                        high: 60.0,
+                        ..LEVEL
+                    },
+                    unit: "Hz",
+                    raw: Some((650, 600)),
+                }),
+                "out_of_range",
+                "level: 7.5 Hz is refused, as nothing is allowed now: \
+                 the least is 65 Hz, the greatest 60 Hz (raw 650 to 600)",
             ),
             (
                 Error::UnknownValue(Refused::Raw(COUNT)),
@@ -342,9 +360,23 @@ fn errors() {
                 "the result does not fit its type",
             ),
             (
-                Error::Special("level"),
+                Error::Special {
+                    point: "level",
+                    code: "off",
+                    is_writable: false,
+                },
                 "special",
-                "level: the raw number is a special code and no quantity",
+                "level: the number is the special code off and no quantity, which is only read",
+            ),
+            (
+                Error::Special {
+                    point: "level",
+                    code: "off",
+                    is_writable: true,
+                },
+                "special",
+                "level: the number is the special code off and no quantity: \
+                 write it as Reading::Special(...)",
             ),
             (
                 Error::WrongLength(None),
@@ -868,7 +900,12 @@ fn codes() {
         (Number::CODES[0].ends(), Number::CODES[1].ends()),
         ((7, 7), (10, 12))
     );
-    let (band, special) = (Special::writable("band", 11), Error::Special("Number"));
+    let band = Special::writable("band", 11);
+    let special = Error::Special {
+        point: "Number",
+        code: "odd",
+        is_writable: false,
+    };
     assert_eq!(
         (written::<Number>(band), band.checked::<Number>()),
         (Ok(11), Ok(()))

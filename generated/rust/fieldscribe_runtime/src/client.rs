@@ -42,6 +42,10 @@ pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 /// let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
 /// assert_eq!(client.read::<JumpFrequency>().unwrap(), 50.0);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no transport for a `Client`",
+    note = "a transport that does not block goes with `AsyncClient` or `LocalClient`"
+)]
 pub trait Transport {
     /// What can go wrong on the line.
     type Error;
@@ -75,6 +79,10 @@ pub trait Transport {
 ///     spawn(async move { client.read::<P>().await });
 /// }
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no transport for an `AsyncClient`",
+    note = "a transport that blocks goes with `Client`, one of a single thread with `LocalClient`"
+)]
 pub trait AsyncTransport: Send {
     /// What can go wrong on the line.
     type Error: Send;
@@ -128,6 +136,19 @@ impl<T: Transport + ?Sized> Transport for &mut T {
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
         (**self).exchange(request, reply)
+    }
+}
+
+/// Several clients live on one line, also in several threads, and take turns on it. Needs the feature `std`.
+#[cfg(feature = "std")]
+impl<T: Transport> Transport for &std::sync::Mutex<T> {
+    type Error = T::Error;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        let line = self.lock();
+        // Whoever panicked with it did not leave an exchange half done for the next.
+        let mut line = line.unwrap_or_else(std::sync::PoisonError::into_inner);
+        line.exchange(request, reply)
     }
 }
 

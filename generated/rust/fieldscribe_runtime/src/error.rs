@@ -36,8 +36,15 @@ pub enum Error {
     NoCase(Option<&'static str>),
     /// The result does not fit its type.
     Overflow(Option<&'static str>),
-    /// The raw number is a special code and no quantity, and may not be written.
-    Special(&'static str),
+    /// The raw number is a special code and no quantity, and may not be written, or not as a value.
+    Special {
+        /// The name of the point.
+        point: &'static str,
+        /// The name of the code.
+        code: &'static str,
+        /// Whether the code may be written: by [`Reading::Special`](crate::Reading::Special).
+        is_writable: bool,
+    },
     /// A point by which a scale or a limit is computed is outside what it may be.
     BrokenFactor {
         /// The name of the factor's point, what it is, and what it may be.
@@ -78,7 +85,8 @@ pub enum Refused {
 
 /// What was given to a point, and the least and the greatest number that it takes now.
 ///
-/// Between them may be numbers that it does not take either, where the manual has several ranges.
+/// Between them may be numbers that it does not take either, where the manual has several ranges. Where the limits of
+/// other points contradict each other, the least is above the greatest, and nothing is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outside<T> {
     /// The point's name.
@@ -102,7 +110,7 @@ impl Error {
             Self::ZeroFactor(_) => "zero_factor",
             Self::NoCase(_) => "no_case",
             Self::Overflow(_) | Self::BrokenFactor { .. } => "overflow",
-            Self::Special(_) => "special",
+            Self::Special { .. } => "special",
             Self::WrongLength(_) | Self::NotBrought(_) | Self::BeyondLink(_) => "wrong_length",
             Self::WrongSpace(_) => "wrong_space",
             Self::NotHeard(_) => "not_heard",
@@ -123,7 +131,7 @@ impl Error {
     pub const fn point(self) -> Option<&'static str> {
         match self {
             Self::OutOfRange(refused) | Self::UnknownValue(refused) => Some(refused.point()),
-            Self::NotANumber(point) | Self::Special(point) => Some(point),
+            Self::NotANumber(point) | Self::Special { point, .. } => Some(point),
             Self::BadText(point)
             | Self::ZeroFactor(point)
             | Self::NoCase(point)
@@ -193,6 +201,19 @@ impl fmt::Display for Error {
                     "the factor {point} is {given}, outside {low} to {high}"
                 );
             }
+            Self::Special {
+                code, is_writable, ..
+            } => {
+                let hint = if *is_writable {
+                    ": write it as Reading::Special(...)"
+                } else {
+                    ", which is only read"
+                };
+                return write!(
+                    formatter,
+                    "the number is the special code {code} and no quantity{hint}"
+                );
+            }
             Self::NotANumber(_) => "the value is not a number",
             Self::UnknownValue(_) => "the enum has no such number",
             Self::BadText(_) => {
@@ -201,7 +222,6 @@ impl fmt::Display for Error {
             Self::ZeroFactor(_) => "a factor is zero or no quantity",
             Self::NoCase(_) => "no case of the scale holds",
             Self::Overflow(_) => "the result does not fit its type",
-            Self::Special(_) => "the raw number is a special code and no quantity",
             Self::WrongLength(_) => "the point has another number of words",
             Self::NotBrought(_) => "the reply does not bring the point",
             Self::BeyondLink(_) => "the link has not so many words of process data",
@@ -235,12 +255,19 @@ impl Refused {
     }
 }
 
-impl<T: fmt::Display> Outside<T> {
+impl<T: fmt::Display + PartialOrd> Outside<T> {
     fn show(&self, what: &str, unit: &str, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             given, low, high, ..
         } = self;
         let gap = if unit.is_empty() { "" } else { " " };
+        if low > high {
+            return write!(
+                formatter,
+                "{what}{given}{gap}{unit} is refused, as nothing is allowed now: \
+                 the least is {low}{gap}{unit}, the greatest {high}{gap}{unit}"
+            );
+        }
         write!(
             formatter,
             "{what}{given}{gap}{unit} is outside {low} to {high}{gap}{unit}"

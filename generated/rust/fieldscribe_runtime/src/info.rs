@@ -51,7 +51,7 @@ impl Access {
 ///
 /// const POINTS: &[PointInfo] = point_table! { points: BaseFrequency };
 ///
-/// let found = PointInfo::find(POINTS, "A003").unwrap();
+/// let found = PointInfo::find(POINTS, "a003").unwrap();
 /// assert_eq!((found.name, found.address, found.unit), ("base_frequency", 0x1019, "Hz"));
 /// assert!(found.access.reads() && !found.access.writes());
 /// ```
@@ -85,11 +85,15 @@ pub struct PointInfo {
 }
 
 impl PointInfo {
-    /// The point with that name; if there is none, the first with that code of the manual.
+    /// The point with that name; if there is none, the first with that code of the manual, in capitals or not.
     #[must_use]
     pub fn find<'a>(points: &'a [Self], name_or_code: &str) -> Option<&'a Self> {
         let named = points.iter().find(|point| point.name == name_or_code);
-        let coded = |point: &&Self| point.code == Some(name_or_code);
+        let coded = |point: &&Self| {
+            point
+                .code
+                .is_some_and(|code| code.eq_ignore_ascii_case(name_or_code))
+        };
         named.or_else(|| points.iter().find(coded))
     }
 }

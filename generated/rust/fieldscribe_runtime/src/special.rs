@@ -86,7 +86,16 @@ impl<R: Copy> Special<R> {
         if self.writable {
             Ok(())
         } else {
-            Err(Error::Special(P::NAME))
+            Err(self.no_quantity::<P>())
+        }
+    }
+
+    /// What is said of a value of that point that became this code.
+    const fn no_quantity<P: Point>(&self) -> Error {
+        Error::Special {
+            point: P::NAME,
+            code: self.name,
+            is_writable: self.writable,
         }
     }
 }
@@ -251,7 +260,7 @@ pub fn encoded<P: Coded, V>(
 /// [`Error::Special`] if it is one.
 pub fn quantity<P: Coded>(raw: P::Raw) -> Result<P::Raw, Error> {
     match P::special(raw) {
-        Some(_) => Err(Error::Special(P::NAME)),
+        Some(special) => Err(special.no_quantity::<P>()),
         None => Ok(raw),
     }
 }

@@ -18,7 +18,7 @@
 //! use nord_sk5xxe::{points as p, runtime::transports::tcp::TcpLine, Client, Framing, PROFILE};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
-//!     let line = TcpLine::new("192.168.0.20:502");
+//!     let line = TcpLine::new("192.168.0.20:4001");
 //!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
 //!     println!("{:?}", client.read::<p::ControlWord>()?);
 //!     Ok(())

@@ -105,12 +105,13 @@ fn nearest<P: Writable>(
 /// What is said of a value, where these are the least and the greatest raw number.
 fn refused_value<P: Writable>(given: f64, raw: (i64, i64), decode: impl Fn(i128) -> f64) -> Error {
     let (one, other) = (decode(raw.0.into()), decode(raw.1.into()));
+    let (low, high) = in_order(one, other, raw.0 <= raw.1);
     Error::OutOfRange(Refused::Value {
         outside: Outside {
             point: P::NAME,
             given,
-            low: if one <= other { one } else { other },
-            high: if one <= other { other } else { one },
+            low,
+            high,
         },
         unit: P::UNIT,
         raw: Some(raw),
@@ -123,12 +124,24 @@ fn in_counts(error: Error, given: i64, decode: impl Fn(i64) -> Option<i64>) -> E
         return error;
     };
     match (decode(raw.low), decode(raw.high)) {
-        (Some(one), Some(other)) => Error::OutOfRange(Refused::Count(Outside {
-            point: raw.point,
-            given,
-            low: one.min(other),
-            high: one.max(other),
-        })),
+        (Some(one), Some(other)) => {
+            let (low, high) = in_order(one, other, raw.low <= raw.high);
+            Error::OutOfRange(Refused::Count(Outside {
+                point: raw.point,
+                given,
+                low,
+                high,
+            }))
+        }
         _ => error,
+    }
+}
+
+/// Two limits, the lower one first; the other way round where the limits leave nothing between them.
+fn in_order<T: PartialOrd>(one: T, other: T, is_some_allowed: bool) -> (T, T) {
+    if (one <= other) == is_some_allowed {
+        (one, other)
+    } else {
+        (other, one)
     }
 }

@@ -3,27 +3,28 @@
 
 use core::fmt;
 
-use super::{Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST};
+use super::{
+    About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
+};
 use crate::client::{AsyncTransport, LocalTransport, Transport};
-use crate::error::lead;
 use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
 use crate::{Point, Readable, Whole, Writable};
 
 /// Why a point could not be read or written.
 ///
-/// Its text is the point's name and all that the error in it says; its source is what caused that one, so a chain says
-/// nothing twice. The text beside an error is the point's name; there is none where no point had to do with it.
+/// Its text is the point's name, or which request that was, and all that the error in it says; its source is what
+/// caused that one, so a chain says nothing twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.
     Point(Error),
     /// The request could not be built.
-    Build(BuildError, Option<&'static str>),
+    Build(BuildError, Option<About>),
     /// The reply was none, or the device refused.
-    Reply(ReplyError, Option<&'static str>),
+    Reply(ReplyError, Option<About>),
     /// The transport failed.
-    Transport(E, Option<&'static str>),
+    Transport(E, Option<About>),
 }
 
 impl<E> ClientError<E> {
@@ -32,7 +33,12 @@ impl<E> ClientError<E> {
     pub const fn point(&self) -> Option<&'static str> {
         match self {
             Self::Point(error) => error.point(),
-            Self::Build(_, point) | Self::Reply(_, point) | Self::Transport(_, point) => *point,
+            Self::Build(_, about) | Self::Reply(_, about) | Self::Transport(_, about) => {
+                match about {
+                    Some(About::Point(name)) => Some(*name),
+                    _ => None,
+                }
+            }
         }
     }
 
@@ -41,8 +47,10 @@ impl<E> ClientError<E> {
     pub fn of<P: Point>(mut self) -> Self {
         match &mut self {
             Self::Point(error) => *error = error.of::<P>(),
-            Self::Build(_, point) | Self::Reply(_, point) | Self::Transport(_, point) => {
-                *point = point.or(Some(P::NAME));
+            Self::Build(_, about) | Self::Reply(_, about) | Self::Transport(_, about) => {
+                if !matches!(about, Some(About::Point(_))) {
+                    *about = Some(About::Point(P::NAME));
+                }
             }
         }
         self
@@ -71,17 +79,23 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Point(error) => error.fmt(formatter),
-            Self::Build(error, point) => {
-                lead(*point, formatter).and_then(|()| error.fmt(formatter))
-            }
-            Self::Reply(error, point) => {
-                lead(*point, formatter).and_then(|()| error.fmt(formatter))
-            }
-            Self::Transport(error, point) => {
-                lead(*point, formatter).and_then(|()| error.fmt(formatter))
-            }
+            Self::Build(error, about) => told(*about, error, formatter),
+            Self::Reply(error, about) => told(*about, error, formatter),
+            Self::Transport(error, about) => told(*about, error, formatter),
         }
     }
+}
+
+/// An error after what it is about.
+fn told(
+    about: Option<About>,
+    error: &impl fmt::Display,
+    formatter: &mut fmt::Formatter<'_>,
+) -> fmt::Result {
+    if let Some(about) = about {
+        write!(formatter, "{about}: ")?;
+    }
+    error.fmt(formatter)
 }
 
 impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
@@ -160,7 +174,10 @@ macro_rules! client {
 
         impl<T> $client<T> {
             /// The unit of that number behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self {
+            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self
+            where
+                T: $transport,
+            {
                 Self { transport, unit: Unit::new(profile, framing, unit) }
             }
 
@@ -185,10 +202,13 @@ macro_rules! client {
                 request: Request<'_>,
             ) -> Result<Option<Reply<'_>>, ClientError<T::Error>> {
                 let request = self.unit.next(request);
-                let (sent, space) = self.unit.frames(&request)?;
+                let about = Some(request.about());
+                let frames = self.unit.frames(&request);
+                let (sent, space) = frames.map_err(|error| ClientError::Build(error, about))?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
-                let length = answer.map_err(|error| ClientError::Transport(error, None))?;
-                Ok(self.unit.reply(&request, length)?)
+                let length = answer.map_err(|error| ClientError::Transport(error, about))?;
+                let reply = self.unit.reply(&request, length);
+                reply.map_err(|error| ClientError::Reply(error, about))
             }
 
             /// A point's raw number.
@@ -212,8 +232,9 @@ macro_rules! client {
 
             /// The reply to a request that cannot go to all units.
             $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_>, ClientError<T::Error>> {
+                let about = Some(request.about());
                 let reply = self.exchange(request)$($wait)*?;
-                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame, None))
+                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame, about))
             }
 
             /// A point's value.

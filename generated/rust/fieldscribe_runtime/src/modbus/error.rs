@@ -3,6 +3,48 @@
 
 use core::fmt;
 
+/// What an error of a client is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum About {
+    /// A point, by its name.
+    Point(&'static str),
+    /// A request that is none of a point, as that of a block or a command.
+    Request {
+        /// The unit that was asked.
+        unit: u8,
+        /// The function.
+        function: u8,
+        /// The first address.
+        address: u16,
+        /// How many items.
+        count: u16,
+    },
+}
+
+impl fmt::Display for About {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(name) => formatter.write_str(name),
+            Self::Request {
+                unit,
+                function,
+                address,
+                count,
+            } => {
+                write!(
+                    formatter,
+                    "unit {unit}, function {function} at {address:04X}h"
+                )?;
+                match count {
+                    0 | 1 => Ok(()),
+                    _ => write!(formatter, ", {count} items"),
+                }
+            }
+        }
+    }
+}
+
 /// Why a request cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]

@@ -19,7 +19,7 @@ mod reply;
 mod request;
 
 pub use client::{AsyncClient, Client, ClientError, LocalClient};
-pub use error::{BuildError, ReplyError};
+pub use error::{About, BuildError, ReplyError};
 pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};
 pub use reply::{reply_length, Reply};

@@ -2,7 +2,7 @@
 //! Requests and their frames.
 
 use super::function::{is_read, read_function, write_function};
-use super::{crc, Block, BuildError, Command, Framing, Profile};
+use super::{crc, About, Block, BuildError, Command, Framing, Profile};
 use crate::{BitGroup, Readable, Whole, Writable};
 
 /// The shortest request over TCP: a head of six bytes, the unit, and a PDU of five.
@@ -130,6 +130,16 @@ impl<'a> Request<'a> {
             framing: Framing::Tcp,
             transaction,
             ..self
+        }
+    }
+
+    /// What an error says that it is about.
+    pub(super) const fn about(&self) -> About {
+        About::Request {
+            unit: self.unit,
+            function: self.function,
+            address: self.address,
+            count: self.count,
         }
     }
 

@@ -17,9 +17,10 @@ use crate::AsyncTransport;
 /// Our frames reach it as requests, its answers come back as frames; the framing on the wire is its own affair, and
 /// ours may be either. After a failure nobody knows which request a later answer is for. So the
 /// client is given up then, and each exchange fails with [`ErrorKind::NotConnected`] until it gets another:
-/// [`Attached::attach`]. The same holds if the future of an exchange was dropped.
+/// [`Attached::attach`]. The same holds if the future of an exchange was dropped. A serial port is held until it is
+/// closed: [`Attached::detach`] before it is opened anew.
 pub struct Attached {
-    context: Context,
+    context: Option<Context>,
     timeout: Duration,
     is_given_up: bool,
 }
@@ -29,7 +30,7 @@ impl Attached {
     #[must_use]
     pub const fn new(context: Context) -> Self {
         Self {
-            context,
+            context: Some(context),
             timeout: Duration::from_secs(1),
             is_given_up: false,
         }
@@ -43,13 +44,20 @@ impl Attached {
 
     /// Takes another client.
     pub fn attach(&mut self, context: Context) {
-        self.context = context;
+        self.context = Some(context);
         self.is_given_up = false;
     }
 
-    /// The client of tokio-modbus, as for functions that are none of ours.
-    pub fn context(&mut self) -> &mut Context {
-        &mut self.context
+    /// Gives the client up, which closes its port, as before a serial port is opened anew; the next exchanges fail
+    /// until there is another client.
+    pub fn detach(&mut self) {
+        self.context = None;
+        self.is_given_up = true;
+    }
+
+    /// The client of tokio-modbus, as for functions that are none of ours; none after [`Attached::detach`].
+    pub fn context(&mut self) -> Option<&mut Context> {
+        self.context.as_mut()
     }
 
     /// The data of the answer, with the function before them; none if none came in time.
@@ -59,8 +67,9 @@ impl Attached {
         function: u8,
         data: &[u8],
     ) -> Result<Option<Vec<u8>>, Error> {
-        self.context.set_slave(Slave(unit));
-        let asked = self.context.call(Request::Custom(function, data.into()));
+        let context = self.context.as_mut().ok_or(ErrorKind::NotConnected)?;
+        context.set_slave(Slave(unit));
+        let asked = context.call(Request::Custom(function, data.into()));
         let Ok(answered) = ::tokio::time::timeout(self.timeout, asked).await else {
             return Ok(None);
         };

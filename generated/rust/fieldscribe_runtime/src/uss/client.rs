@@ -307,7 +307,10 @@ macro_rules! client {
 
         impl<T> $client<T> {
             /// The drive of that unit behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self {
+            pub const fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self
+            where
+                T: $transport,
+            {
                 Self { transport, drive: Drive::new(profile, link, unit) }
             }
 
