@@ -60,7 +60,7 @@ def things() -> list[Thing]:
         ("ueberspannung e07", "hitachi_l200 d081 trip_1_error", "enum Überspannung (E07)"),
         ("uberspannung e07", "hitachi_l200 d081 trip_1_error", "enum Überspannung (E07)"),
         ("off2", "siemens_mm4 STW control_word", "flag off2"),
-        ("visualisation Sendetelegramm", "woodward_mpu2s telegram visualisation", "name visualisation bus.yaml:12"),
+        ("visualisation Sendetelegramm", "woodward_mpu2s telegram visualisation", "name visualisation bus.yaml:13"),
         ("ENTER-Befehl", "hitachi_l200 command enter", "title ENTER-Befehl bus.yaml"),
     ],
 )

@@ -632,6 +632,14 @@ static void link(uint8_t *buffer, size_t size)
     request.take = &fieldscribe_modbus_take_words;
 }
 
+void prove_heard(uint8_t done, size_t dropped, uint8_t fine)
+{
+    fieldscribe_modbus_receiver receiver;
+    receiver.done = (done != 0U);
+    receiver.dropped = dropped;
+    (void)fieldscribe_modbus_heard(&receiver, (fine != 0U) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_SHORT_FRAME);
+}
+
 void prove_exchange(size_t size, size_t length)
 {
     if (size <= SHORT) {

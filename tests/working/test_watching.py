@@ -57,7 +57,8 @@ def outcomes(*steps: Callable[[], object]) -> list[Outcome]:
 
 def told(outcome: Outcome) -> tuple[list[str], list[str], set[str]]:
     """The devices that were compiled, the rules of their findings, and the devices of which something was written."""
-    written = {Path(path).name.partition(".")[0] for path in outcome.result.written}
+    names = {Path(path).name.partition(".")[0] for path in outcome.result.written}
+    written = {name.removesuffix("_meanings") for name in names}
     return outcome.devices, [finding.rule for finding in outcome.report.findings], written
 
 

@@ -351,8 +351,8 @@ typedef struct fieldscribe_modbus_line {
 /*
  * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
  * came, or its beginning alone; NOISE that other bytes came (an answer with a wrong checksum, of another unit, at
- * another baud rate), or ASK_MOST bytes with no answer in them. What goes to all units is OK when it is sent, as nobody answers. Over TCP give each request another
- * `transaction`: by that a late answer is told from the one that is waited for.
+ * another baud rate), or ASK_MOST bytes with no answer in them. What goes to all units is OK when it is sent, as nobody
+ * answers. Over TCP give each request another `transaction`: by that a late answer is told from the one waited for.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
@@ -934,8 +934,8 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
 }
 
 /* Sends the `length` bytes of a request, and receives its answer; a line that is never silent comes to an end, too. */
-static fieldscribe_modbus_receiver fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line, fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, size_t length)
+static fieldscribe_modbus_receiver fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, size_t length)
 {
     fieldscribe_modbus_receiver receiver =
         fieldscribe_modbus_await(line->profile, framing, request, line->buffer, line->size);

@@ -307,8 +307,8 @@ typedef struct fieldscribe_uss_line {
 
 /*
  * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
- * WRONG_START says that nothing came, WRONG_LENGTH that it broke off; NOISE that other bytes came (an answer with a wrong
- * check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them.
+ * WRONG_START says that nothing came, WRONG_LENGTH that it broke off; NOISE that other bytes came (an answer with a
+ * wrong check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them.
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);

@@ -346,6 +346,7 @@ USES = {
 }
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("standard", ["c99", "c++11"])
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("use", USES)
@@ -1181,6 +1182,7 @@ MISUSE = {
 }
 
 
+@pytest.mark.full(seconds=0.2)
 @pytest.mark.parametrize("standard", ["c99", "c++11", "c++17"])
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("misuse", MISUSE)

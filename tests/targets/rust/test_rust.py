@@ -341,7 +341,8 @@ def test_the_first_page_runs(workspace: Path, device: str) -> None:
 LONG = pytest.mark.full(seconds=6)
 
 
-@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=LONG) for device in SHIPPED)])
+@LONG
+@pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
 def test_conforms(workspace: Path, device: str) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", f"{device}_conformance", "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
