@@ -149,6 +149,7 @@ _FREE = {
 } | {*("quantity", "x-note", "title", "note", "timing")}
 
 
+@pytest.mark.full(seconds=0.2)
 @pytest.mark.parametrize("start", WHOLES, ids=lambda one: one["device.yaml"][0]["device"])
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any]) -> None:

@@ -93,6 +93,7 @@ def test_a_wrong_fact_is_told_of_every_point(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("key", ["scale", "unit", "access", "type", "enum", "keeps", "special"])
 def test_a_fact_that_is_forgotten_is_noticed(key: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """If points that differ in one fact count as alike, some device means something else, or is refused."""

@@ -57,7 +57,7 @@ def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
     while True:
         try:
             handle = _tried(place)
-        except FileNotFoundError:  # another run has removed the folder that it had made
+        except (FileNotFoundError, FileExistsError):  # another run has removed the folder that it had made
             handle, vanished = None, vanished + 1
             if vanished > _VANISHED:
                 raise

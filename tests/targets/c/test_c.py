@@ -117,7 +117,8 @@ def passed(output: str) -> dict[str, int]:
     return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(STANDARDS, STANDARDS), AS_C), ids=named)
+@pytest.mark.full(seconds=1)
+@pytest.mark.parametrize("build", builds(STANDARDS, STANDARDS), ids=named)
 @pytest.mark.parametrize("device", MADE)
 def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     """The sanitizers see most where nothing is optimized away."""

@@ -327,6 +327,7 @@ def test_a_step_is_information() -> None:
     assert stepped
 
 
+@pytest.mark.full(seconds=1)
 @pytest.mark.parametrize("device", ["kitchen_sink", "kitchen_can", "kitchen_uss"])
 def test_the_first_page_runs(workspace: Path, device: str) -> None:
     """What it shows compiles; nothing answers it."""
@@ -410,6 +411,7 @@ def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.full(seconds=5)
 def test_examples_of_the_runtime_run(workspace: Path) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", "fieldscribe_runtime")
     assert done.returncode == 0, done.stdout + done.stderr

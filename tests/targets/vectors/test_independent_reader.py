@@ -102,6 +102,7 @@ ANSWERS: dict[str, Answer] = {
 """What this reader can say of a vector of each kind."""
 
 
+@pytest.mark.full(seconds=0.3)
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_the_vectors_say_what_the_yaml_says(folder: Path) -> None:
     description = read(folder)
