@@ -397,7 +397,8 @@ def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
 ) -> None:
     shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/broken")
     place = project / "descriptions/broken/device.yaml"
-    place.write_text(place.read_text("utf-8").replace("device: jumo_controller", "device: broken\nnonsense: 1"), "utf-8")
+    text = place.read_text("utf-8").replace("device: jumo_controller", "device: broken\nnonsense: 1")
+    place.write_text(text, "utf-8")
     assert main(["generate", "--target", "docs"]) == 1
     made = files(project / "generated")
     assert "docs/jumo_controller.md" in made
