@@ -78,10 +78,7 @@ def test_no_machine_paths_and_no_registry_hosts(pattern: str) -> None:
     assert found == []
 
 
-@pytest.mark.parametrize(
-    "path",
-    [*sorted(p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"})],
-    ids=lambda p: p.name,
-)
-def test_runtime_sources_carry_their_licence(path: Path) -> None:
-    assert "0BSD" in path.read_text("utf-8")[:600]
+def test_runtime_sources_carry_their_licence() -> None:
+    sources = [p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"}]
+    assert len(sources) > 100
+    assert [path for path in sources if "0BSD" not in path.read_text("utf-8")[:600]] == []
