@@ -18,7 +18,7 @@ from support.descriptions_as_values import WHOLES, as_texts, as_yaml, changed, n
 if TYPE_CHECKING:
     from pathlib import Path
 
-MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "48"))
+MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "80"))
 PARTS = 8
 
 WRONG: tuple[Any, ...] = (

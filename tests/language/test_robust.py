@@ -77,7 +77,7 @@ WRONG: st.SearchStrategy[Any] = st.one_of(
 
 CAREFUL = settings(
     deadline=None,
-    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "30")),
+    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "50")),
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 
