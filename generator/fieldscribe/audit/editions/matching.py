@@ -52,6 +52,7 @@ class Matching:
         self._straighten(1)
         self._straighten(-1)
         self._slide()
+        self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self._put_in_their_places(olds, news)
 

@@ -1,4 +1,4 @@
-"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks (`<br>`), dashes."""
+"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks, dashes, lists, bold."""
 
 from __future__ import annotations
 
@@ -14,11 +14,17 @@ LINE_BREAK = " \u23ce "
 """Stands for the end of a line where words of several lines are shown."""
 _INVISIBLE = "\u00ad\u200b\u200c\u200d\u2060\ufeff"
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
-_WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
+_WORD = re.compile(
+    rf"[0-9A-F](?: [0-9A-F]){{1,3}} h(?!\w)|[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_"
+)
+"""A number with a blank behind each digit is one, as it is for `Manual`."""
 _AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
 _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
-_BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
-_HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
+_TAG = re.compile(
+    r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
+)
+_MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
+"""What makes a line a heading, or an entry of a list."""
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
@@ -40,11 +46,11 @@ class Words:
             self._first.append(len(self.texts))
 
     def _add(self, number: int, line: str) -> None:
-        marks = _HEADING_MARKS.match(line)
-        line = _BREAK.sub(lambda match: " " * len(match[0]), line)
+        marks = _MARKS.match(line)
+        line = _TAG.sub(lambda match: " " * len(match[0]), line)
         for match in _WORD.finditer(line, marks.end() if marks else 0):
             written = match[0]
-            self.texts.append(written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN)))
+            self.texts.append(_as_word(written))
             self.line_of.append(number)
             self.column_of.append(match.start() + 1)
 
@@ -114,6 +120,11 @@ class Words:
                 match = _WORD.match(self.lines[number - 1], end)
                 pieces.append(self.lines[number - 1][self.column_of[inside[0]] - 1 : match.end() if match else end + 1])
         return LINE_BREAK.join(pieces)
+
+
+def _as_word(written: str) -> str:
+    plain = written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN))
+    return plain.replace(" ", "")
 
 
 def pressed(texts: list[str]) -> str:
