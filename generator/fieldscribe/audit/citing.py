@@ -233,7 +233,9 @@ class Citing:
         cited = self.lines_of_fact.get("access", self.own_line)
         if cited:
             shown = words[0] if words else access
-            yield Claim(self.subject, "access", shown, frozenset(), words, cited, place, about=self.about, rivals=rivals)
+            yield Claim(
+                self.subject, "access", shown, frozenset(), words, cited, place, about=self.about, rivals=rivals
+            )
 
     def words(self, fact: str, *words: str, place: Span | None = None) -> Iterator[Claim]:
         """A fact that one of these words states."""

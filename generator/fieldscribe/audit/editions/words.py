@@ -7,6 +7,8 @@ from bisect import bisect_left
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
+from fieldscribe.audit.manual import lines_of
+
 if TYPE_CHECKING:
     from collections.abc import Container
 
@@ -25,9 +27,11 @@ _TAG = re.compile(
 )
 _MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
 """What makes a line a heading, or an entry of a list."""
+_HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH])\b")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
-_PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
+_PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
+_THOUSANDS = re.compile(r"(?<![0-9])[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9])")
 
 
 class Words:
@@ -35,11 +39,13 @@ class Words:
 
     def __init__(self, text: str, without: Container[int] = ()) -> None:
         """The words of all lines but some: heads and feet of pages part what belongs together."""
-        self.lines = text.splitlines()
+        self.lines = lines_of(text)
         self.texts: list[str] = []
         self.line_of: list[int] = []
         self.column_of: list[int] = []
         self._first: list[int] = [0]
+        self.entries: set[int] = set()
+        """The lines that a mark makes entries of a list."""
         for number, line in enumerate(self.lines, 1):
             if number not in without and not _RULE.fullmatch(line):
                 self._add(number, line)
@@ -47,12 +53,20 @@ class Words:
 
     def _add(self, number: int, line: str) -> None:
         marks = _MARKS.match(line)
+        if marks and "#" not in marks[0]:
+            self.entries.add(number)
         line = _TAG.sub(lambda match: " " * len(match[0]), line)
         for match in _WORD.finditer(line, marks.end() if marks else 0):
             written = match[0]
-            self.texts.append(_as_word(written))
+            self.texts.append("." if self._is_decimal(line, match) else _as_word(written))
             self.line_of.append(number)
             self.column_of.append(match.start() + 1)
+
+    @staticmethod
+    def _is_decimal(line: str, sign: re.Match[str]) -> bool:
+        """Whether a sign is the comma of a number."""
+        start, end = sign.span()
+        return sign[0] == "," and line[start - 1 : start].isdigit() and line[end : end + 1].isdigit()
 
     def __len__(self) -> int:
         return len(self.texts)
@@ -80,6 +94,17 @@ class Words:
         words = self.of_line(line)
         return bisect_left(self.column_of, column, words.start, words.stop)
 
+    def is_numbering(self, start: int, end: int) -> bool:
+        """Whether words are a number and a sign before the text of a line, as in `1.`."""
+        texts = self.texts[start:end]
+        opens = self.opens_line(start) and not self.opens_line(end)
+        return opens and len(texts) == 2 and texts[0].isdigit() and texts[1] in (".", ")")
+
+    def is_entry(self, counterparts: list[int], word: int) -> bool:
+        """Whether a word of the other text has its counterpart at the start of an entry of a list."""
+        here = counterparts[word]
+        return here >= 0 and self.opens_line(here) and self.line_of[here] in self.entries
+
     def is_minus(self, word: int) -> bool:
         """Whether a word is the sign of the number behind it, and no dash between two."""
         if self.texts[word] != "-" or word + 1 >= len(self) or not self.texts[word + 1][0].isdigit():
@@ -101,11 +126,13 @@ class Words:
         return range(first, last)
 
     def _are_one_number(self, word: int) -> bool:
-        """Whether a word and the next one are parts of the same number."""
-        here, behind = self.texts[word], self.texts[word + 1]
-        glued = self.column_of[word] + len(here) == self.column_of[word + 1]
-        has_digits = here.isdigit() != behind.isdigit() and _PARTED_NUMBER.fullmatch(here + behind) is not None
-        return glued and has_digits and self.line_of[word] == self.line_of[word + 1]
+        """Whether a word and the next one are parts of the same number: digits stand on both sides of its sign."""
+        sign = word + self.texts[word].isdigit()
+        parts = range(max(0, sign - 1), min(sign + 2, len(self)))
+        number = "".join(self.texts[part] for part in parts)
+        glued = self.column_of[parts[0]] + len(number) == self.column_of[parts[-1]] + len(self.texts[parts[-1]])
+        one_line = self.line_of[parts[0]] == self.line_of[parts[-1]]
+        return glued and one_line and _PARTED_NUMBER.fullmatch(number) is not None
 
     def shown(self, words: range) -> str:
         """Words as the text writes them, with a slash between lines."""
@@ -128,5 +155,7 @@ def _as_word(written: str) -> str:
 
 
 def pressed(texts: list[str]) -> str:
-    """Words without the blanks and hyphens that only set them: two numbers stay apart."""
-    return _BLANK.sub("", _DASH_IN_WORD.sub("", " ".join(texts)))
+    """Words without what only sets them: blanks, hyphens, how hexadecimal numbers are marked; two numbers stay apart."""
+    written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
+    written = _BLANK.sub("", _DASH_IN_WORD.sub("", written))
+    return _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
