@@ -294,4 +294,4 @@ def test_a_row_that_prints_an_access_where_it_had_none_is_a_finding(tmp_path: Pa
     new = old.replace("| - |", "| R/W |")
     (finding,) = compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
     assert (finding.kind, finding.words) == ("changed", (("-", "R/W"),))
-    assert [reason.said for reason in finding.reasons] == [": access none is not there"]
+    assert ": access none is not there" in [reason.said for reason in finding.reasons]

@@ -155,7 +155,7 @@ def _as_word(written: str) -> str:
 
 
 def pressed(texts: list[str]) -> str:
-    """Words without what only sets them: blanks, hyphens, how hexadecimal numbers are marked; two numbers stay apart."""
+    """Words without what only sets them: blanks, hyphens, marks of hexadecimal numbers; two numbers stay apart."""
     written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
     written = _BLANK.sub("", _DASH_IN_WORD.sub("", written))
     return _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
