@@ -12,7 +12,7 @@ SAME = {
     "marks of hexadecimal numbers": ("| 05h | 1aH | 0x0F |", "| 05 h | 0x1A | 0Fh |"),
     "commas of decimals": ("from 0,5 to 10,25", "from 0.5 to 10.25"),
     "groups of thousands": ("| 1-300000 | 0-65535 |", "| 1-300 000 | 0-65 535 |"),
-    "a list in a cell": ("| 22h | None.<br>• Busy<br>• On |", "| 22h | None. <ul><li>• Busy</li> <li>• On</li></ul> |"),
+    "a list in a cell": ("| 22h | No.<br>• Busy<br>• On |", "| 22h | No. <ul><li>• Busy</li> <li>• On</li></ul>"),
     "styles of a list": ("| 22h | • Busy<br>• On |", '| 22h | <ul style="x: none"> <li>• Busy</li><li>• On</li></ul> |'),
     "marks of entries": ("- one\n- two\n\nText", "* one\n\u2022 two\n\nText"),
     "numbers of entries": ("Text.\n\n- one\n- two\n\nText", "Text.\n\n1. one\n2. two\n\nText"),
