@@ -13,7 +13,7 @@ SAME = {
     "commas of decimals": ("from 0,5 to 10,25", "from 0.5 to 10.25"),
     "groups of thousands": ("| 1-300000 | 0-65535 |", "| 1-300 000 | 0-65 535 |"),
     "a list in a cell": ("| 22h | No.<br>• Busy<br>• On |", "| 22h | No. <ul><li>• Busy</li> <li>• On</li></ul>"),
-    "styles of a list": ("| 22h | • Busy<br>• On |", '| 22h | <ul style="x: none"> <li>• Busy</li><li>• On</li></ul> |'),
+    "styles of a list": ("| 22h | • Busy<br>• On |", '| 22h | <ul style="x"> <li>• Busy</li><li>• On</li></ul> |'),
     "marks of entries": ("- one\n- two\n\nText", "* one\n\u2022 two\n\nText"),
     "numbers of entries": ("Text.\n\n- one\n- two\n\nText", "Text.\n\n1. one\n2. two\n\nText"),
     "an entry without its number": ("1. one\n2. two", "- one\n- two"),

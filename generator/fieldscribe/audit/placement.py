@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Manual
 
-_LOST, _NOT_FIRST, _BELOW, _CHANGE = 10.0, 1.0, 0.5, 6.0
+_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 12.0
 """Costs of a place: no anchor stands in it; none stands on its first line; that line is not its section's heading;
-it is shifted otherwise than the place above.
+it is shifted otherwise than the place above; it is not below that place.
 
 A changed shift costs more than half of a lost anchor, so that a line with one anchor does not move alone: most
 likely its number was changed.
@@ -83,8 +83,7 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    told = (claim for claim in claims if claim.anchor or claim.beside or not claim.words)  # titles stand in many places
-    anchors = [_anchor(manual, claim, line) for claim in told]
+    anchors = [_anchor(manual, claim, line) for claim in claims]
     anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
     return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
@@ -138,11 +137,12 @@ class _Search:
         steps: list[dict[int, int]] = []
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
-            changed = costs[best] + _CHANGE
+            above = best + self.cited[index - 1] - self.cited[index] if index else -self.cited[0]
             now: dict[int, float] = {}
             step: dict[int, int] = {}
             for shift in dict.fromkeys((*states[index], *costs)):
                 stays = costs.get(shift)
+                changed = costs[best] + (_CHANGE if shift > above else _BACK)
                 step[shift] = shift if stays is not None and stays <= changed else best
                 now[shift] = (changed if step[shift] != shift else costs[shift]) + self._cost(index, shift)
             bound = min(worst, min(now.values()) + _HOPELESS)
