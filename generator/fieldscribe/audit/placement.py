@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Manual
 
-_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 12.0
+_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 24.0
 """Costs of a place: no anchor stands in it; none stands on its first line; that line is not its section's heading;
-it is shifted otherwise than the place above; it is not below that place.
+it is shifted otherwise than the place above; it stands above that place, and not where rows between may be gone.
 
 A changed shift costs more than half of a lost anchor, so that a line with one anchor does not move alone: most
 likely its number was changed.
@@ -37,6 +37,8 @@ _LONGEST = 40
 """A place ends after at most so many lines, where the next cited line is farther away."""
 _MERGED = 10
 """The text of a merged cell stands at most so many rows above."""
+_GONE = 10
+"""At most so many rows are gone together."""
 _HOPELESS = 3 * _CHANGE
 """A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
 _COMMON, _NEAREST = 12, 3
@@ -95,7 +97,7 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
         if heading is None:
             return None
         return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
-    if numbers := claim.numbers or claim.beside:
+    if numbers := claim.numbers or (claim.beside if not claim.words else frozenset()):
         places = sorted({place for number in numbers for place in manual.lines_of.get(number, ())})
     elif claim.fact == "bytes":
         places = manual.lines_with_bytes(claim.shown[:_BYTES])
@@ -137,7 +139,7 @@ class _Search:
         steps: list[dict[int, int]] = []
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
-            above = best + self.cited[index - 1] - self.cited[index] if index else -self.cited[0]
+            above = best + self.cited[max(0, index - 1)] - self.cited[index] - _GONE
             now: dict[int, float] = {}
             step: dict[int, int] = {}
             for shift in dict.fromkeys((*states[index], *costs)):
