@@ -97,14 +97,18 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
         if heading is None:
             return None
         return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
-    if numbers := claim.numbers or (claim.beside if not claim.words else frozenset()):
-        places = sorted({place for number in numbers for place in manual.lines_of.get(number, ())})
-    elif claim.fact == "bytes":
-        places = manual.lines_with_bytes(claim.shown[:_BYTES])
-    else:
-        places = sorted({place for word in claim.words for place in manual.lines_with(word)})
+    places = _places(manual, claim)
     last = next((last - first for first, last in claim.cited if first == line and last), None)
     return _Anchor(places, (), _STRONG if claim.anchor else 1, None if last is None else last + 1)
+
+
+def _places(manual: Manual, claim: Claim) -> list[int]:
+    """The lines with a claim's numbers or words; a label whose words are glued to others is found by its number."""
+    if claim.fact == "bytes":
+        return manual.lines_with_bytes(claim.shown[:_BYTES])
+    by_words = {place for word in claim.words for place in manual.lines_with(word)} if not claim.numbers else set()
+    numbers = claim.numbers or (claim.beside if not by_words else ())
+    return sorted(by_words.union(*(manual.lines_of.get(number, ()) for number in numbers)))
 
 
 def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
