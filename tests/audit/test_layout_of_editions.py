@@ -35,6 +35,11 @@ CHANGES = {
     "a place of the thousands": ("from 1 000 on", "from 10 000 on", ("1", "10")),
     "a digit of a hexadecimal number": ("at 0x1A", "at 1Bh", ("0x1A", "1Bh")),
     "signs behind a number": ("0.... off", "0: off", ("....", ":")),
+    "an entry of a cell": (
+        "| 05 .. 96 bps<br>06 .. 192 bps |",
+        "| 05 .. 96 bps<br>06 .. 192 bps<br>07 .. 9 bps |",
+        ("", "07 .. 9 bps"),
+    ),
     "what is no tag": ("<STX> and <LGE>", "<STX> and", ("<LGE>", "")),
 }
 

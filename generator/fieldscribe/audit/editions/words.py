@@ -25,6 +25,7 @@ _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_D
 _TAG = re.compile(
     r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
 )
+_PARTS_CELLS = re.compile(r"\||<br|<li", re.IGNORECASE)
 _MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
 """What makes a line a heading, or an entry of a list."""
 _HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH])\b")
@@ -44,6 +45,7 @@ class Words:
         self.line_of: list[int] = []
         self.column_of: list[int] = []
         self._first: list[int] = [0]
+        self._opening: set[int] = set()
         self.entries: set[int] = set()
         """The lines that a mark makes entries of a list."""
         for number, line in enumerate(self.lines, 1):
@@ -55,10 +57,14 @@ class Words:
         marks = _MARKS.match(line)
         if marks and "#" not in marks[0]:
             self.entries.add(number)
-        line = _TAG.sub(lambda match: " " * len(match[0]), line)
-        for match in _WORD.finditer(line, marks.end() if marks else 0):
+        plain = _TAG.sub(lambda match: " " * len(match[0]), line)
+        end = 0
+        for match in _WORD.finditer(plain, marks.end() if marks else 0):
             written = match[0]
-            self.texts.append("." if self._is_decimal(line, match) else _as_word(written))
+            if _PARTS_CELLS.search(line, end, match.start()):
+                self._opening.add(len(self.texts))
+            end = match.end()
+            self.texts.append("." if self._is_decimal(plain, match) else _as_word(written))
             self.line_of.append(number)
             self.column_of.append(match.start() + 1)
 
@@ -84,6 +90,10 @@ class Words:
     def opens_line(self, word: int) -> bool:
         """Whether a word is the first of its line; what stands behind the last word is."""
         return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
+
+    def opens_cell(self, word: int) -> bool:
+        """Whether a word is the first of its cell, or of a line in it."""
+        return word in self._opening
 
     def is_in_one_line(self, start: int, end: int) -> bool:
         """Whether the words from..to stand in one line."""
