@@ -16,6 +16,8 @@ from fieldscribe.pipeline import load_subject
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from fieldscribe.audit.editions import Comparison
     from fieldscribe.resolve.subject import Subject
 
@@ -280,3 +282,16 @@ def test_a_section_with_another_number_is_the_one_with_its_title() -> None:
 )
 def test_spellings_of_a_word(old: str, new: str, same: bool) -> None:
     assert is_respelled(old, new) == is_respelled(new, old) == same
+
+
+def test_a_row_that_prints_an_access_where_it_had_none_is_a_finding(tmp_path: Path) -> None:
+    documents = "{manual: {title: Manual, language: en, file: old, access: {r: [R], rw: [R/W]}}}"
+    points = "- {name: quick_start, at: 0010h, access: none, range: 0..1, line: 3}\n"
+    text = together(head(documents=documents), group(points, access="rw"))
+    subject = load_subject(write(tmp_path / "plant", text), Report())
+    assert subject is not None
+    old = "| Title | Access | Register | Range |\n|---|---|---|---|\n| Quick start | - | 0010h | 0-1 |\n"
+    new = old.replace("| - |", "| R/W |")
+    (finding,) = compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
+    assert (finding.kind, finding.words) == ("changed", (("-", "R/W"),))
+    assert ": access none is not there" in [reason.said for reason in finding.reasons]

@@ -50,8 +50,6 @@ def edition(sound: Sound, random: Random, count: int = 14) -> Edition:
         new = edits.get(number, old)
         if number in edits:
             changed.add(len(lines) + 1)
-            if new is None:  # which of several rows alike is gone cannot be told: those beside it are of the change
-                changed.update(range(len(lines) - 2, len(lines) + 2))
         if new is not None:
             lines.append(_padded(new))
     return Edition("\n".join(lines) + "\n", changes, changed)

@@ -228,12 +228,13 @@ class Citing:
                 entry=entry,
             )
 
-    def access(self, words: tuple[str, ...], rivals: tuple[str, ...], place: Span) -> Iterator[Claim]:
+    def access(self, access: str, words: tuple[str, ...], rivals: tuple[str, ...], place: Span) -> Iterator[Claim]:
         """Who may write, in the manual's notation; where the manual says nothing of it, it is no finding."""
         cited = self.lines_of_fact.get("access", self.own_line)
         if cited:
+            shown = words[0] if words else access
             yield Claim(
-                self.subject, "access", words[0], frozenset(), words, cited, place, about=self.about, rivals=rivals
+                self.subject, "access", shown, frozenset(), words, cited, place, about=self.about, rivals=rivals
             )
 
     def words(self, fact: str, *words: str, place: Span | None = None) -> Iterator[Claim]:

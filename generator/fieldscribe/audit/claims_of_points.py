@@ -52,12 +52,12 @@ def _titles_of(draft: Draft) -> Any:
 
 
 def _access(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
-    """How the manual prints who may write; rows that print nothing of it say nothing."""
+    """How the manual prints who may write; rows that print nothing of it say nothing, and are right for `none`."""
     access = str(draft.get("access"))
     words = wordings.access.get(access, [])
     rivals = [word for other, words in wordings.access.items() if other != access for word in words]
-    if words:
-        yield from citing.access(tuple(words), tuple(rivals), draft.span("access"))
+    if words or (access == "none" and rivals):
+        yield from citing.access(access, tuple(words), tuple(rivals), draft.span("access"))
 
 
 def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:

@@ -37,6 +37,7 @@ _ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
+_BLANKS = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " "))
 _LONG_ROW = 40
 """A row or paragraph has at most so many lines."""
 
@@ -73,7 +74,7 @@ class Manual:
     """A manual's text, read once. `names` are its words with digits in them that are no numbers."""
 
     def __init__(self, text: str, names: Sequence[str] = ()) -> None:
-        self.lines = text.splitlines()
+        self.lines = lines_of(text)
         self._heads: dict[int, str] = {}
         self._names = re.compile("|".join(map(_name, names))) if names else None
 
@@ -249,6 +250,11 @@ class Manual:
                 empty.discard(place)
             above -= 1
         return merged
+
+
+def lines_of(text: str) -> list[str]:
+    """The lines of a text, with plain blanks: those that hold two words together are layout."""
+    return text.translate(_BLANKS).splitlines()
 
 
 def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:

@@ -82,6 +82,15 @@ class Passage:
         char, after = self.text[place], self.text[place + 1 : place + 2]
         return not after.isalnum() or (char.isalpha() and (after.isdigit() or after.isupper()))
 
+    def parts(self, first: int, end: int) -> Iterator[tuple[int, int, int]]:
+        """What lies between two places, line by line: line, column (from 1) and width."""
+        start = 0
+        for line, column, text in self.pieces:
+            here, there = max(first, start), min(end, start + len(text))
+            if here < there:
+                yield line, column + here - start + 1, there - here
+            start += len(text) + 1
+
     def column(self, place: int) -> int | None:
         """The column of a table in which a place lies; None outside of tables."""
         start = 0

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Manual
 
-_LOST, _NOT_FIRST, _BELOW, _CHANGE = 10.0, 1.0, 0.5, 6.0
+_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 24.0
 """Costs of a place: no anchor stands in it; none stands on its first line; that line is not its section's heading;
-it is shifted otherwise than the place above.
+it is shifted otherwise than the place above; it stands above that place, and not where rows between may be gone.
 
 A changed shift costs more than half of a lost anchor, so that a line with one anchor does not move alone: most
 likely its number was changed.
@@ -37,6 +37,8 @@ _LONGEST = 40
 """A place ends after at most so many lines, where the next cited line is farther away."""
 _MERGED = 10
 """The text of a merged cell stands at most so many rows above."""
+_GONE = 10
+"""At most so many rows are gone together."""
 _HOPELESS = 3 * _CHANGE
 """A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
 _COMMON, _NEAREST = 12, 3
@@ -83,8 +85,7 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    told = (claim for claim in claims if claim.anchor or claim.beside or not claim.words)  # titles stand in many places
-    anchors = [_anchor(manual, claim, line) for claim in told]
+    anchors = [_anchor(manual, claim, line) for claim in claims]
     anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
     return [anchor for anchor in anchors if anchor is not None and anchor.places]
 
@@ -96,14 +97,18 @@ def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
         if heading is None:
             return None
         return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
-    if numbers := claim.numbers or claim.beside:
-        places = sorted({place for number in numbers for place in manual.lines_of.get(number, ())})
-    elif claim.fact == "bytes":
-        places = manual.lines_with_bytes(claim.shown[:_BYTES])
-    else:
-        places = sorted({place for word in claim.words for place in manual.lines_with(word)})
+    places = _places(manual, claim)
     last = next((last - first for first, last in claim.cited if first == line and last), None)
     return _Anchor(places, (), _STRONG if claim.anchor else 1, None if last is None else last + 1)
+
+
+def _places(manual: Manual, claim: Claim) -> list[int]:
+    """The lines with a claim's numbers or words; a label whose words are glued to others is found by its number."""
+    if claim.fact == "bytes":
+        return manual.lines_with_bytes(claim.shown[:_BYTES])
+    by_words = {place for word in claim.words for place in manual.lines_with(word)} if not claim.numbers else set()
+    numbers = claim.numbers or (claim.beside if not by_words else ())
+    return sorted(by_words.union(*(manual.lines_of.get(number, ()) for number in numbers)))
 
 
 def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
@@ -138,11 +143,12 @@ class _Search:
         steps: list[dict[int, int]] = []
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
-            changed = costs[best] + _CHANGE
+            above = best + self.cited[max(0, index - 1)] - self.cited[index] - _GONE
             now: dict[int, float] = {}
             step: dict[int, int] = {}
             for shift in dict.fromkeys((*states[index], *costs)):
                 stays = costs.get(shift)
+                changed = costs[best] + (_CHANGE if shift > above else _BACK)
                 step[shift] = shift if stays is not None and stays <= changed else best
                 now[shift] = (changed if step[shift] != shift else costs[shift]) + self._cost(index, shift)
             bound = min(worst, min(now.values()) + _HOPELESS)

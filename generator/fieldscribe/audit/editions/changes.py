@@ -92,17 +92,24 @@ class Editions:
         return self._there[word]
 
     def _is_layout(self, gap: Gap) -> bool:
-        """Whether only blanks and hyphens within words differ; then its words are taken for each other."""
+        """Whether only the setting of words or the mark of an entry differs; its words are taken for each other."""
         first, last, start, end = gap
         above, below = self.old.texts[max(0, first - 1) : first], self.old.texts[last : last + 1]
         was = pressed([*above, *self.old.texts[first:last], *below])
-        if was != pressed([*above, *self.new.texts[start:end], *below]):
+        if was != pressed([*above, *self.new.texts[start:end], *below]) and not self._is_mark(gap):
             return False
         for word in range(first, last):
             self._there[word] = min(start + (word - first) * (end - start) // (last - first), len(self._back) - 1)
         for word in range(start, end):
             self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
         return True
+
+    def _is_mark(self, gap: Gap) -> bool:
+        """Whether an entry of a list has a number where it had a mark, or the other way round."""
+        first, last, start, end = gap
+        if first == last:
+            return self.new.is_numbering(start, end) and self.old.is_entry(self._back, end)
+        return start == end and self.old.is_numbering(first, last) and self.new.is_entry(self._there, last)
 
     def _match_headings(self) -> None:
         """A section that has another number now is the one with its title."""

@@ -52,6 +52,7 @@ class Matching:
         self._straighten(1)
         self._straighten(-1)
         self._slide()
+        self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self._put_in_their_places(olds, news)
 
@@ -210,7 +211,7 @@ class Matching:
             self.forget(range(there, there + 1))
 
     def _slide(self) -> None:
-        """What was added or removed may begin at several words: at the first of a line, where that is one."""
+        """What was added or removed may begin at several words: at the first of a line or cell, where that is one."""
         for first, last, start, end in list(self.gaps()):
             if start < end and (first == last or not self.new.is_in_one_line(start, end)):
                 self._slide_one(self.new, start, end, self.back, self.there)
@@ -225,8 +226,9 @@ class Matching:
         high = end
         while high < len(here) and here[high] >= 0 and words[high] == words[start + high - end]:
             high += 1
-        for by in sorted(range(-steps, high - end + 1), key=lambda by: (start + by > 0, abs(by))):
-            if text.opens_line(start + by):
+        shifts = sorted(range(-steps, high - end + 1), key=lambda by: (start + by > 0, abs(by)))
+        for opens in (text.opens_line, text.opens_cell):
+            if (by := next((by for by in shifts if opens(start + by)), None)) is not None:
                 _shift(here, other, start, end, by)
                 return
 

@@ -46,7 +46,7 @@ _AT = re.compile(
 _ALNUM = re.compile(r"[^\W_]+")
 _SECTION = re.compile(r"[\s#]*[0-9]+(?:\.[0-9]+)+")
 _NUMBER = re.compile(r"[0-9]+")
-_SENTENCE = re.compile(r"[^.!?:;]*[.!]?\s*")
+_SENTENCE = re.compile(r"(?:[^.!?;]|\.(?=[0-9]))*[.!]?\s*")
 
 
 class Remarks:
@@ -168,7 +168,7 @@ class Remarks:
 
     def _is_reference(self, finding: Finding) -> bool:
         """Whether it is a sentence that says where something is described."""
-        if finding.kind != "added" or len(finding.places) > 1 or len(lines := _written(finding.now)) != 1:
+        if finding.kind != "added" or len(lines := _written(finding.now)) != 1:
             return False
         if any(reason.kind == "number" for reason in finding.reasons) or _SENTENCE.fullmatch(lines[0]) is None:
             return False

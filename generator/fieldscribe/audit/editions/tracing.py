@@ -96,15 +96,23 @@ class Trace(Comparison):
         super()._unused()
 
     def _words_of(self, claim: Claim) -> set[int]:
-        """The words of the text that are those of a claim."""
-        lines = {line for extent in self.extents_of(claim.cited) for line in range(extent.first, extent.last + 1)}
-        return {
+        """The words of the text that are those of a claim; a label may be spelt or broken otherwise."""
+        extents = self.extents_of(claim.cited)
+        lines = {line for extent in extents for line in range(extent.first, extent.last + 1)}
+        literal = {
             place
             for line in lines
             for word in claim.words
             for at in places_in(self.manual.line(line), word)
             for place in self._between(line, at + 1, len(word))
         }
+        if literal or not claim.beside:
+            return literal
+        places = ((self.passage(extent), span) for extent in extents for span in self._spans(claim, extent))
+        return {place for passage, span in places for piece in passage.parts(*span) for place in self._between(*piece)}
+
+    def _spans(self, claim: Claim, extent: Extent) -> Iterator[tuple[int, int]]:
+        return (span for word in claim.words for span in self.passage(extent).places(word))
 
     def words_of_token(self, token: Token) -> range:
         """The words that a number is made of."""

@@ -1,4 +1,4 @@
-"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks (`<br>`), dashes."""
+"""A text as a series of words, in which layout counts for nothing: cells, padding, line breaks, dashes, lists, bold."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from bisect import bisect_left
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
+from fieldscribe.audit.manual import lines_of
+
 if TYPE_CHECKING:
     from collections.abc import Container
 
@@ -14,14 +16,23 @@ LINE_BREAK = " \u23ce "
 """Stands for the end of a line where words of several lines are shown."""
 _INVISIBLE = "\u00ad\u200b\u200c\u200d\u2060\ufeff"
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
-_WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
+_WORD = re.compile(
+    rf"[0-9A-F](?: [0-9A-F]){{1,3}} h(?!\w)|[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_"
+)
+"""A number with a blank behind each digit is one, as it is for `Manual`."""
 _AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
 _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
-_BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
-_HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
+_TAG = re.compile(
+    r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
+)
+_PARTS_CELLS = re.compile(r"\||<br|<li", re.IGNORECASE)
+_MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
+"""What makes a line a heading, or an entry of a list."""
+_HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH])\b")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
-_PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
+_PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
+_THOUSANDS = re.compile(r"(?<![0-9])[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9])")
 
 
 class Words:
@@ -29,24 +40,39 @@ class Words:
 
     def __init__(self, text: str, without: Container[int] = ()) -> None:
         """The words of all lines but some: heads and feet of pages part what belongs together."""
-        self.lines = text.splitlines()
+        self.lines = lines_of(text)
         self.texts: list[str] = []
         self.line_of: list[int] = []
         self.column_of: list[int] = []
         self._first: list[int] = [0]
+        self._opening: set[int] = set()
+        self.entries: set[int] = set()
+        """The lines that a mark makes entries of a list."""
         for number, line in enumerate(self.lines, 1):
             if number not in without and not _RULE.fullmatch(line):
                 self._add(number, line)
             self._first.append(len(self.texts))
 
     def _add(self, number: int, line: str) -> None:
-        marks = _HEADING_MARKS.match(line)
-        line = _BREAK.sub(lambda match: " " * len(match[0]), line)
-        for match in _WORD.finditer(line, marks.end() if marks else 0):
+        marks = _MARKS.match(line)
+        if marks and "#" not in marks[0]:
+            self.entries.add(number)
+        plain = _TAG.sub(lambda match: " " * len(match[0]), line)
+        end = 0
+        for match in _WORD.finditer(plain, marks.end() if marks else 0):
             written = match[0]
-            self.texts.append(written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN)))
+            if _PARTS_CELLS.search(line, end, match.start()):
+                self._opening.add(len(self.texts))
+            end = match.end()
+            self.texts.append("." if self._is_decimal(plain, match) else _as_word(written))
             self.line_of.append(number)
             self.column_of.append(match.start() + 1)
+
+    @staticmethod
+    def _is_decimal(line: str, sign: re.Match[str]) -> bool:
+        """Whether a sign is the comma of a number."""
+        start, end = sign.span()
+        return sign[0] == "," and line[start - 1 : start].isdigit() and line[end : end + 1].isdigit()
 
     def __len__(self) -> int:
         return len(self.texts)
@@ -65,6 +91,10 @@ class Words:
         """Whether a word is the first of its line; what stands behind the last word is."""
         return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
 
+    def opens_cell(self, word: int) -> bool:
+        """Whether a word is the first of its cell, or of a line in it."""
+        return word in self._opening
+
     def is_in_one_line(self, start: int, end: int) -> bool:
         """Whether the words from..to stand in one line."""
         return self.line_of[start] == self.line_of[end - 1]
@@ -73,6 +103,17 @@ class Words:
         """The word at a place, or the first one behind it."""
         words = self.of_line(line)
         return bisect_left(self.column_of, column, words.start, words.stop)
+
+    def is_numbering(self, start: int, end: int) -> bool:
+        """Whether words are a number and a sign before the text of a line, as in `1.`."""
+        texts = self.texts[start:end]
+        opens = self.opens_line(start) and not self.opens_line(end)
+        return opens and len(texts) == 2 and texts[0].isdigit() and texts[1] in (".", ")")
+
+    def is_entry(self, counterparts: list[int], word: int) -> bool:
+        """Whether a word of the other text has its counterpart at the start of an entry of a list."""
+        here = counterparts[word]
+        return here >= 0 and self.opens_line(here) and self.line_of[here] in self.entries
 
     def is_minus(self, word: int) -> bool:
         """Whether a word is the sign of the number behind it, and no dash between two."""
@@ -95,11 +136,13 @@ class Words:
         return range(first, last)
 
     def _are_one_number(self, word: int) -> bool:
-        """Whether a word and the next one are parts of the same number."""
-        here, behind = self.texts[word], self.texts[word + 1]
-        glued = self.column_of[word] + len(here) == self.column_of[word + 1]
-        has_digits = here.isdigit() != behind.isdigit() and _PARTED_NUMBER.fullmatch(here + behind) is not None
-        return glued and has_digits and self.line_of[word] == self.line_of[word + 1]
+        """Whether a word and the next one are parts of the same number: digits stand on both sides of its sign."""
+        sign = word + self.texts[word].isdigit()
+        parts = range(max(0, sign - 1), min(sign + 2, len(self)))
+        number = "".join(self.texts[part] for part in parts)
+        glued = self.column_of[parts[0]] + len(number) == self.column_of[parts[-1]] + len(self.texts[parts[-1]])
+        one_line = self.line_of[parts[0]] == self.line_of[parts[-1]]
+        return glued and one_line and _PARTED_NUMBER.fullmatch(number) is not None
 
     def shown(self, words: range) -> str:
         """Words as the text writes them, with a slash between lines."""
@@ -116,6 +159,13 @@ class Words:
         return LINE_BREAK.join(pieces)
 
 
+def _as_word(written: str) -> str:
+    plain = written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN))
+    return plain.replace(" ", "")
+
+
 def pressed(texts: list[str]) -> str:
-    """Words without the blanks and hyphens that only set them: two numbers stay apart."""
-    return _BLANK.sub("", _DASH_IN_WORD.sub("", " ".join(texts)))
+    """Words without what only sets them: blanks, hyphens, marks of hexadecimal numbers; two numbers stay apart."""
+    written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
+    written = _BLANK.sub("", _DASH_IN_WORD.sub("", written))
+    return _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
