@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
+from fieldscribe.audit.editions.reading_order import ReadingOrder
 from fieldscribe.audit.editions.words import Words, pressed
-from fieldscribe.audit.pages import page_lines
+from fieldscribe.audit.pages import page_lines_of_both
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -51,11 +52,12 @@ class Editions:
     """Two editions of one text."""
 
     def __init__(self, old: str, new: str) -> None:
-        self.pages = page_lines(old.splitlines()), page_lines(new.splitlines())
+        self.pages = page_lines_of_both(old.splitlines(), new.splitlines())
         self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
         self._match_headings()
+        ReadingOrder(self._matching)
         self._part_unlike_rows()
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
@@ -98,10 +100,9 @@ class Editions:
         was = pressed([*above, *self.old.texts[first:last], *below])
         if was != pressed([*above, *self.new.texts[start:end], *below]):
             return False
-        for word in range(first, last):
-            self._there[word] = min(start + (word - first) * (end - start) // (last - first), len(self._back) - 1)
-        for word in range(start, end):
-            self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
+        olds = range(first, last) or [min(first, len(self._there) - 1)]
+        news = range(start, end) or [min(start, len(self._back) - 1)]
+        self._matching.spread(olds, news)
         return True
 
     def _match_headings(self) -> None:

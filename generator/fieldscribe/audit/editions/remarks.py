@@ -8,11 +8,11 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
-from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
 from fieldscribe.audit.editions.telling import DATE, is_code
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
+from fieldscribe.audit.pages import pattern, repeated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -68,11 +68,7 @@ class Remarks:
 
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
         """What may hold facts, in its order, and what does not, by kinds."""
-        kind_of = {
-            id(finding): "heads_and_feet"
-            for finding in heads_and_feet(findings, self.editions.old.lines, self.editions.new.lines)
-        }
-        kind_of |= {id(finding): "heads_and_feet" for finding in findings if self._is_of_pages(finding)}
+        kind_of = {id(finding): "heads_and_feet" for finding in self._of_pages(findings)}
         for finding in findings:
             if id(finding) not in kind_of and (kind := self._kind(finding)):
                 kind_of[id(finding)] = kind
@@ -81,10 +77,20 @@ class Remarks:
         remarks = [Remark(kind, tuple(group)) for kind, group in by_kind.items() if group]
         return [finding for finding in findings if id(finding) not in kind_of], remarks
 
-    def _is_of_pages(self, finding: Finding) -> bool:
-        """Whether its lines are a head or foot that the text of another page lies between."""
-        lines = _written((*finding.was, *finding.now))
-        return bool(lines) and finding.kind != "moved" and not finding.cited_by and self._page_texts.issuperset(lines)
+    def _of_pages(self, findings: Sequence[Finding]) -> Iterator[Finding]:
+        """Findings whose lines are heads or feet of pages, as far as no fact is lost with them."""
+        findings = [finding for finding in findings if _may_be_of_pages(finding)]
+        olds, news = (
+            self._page_texts.union(
+                _plain(text[line - 1]) for line in repeated(text, set().union(*map(lines_of, findings)))
+            )
+            for text, lines_of in ((self.editions.old.lines, _old_lines), (self.editions.new.lines, _new_lines))
+        )
+        for finding in findings:
+            was, now = _written(finding.was), _written(finding.now)
+            alike = finding.kind != "changed" or list(map(pattern, was)) == list(map(pattern, now))
+            if alike and (was or now) and olds.issuperset(was) and news.issuperset(now):
+                yield finding
 
     @cached_property
     def _page_texts(self) -> set[str]:
@@ -190,6 +196,22 @@ class Remarks:
     @cached_property
     def _lines_of_new(self) -> set[tuple[str, ...]]:
         return set(map(_words_of, self.editions.new.lines))
+
+
+def _may_be_of_pages(finding: Finding) -> bool:
+    """Whether it is about lines of text, and no fact is lost with it; facts may seem to stand on it by chance."""
+    if finding.kind == "moved" or finding.drafts or finding.void:
+        return False
+    loses = any(reason.kind in ("missing", "gone") for reason in finding.reasons)
+    return not loses and not any(map(is_row, (*finding.was, *finding.now)))
+
+
+def _old_lines(finding: Finding) -> set[int]:
+    return {line for place in finding.places if place.old for line in range(place.old[0], place.old[1] + 1)}
+
+
+def _new_lines(finding: Finding) -> set[int]:
+    return {line for place in finding.places if place.new for line in range(place.new[0], place.new[1] + 1)}
 
 
 def is_spelling(finding: Finding) -> bool:
