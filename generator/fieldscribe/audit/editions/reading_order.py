@@ -25,6 +25,10 @@ _MOST = 4
 """So many lines, or pieces, make one cell."""
 _LABEL = re.compile(r"[^\W\d_].*|.{5,}")
 """What says something wherever it stands: it opens with a letter, or is long."""
+_NUMBER = re.compile(r"[0-9]+")
+_NAME = re.compile(r"[^\W\d_]{3}")
+_WITHIN = 60
+"""Two pieces enclose a number if at most so many words lie between."""
 
 
 class _Piece(NamedTuple):
@@ -117,6 +121,8 @@ class ReadingOrder:
         self._match_equal()
         for here, other in self._both():
             self._match_composed(here, other)
+            self._match_enclosed(here, other)
+        self._match_all_but_a_number()
 
     def _both(self) -> tuple[tuple[_Side, _Side], tuple[_Side, _Side]]:
         return (self._old, self._new), (self._new, self._old)
@@ -169,6 +175,49 @@ class ReadingOrder:
                 composed = _composed(whole.key, inside, _MOST)
                 if len(composed) > 1:
                     self._take(here, [word for part in composed for word in part.words], whole.words)
+
+    def _match_enclosed(self, here: _Side, other: _Side) -> None:
+        """A number by itself that stands in both texts between the same two pieces, of which both moved."""
+        parts = {(part.key, part.words.stop): part for part in here.pieces() if part.is_whole}
+        for piece in other.pieces():
+            if not piece.is_whole or not piece.words.start or piece.words.stop == len(other.there):
+                continue
+            ends = [(piece.words.start - 1, -1), (piece.words.stop, 1)]
+            first, last = (other.there[word] for word, _ in ends)
+            if first < 0 or not first < last <= first + _WITHIN or not self._have_moved(here, other, ends):
+                continue
+            inside = (parts.get((piece.key, stop)) for stop in range(first + 1, last + 1))
+            same = next(
+                (part for part in inside if part and part.words.start > first and here.is_free(part.words)), None
+            )
+            if same and other.is_free(piece.words):
+                self._take(here, same.words, piece.words)
+
+    def _have_moved(self, here: _Side, other: _Side, ends: list[tuple[int, int]]) -> bool:
+        words = [word if other is self._old else other.there[word] for word, _ in ends]
+        return self._matching.moved.issuperset(words)
+
+    def _match_all_but_a_number(self) -> None:
+        """A line that stands elsewhere on the page, with another number."""
+        by_key: dict[str, list[_Piece]] = {}
+        for piece in self._new.pieces():
+            if self._has_one_number(self._new, piece):
+                by_key.setdefault(_NUMBER.sub("#", piece.key), []).append(piece)
+        for piece in self._old.pieces():
+            if self._has_one_number(self._old, piece) and self._old.is_free(piece.words):
+                others = self._places[id(self._old)].near(piece.words[0], by_key.get(_NUMBER.sub("#", piece.key), ()))
+                same = [other for other in others if self._new.is_free(other.words)]
+                if len(set(same)) == 1 and len(same[0].words) == len(piece.words):
+                    for old, new in zip(piece.words, same[0].words, strict=True):
+                        if not self._old.text.texts[old].isdigit():
+                            self._take(self._old, [old], [new])
+
+    @staticmethod
+    def _has_one_number(side: _Side, piece: _Piece) -> bool:
+        numbers = sum(side.text.texts[word].isdigit() for word in piece.words)
+        return (
+            piece.is_whole and numbers == len(_NUMBER.findall(piece.key)) == 1 and _NAME.search(piece.key) is not None
+        )
 
     def _take(self, here: _Side, words: Sequence[int], others: Sequence[int]) -> None:
         olds, news = (words, others) if here is self._old else (others, words)
