@@ -10,7 +10,7 @@ from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.reading_order import ReadingOrder
 from fieldscribe.audit.editions.words import Words, pressed
-from fieldscribe.audit.pages import page_lines_of_both
+from fieldscribe.audit.pages import page_lines_of_both, pattern
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -58,6 +58,7 @@ class Editions:
         self._there, self._back = self._matching.there, self._matching.back
         self._match_headings()
         ReadingOrder(self._matching)
+        self._put_rows_in_their_places()
         self._part_unlike_rows()
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
@@ -113,6 +114,16 @@ class Editions:
             texts = [self.old.texts[word] for word in old], [self.new.texts[word] for word in new]
             if texts[0] != texts[1] and len(old) == len(new):
                 self._matching.take(old, new)
+
+    def _put_rows_in_their_places(self) -> None:
+        """Rows that differ in numbers alone, one below the other in both texts, are each the row in its place."""
+        for group in _grouped([self._with_lines(gap) for gap in self._matching.gaps()]):
+            olds, news = (sorted(set().union(*(placed[side] for placed in group))) for side in (1, 2))
+            was, now = (
+                [pattern(text.line(line)) for line in lines] for text, lines in ((self.old, olds), (self.new, news))
+            )
+            if len(olds) > 1 and was == now:
+                self._matching.put_in_their_places(olds, news)
 
     def _part_unlike_rows(self) -> None:
         """A row that shares hardly a word with the one in its place is another row."""

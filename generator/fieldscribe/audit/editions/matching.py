@@ -53,7 +53,7 @@ class Matching:
         self._straighten(-1)
         self._slide()
         for olds, news in list(exchanged(self)):
-            self._put_in_their_places(olds, news)
+            self.put_in_their_places(olds, news)
 
     def gaps(self) -> Iterator[Gap]:
         """What has no counterpart, as pairs that stand between the same neighbours; a side of a pair may be empty."""
@@ -181,7 +181,7 @@ class Matching:
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
 
-    def _put_in_their_places(self, olds: list[int], news: list[int]) -> None:
+    def put_in_their_places(self, olds: list[int], news: list[int]) -> None:
         """Take each of these lines for the one in its place, whatever words they share with others."""
         for line in olds:
             self.forget(self.old.of_line(line))

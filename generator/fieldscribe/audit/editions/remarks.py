@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.telling import DATE, is_code
+from fieldscribe.audit.editions.telling import DATE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.pages import pattern, repeated
@@ -63,7 +63,7 @@ class Remarks:
             ("references", self._is_reference),
             ("repeated_heads", self._is_repeated),
             ("moved", lambda finding: finding.kind == "moved"),
-            ("wording", lambda finding: _is_wording(finding) and not self._loses_words(finding)),
+            ("wording", lambda finding: _is_wording(finding) and not self._says_less_or_more(finding)),
         )
 
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
@@ -122,12 +122,16 @@ class Remarks:
             return ""
         return next((kind for kind, fits in self._kinds if fits(finding)), "")
 
-    def _loses_words(self, finding: Finding) -> bool:
-        """Whether a row says less, with nothing in its place: what it says of may be less now."""
-        lost = (name for old, new in finding.words if not new.strip() for name in _ALNUM.findall(old))
-        if finding.old is None or not any(is_name(name) or is_code(name) for name in lost):
+    def _says_less_or_more(self, finding: Finding) -> bool:
+        """Whether a row or label lost or got words, with nothing in their place: what it says of may be another now."""
+        alone = (old or new for old, new in finding.words if not (old.strip() and new.strip()))
+        names = [name for words in alone for name in _ALNUM.findall(words)]
+        if finding.kind == "added" or not any(is_name(name) or is_code(name) for name in names):
             return False
-        return any(is_row(self.editions.old.line(line)) for line in range(finding.old[0], finding.old[1] + 1))
+        if finding.kind == "changed" and not all(map(is_prose, (*finding.was, *finding.now))):
+            return True
+        olds = range(finding.old[0], finding.old[1] + 1) if finding.old else ()
+        return any(is_row(self.editions.old.line(line)) for line in olds)
 
     def _second_line(self) -> int:
         """Where the second line of the old edition that has words stands now."""
