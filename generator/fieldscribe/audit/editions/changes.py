@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.reading_order import ReadingOrder
-from fieldscribe.audit.editions.words import Words, pressed
+from fieldscribe.audit.editions.words import Words, pressed, unspaced
 from fieldscribe.audit.pages import page_lines_of_both, pattern
 from fieldscribe.records import dataclass
 
@@ -98,8 +98,8 @@ class Editions:
         """Whether only blanks and hyphens within words differ; then its words are taken for each other."""
         first, last, start, end = gap
         above, below = self.old.texts[max(0, first - 1) : first], self.old.texts[last : last + 1]
-        was = pressed([*above, *self.old.texts[first:last], *below])
-        if was != pressed([*above, *self.new.texts[start:end], *below]):
+        was = pressed([*above, *unspaced(self.old.texts[first:last]), *below])
+        if was != pressed([*above, *unspaced(self.new.texts[start:end]), *below]):
             return False
         olds = range(first, last) or [min(first, len(self._there) - 1)]
         news = range(start, end) or [min(start, len(self._back) - 1)]

@@ -7,102 +7,21 @@ itself says something by its place: it is the same only where a cell of its own 
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
-from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.words import pressed
+from fieldscribe.audit.editions.pieces import MOST, PAGE, Piece, Places, Side
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from fieldscribe.audit.editions.matching import Matching
-    from fieldscribe.audit.editions.words import Words
 
-_PAGE = 40
-"""What a page gives in another order stands within so many lines."""
-_MOST = 4
-"""So many lines, or pieces, make one cell."""
-_LABEL = re.compile(r"[^\W\d_].*|.{5,}")
-"""What says something wherever it stands: it opens with a letter, or is long."""
+_LABEL = re.compile(r"(?!(?:0x)?[0-9a-f]*[0-9][0-9a-f]*h?$)(?:[^\W\d_]|.*[^\W\d_]{2}).*", re.IGNORECASE)
+"""What says something wherever it stands: it has letters, and is no number with other digits."""
 _NUMBER = re.compile(r"[0-9]+")
 _NAME = re.compile(r"[^\W\d_]{3}")
 _WITHIN = 60
 """Two pieces enclose a number if at most so many words lie between."""
-
-
-class _Piece(NamedTuple):
-    """Words without a counterpart: whole lines, or one end of a line; `key` is what they say without blanks."""
-
-    words: range
-    line: int
-    key: str
-    is_whole: bool
-
-
-class _Side:
-    """One of the two texts, with the counterparts of its words."""
-
-    def __init__(self, text: Words, there: list[int]) -> None:
-        self.text, self.there = text, there
-        self.replaced: set[int] = set()
-
-    def free(self) -> list[int]:
-        """The words without a counterpart."""
-        return [word for word, other in enumerate(self.there) if other < 0]
-
-    def lines(self, first: int, last: int) -> int:
-        """On how many lines the words first..last stand."""
-        return len({self.text.line_of[word] for word in range(first, last)})
-
-    def is_free(self, words: range) -> bool:
-        """Whether none of these words has a counterpart."""
-        return all(self.there[word] < 0 for word in words) and self.replaced.isdisjoint(words)
-
-    def pieces(self) -> list[_Piece]:
-        """Each line, or end of a line, without a counterpart, and up to some of those in a row."""
-        ends = list(self._ends())
-        runs = (ends[at:last] for at in range(len(ends)) for last in range(at + 1, min(at + _MOST, len(ends)) + 1))
-        return [self._piece(run) for run in runs if all(above.stop == below.start for above, below in pairwise(run))]
-
-    def _piece(self, run: list[range]) -> _Piece:
-        words = range(run[0].start, run[-1].stop)
-        key = pressed([self.text.texts[word] for word in words]).removesuffix("-")
-        is_whole = self.text.opens_line(words.start) and self.text.opens_line(words.stop)
-        return _Piece(words, self.text.line_of[words.start], key, is_whole)
-
-    def _ends(self) -> Iterator[range]:
-        for line in range(1, len(self.text.lines) + 1):
-            words = self.text.of_line(line)
-            taken = [word for word in words if self.there[word] >= 0]
-            if not taken:
-                yield from [words] if words else []
-            else:
-                yield from (end for end in (range(words.start, taken[0]), range(taken[-1] + 1, words.stop)) if end)
-
-
-class _Places:
-    """About where in the other text each word of one text would stand: where its neighbours do."""
-
-    def __init__(self, side: _Side, other: _Side) -> None:
-        self._above, self._below = [0] * len(side.there), [0] * len(side.there)
-        for places, words in ((self._above, range(len(side.there))), (self._below, range(len(side.there) - 1, -1, -1))):
-            line = 0
-            for word in words:
-                line = other.text.line_of[side.there[word]] if side.there[word] >= 0 else line
-                places[word] = line
-
-    def apart(self, word: int, line: int) -> int:
-        """How far a line of the other text is from there."""
-        return min(abs(line - self._above[word]), abs(line - self._below[word]))
-
-    def near(self, word: int, pieces: Sequence[_Piece]) -> Iterator[_Piece]:
-        """Those of some pieces of the other text, in its order, that stand on the same page."""
-        for middle in {self._above[word], self._below[word]}:
-            at = bisect_left(pieces, middle - _PAGE, key=lambda piece: piece.line)
-            while at < len(pieces) and pieces[at].line <= middle + _PAGE:
-                yield pieces[at]
-                at += 1
 
 
 class ReadingOrder:
@@ -110,24 +29,24 @@ class ReadingOrder:
 
     def __init__(self, matching: Matching) -> None:
         self._matching = matching
-        self._old, self._new = _Side(matching.old, matching.there), _Side(matching.new, matching.back)
+        self._old, self._new = Side(matching.old, matching.there), Side(matching.new, matching.back)
+        self._places = {id(here): Places(here, other) for here, other in self._both()}
+        for here, other in self._both():
+            self._join_halves(here, other)
         for first, last, start, end in matching.gaps():
             if self._old.lines(first, last) == self._new.lines(start, end) == 1:
                 self._old.replaced.update(range(first, last))
                 self._new.replaced.update(range(start, end))
-        self._places = {id(here): _Places(here, other) for here, other in self._both()}
-        for here, other in self._both():
-            self._join_halves(here, other)
         self._match_equal()
         for here, other in self._both():
             self._match_composed(here, other)
             self._match_enclosed(here, other)
         self._match_all_but_a_number()
 
-    def _both(self) -> tuple[tuple[_Side, _Side], tuple[_Side, _Side]]:
+    def _both(self) -> tuple[tuple[Side, Side], tuple[Side, Side]]:
         return (self._old, self._new), (self._new, self._old)
 
-    def _join_halves(self, here: _Side, other: _Side) -> None:
+    def _join_halves(self, here: Side, other: Side) -> None:
         """A word parted at the end of a line, whose other half opens a line farther down, is whole there."""
         wholes: dict[str, list[int]] = {}
         for word in other.free():
@@ -136,20 +55,21 @@ class ReadingOrder:
             if here.text.texts[hyphen] == "-" and here.text.opens_line(hyphen + 1) and not here.text.opens_line(hyphen):
                 self._join_half(here, hyphen, other, wholes)
 
-    def _join_half(self, here: _Side, hyphen: int, other: _Side, wholes: dict[str, list[int]]) -> None:
+    def _join_half(self, here: Side, hyphen: int, other: Side, wholes: dict[str, list[int]]) -> None:
         line = here.text.line_of[hyphen]
-        for words in map(here.text.of_line, range(line + 1, line + _PAGE)):
+        for words in map(here.text.of_line, range(line + 1, line + PAGE)):
             halves = [hyphen - 1, hyphen, *words[:1]]
             joined = here.text.texts[hyphen - 1] + here.text.texts[halves[-1]]
             for whole in wholes.get(joined, ()):
                 apart = self._places[id(here)].apart(hyphen, other.text.line_of[whole])
-                if other.there[whole] < 0 and apart <= _PAGE and all(here.there[half] < 0 for half in halves):
+                if other.there[whole] < 0 and apart <= PAGE and all(here.there[half] < 0 for half in halves):
+                    here.halves.add(halves[-1])
                     return self._take(here, halves, [whole])
         return None
 
     def _match_equal(self) -> None:
         """Pieces that say the same: the longest first, each the nearest."""
-        by_key: dict[str, list[_Piece]] = {}
+        by_key: dict[str, list[Piece]] = {}
         for piece in self._new.pieces():
             by_key.setdefault(piece.key, []).append(piece)
         places = self._places[id(self._old)]
@@ -160,23 +80,27 @@ class ReadingOrder:
                 best = min(near, key=lambda other: places.apart(piece.words[0], other.line))
                 self._take(self._old, piece.words, best.words)
 
-    def _may_be_one(self, old: _Piece, new: _Piece) -> bool:
+    def _may_be_one(self, old: Piece, new: Piece) -> bool:
         if not self._new.is_free(new.words):
             return False
         return old.is_whole or new.is_whole if _LABEL.fullmatch(old.key) else old.is_whole != new.is_whole
 
-    def _match_composed(self, here: _Side, other: _Side) -> None:
+    def _match_composed(self, here: Side, other: Side) -> None:
         """A line that was put together of pieces that stood apart."""
         parts = here.pieces()
         for whole in sorted(other.pieces(), key=lambda piece: -len(piece.key)):
             if whole.is_whole and other.is_free(whole.words):
                 near = self._places[id(other)].near(whole.words[0], parts)
-                inside = {part.key: part for part in near if part.key in whole.key and here.is_free(part.words)}
-                composed = _composed(whole.key, inside, _MOST)
+                inside = {
+                    part.key: part
+                    for part in near
+                    if part.key in whole.key and _LABEL.fullmatch(part.key) and here.is_free(part.words)
+                }
+                composed = _composed(whole.key, inside, MOST)
                 if len(composed) > 1:
                     self._take(here, [word for part in composed for word in part.words], whole.words)
 
-    def _match_enclosed(self, here: _Side, other: _Side) -> None:
+    def _match_enclosed(self, here: Side, other: Side) -> None:
         """A number by itself that stands in both texts between the same two pieces, of which both moved."""
         parts = {(part.key, part.words.stop): part for part in here.pieces() if part.is_whole}
         for piece in other.pieces():
@@ -193,13 +117,13 @@ class ReadingOrder:
             if same and other.is_free(piece.words):
                 self._take(here, same.words, piece.words)
 
-    def _have_moved(self, here: _Side, other: _Side, ends: list[tuple[int, int]]) -> bool:
+    def _have_moved(self, here: Side, other: Side, ends: list[tuple[int, int]]) -> bool:
         words = [word if other is self._old else other.there[word] for word, _ in ends]
         return self._matching.moved.issuperset(words)
 
     def _match_all_but_a_number(self) -> None:
         """A line that stands elsewhere on the page, with another number."""
-        by_key: dict[str, list[_Piece]] = {}
+        by_key: dict[str, list[Piece]] = {}
         for piece in self._new.pieces():
             if self._has_one_number(self._new, piece):
                 by_key.setdefault(_NUMBER.sub("#", piece.key), []).append(piece)
@@ -213,19 +137,19 @@ class ReadingOrder:
                             self._take(self._old, [old], [new])
 
     @staticmethod
-    def _has_one_number(side: _Side, piece: _Piece) -> bool:
+    def _has_one_number(side: Side, piece: Piece) -> bool:
         numbers = sum(side.text.texts[word].isdigit() for word in piece.words)
         return (
             piece.is_whole and numbers == len(_NUMBER.findall(piece.key)) == 1 and _NAME.search(piece.key) is not None
         )
 
-    def _take(self, here: _Side, words: Sequence[int], others: Sequence[int]) -> None:
+    def _take(self, here: Side, words: Sequence[int], others: Sequence[int]) -> None:
         olds, news = (words, others) if here is self._old else (others, words)
         self._matching.spread(olds, news)
         self._matching.moved.update(olds)
 
 
-def _composed(key: str, parts: dict[str, _Piece], most: int) -> list[_Piece]:
+def _composed(key: str, parts: dict[str, Piece], most: int) -> list[Piece]:
     """Pieces that make up a key, one behind the other, each once; none if there are none."""
     for start, part in parts.items():
         if start == key:

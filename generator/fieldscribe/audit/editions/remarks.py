@@ -33,6 +33,7 @@ KINDS = (
 )
 _BOTH = 2
 _LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
+_PAGE_BEHIND = re.compile(r"[\s.]+[0-9]+\s*$")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
 """A section's number, its title and its page; sections of sections stand near."""
 _POINTS = re.compile(
@@ -147,13 +148,18 @@ class Remarks:
         return finding.kind == "added" and finding.new is not None and finding.new[1] < self._below_title
 
     def _is_contents(self, finding: Finding) -> bool:
-        """Whether each line has leaders and a page, or a section's number and a page."""
-        lines = _written((*finding.was, *finding.now))
+        """Whether each line that has a number ends with a page: behind leaders, a title, or between such lines."""
+        lines = [line for line in _written((*finding.was, *finding.now)) if any(map(str.isdigit, line))]
         if finding.kind == "moved" or not lines:
             return False
-        return all(map(_LEADERS.search, lines)) or (
-            all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
-        )
+        if all(_LEADERS.search(line) or self._is_title_with_page(line) for line in lines):
+            return True
+        return all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
+
+    def _is_title_with_page(self, line: str) -> bool:
+        """Whether the text has a line that says the same but for the number at its end."""
+        title = _PAGE_BEHIND.sub("", line)
+        return title != line and _words_of(title) in self._lines_of_new
 
     def _among_sections(self, finding: Finding) -> bool:
         """Whether the lines above and below are numbered sections with pages, too."""

@@ -21,6 +21,8 @@ _BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
 _HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
+_SPACED = 4
+"""A word with blanks between its letters has so many: `C R C 1 6`."""
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 
 
@@ -119,3 +121,11 @@ class Words:
 def pressed(texts: list[str]) -> str:
     """Words without the blanks and hyphens that only set them: two numbers stay apart."""
     return _BLANK.sub("", _DASH_IN_WORD.sub("", " ".join(texts)))
+
+
+def unspaced(texts: list[str]) -> list[str]:
+    """Letters that blanks part as one word."""
+    is_spaced = (
+        len(texts) >= _SPACED and texts[0].isalpha() and all(len(text) == 1 and text.isalnum() for text in texts)
+    )
+    return ["".join(texts)] if is_spaced else texts
