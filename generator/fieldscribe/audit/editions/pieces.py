@@ -1,4 +1,4 @@
-"""What is left of two texts without a counterpart, piece by piece, and about where in the other one each would stand."""
+"""What is left of two texts without a counterpart, piece by piece, and about where in the other each would stand."""
 
 from __future__ import annotations
 
