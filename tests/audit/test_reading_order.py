@@ -88,13 +88,17 @@ CHANGES = {
         [("CRC16\n", ""), ("First", "CRC16\nFirst"), ("max. 127", "max. 125")],
         [("changed", [("127", "125")])],
     ),
+    "a row above one that was padded": (
+        [("2 wrong address", "3 other value\n2wrong address")],
+        [("added", [("", "3 other value")])],
+    ),
     "numbers that were exchanged": (
         [("1 wrong function\n2 wrong address", "2 wrong function\n1 wrong address")],
         [("changed", [("1", "2")]), ("changed", [("2", "1")])],
     ),
     "a list's end behind what its last line lost": (
-        [(" with its low byte ahead.", "\n3 wrong value")],
-        [("changed", [("with its low byte ahead.", "")]), ("added", [("", "3 wrong value")])],
+        [(" with its low byte ahead.", "\n3 other value")],
+        [("changed", [("with its low byte ahead.", "")]), ("added", [("", "3 other value")])],
     ),
 }  # fmt: skip
 

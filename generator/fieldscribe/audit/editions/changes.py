@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from itertools import product
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
@@ -22,6 +23,8 @@ Lines = tuple[int, int]
 """The first and the last of some lines."""
 _SECTION = re.compile(r"[\s#]*[0-9]+(?:\.[0-9]+)+\.?\s*([^\W\d][^|\t]*)")
 _LEADERS = re.compile(r"\.{4,}|\s[0-9]+\s*$")
+_FEW = 6
+"""A glued cell is at most so many words."""
 _NEAR = 12
 """The words of a line stand within so many lines; what stands farther away was matched by chance."""
 
@@ -60,6 +63,8 @@ class Editions:
         ReadingOrder(self._matching)
         self._put_rows_in_their_places()
         self._part_unlike_rows()
+        for gap in list(self._matching.gaps()):
+            self._take_equal_ends(gap)
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
         self._instead = _in_place(self.changes)
@@ -105,6 +110,22 @@ class Editions:
         news = range(start, end) or [min(start, len(self._back) - 1)]
         self._matching.spread(olds, news)
         return True
+
+    def _take_equal_ends(self, gap: Gap) -> None:
+        """Words that only blanks and hyphens set otherwise at an end of a gap are the same: something came beside them."""
+        first, last, start, end = gap
+        for old, new in product(range(1, min(_FEW, last - first) + 1), range(1, min(_FEW, end - start) + 1)):
+            for olds, news in (
+                (range(last - old, last), range(end - new, end)),
+                (range(first, first + old), range(start, start + new)),
+            ):
+                if self._says_the_same(olds, news):
+                    self._matching.spread(olds, news)
+                    return
+
+    def _says_the_same(self, olds: range, news: range) -> bool:
+        was, now = (text.texts[words.start : words.stop] for text, words in ((self.old, olds), (self.new, news)))
+        return len(was) != len(now) and pressed(unspaced(was)) == pressed(unspaced(now))
 
     def _match_headings(self) -> None:
         """A section that has another number now is the one with its title."""
