@@ -112,7 +112,7 @@ class Editions:
         return True
 
     def _take_equal_ends(self, gap: Gap) -> None:
-        """Words that only blanks and hyphens set otherwise at an end of a gap are the same: something came beside them."""
+        """What only blanks and hyphens set otherwise at an end of a gap is the same: something came beside it."""
         first, last, start, end = gap
         for old, new in product(range(1, min(_FEW, last - first) + 1), range(1, min(_FEW, end - start) + 1)):
             for olds, news in (
