@@ -158,3 +158,9 @@ def test_what_two_pages_end_with_is_text_where_the_other_edition_has_it_as_text(
 def test_the_bare_number_of_a_page_that_is_not_named_is_a_page_number() -> None:
     old, new = _pages([], {3: ""}, 10), _pages([], {3: ""}, 12)
     assert all(str(page) in {old[line - 1] for line in page_lines_of_both(old, new)[0]} for page in range(9, 15))
+
+
+def test_a_hyphen_that_parts_a_word_is_not_that_of_another() -> None:
+    was = "First line.\nOf all datawords the one at 755 (ASCII-code of it) is sent.\nA second line.\nAnd the last."
+    now = "First line.\nOf all data-\nA second line.\nwords the one at 755 (ASCII-code of it) is sent.\nAnd the last."
+    assert _told(was, now) == _told(now, was) == []

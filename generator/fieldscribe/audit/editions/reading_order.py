@@ -51,21 +51,29 @@ class ReadingOrder:
         wholes: dict[str, list[int]] = {}
         for word in other.free():
             wholes.setdefault(other.text.texts[word], []).append(word)
-        for hyphen in here.free():
-            if here.text.texts[hyphen] == "-" and here.text.opens_line(hyphen + 1) and not here.text.opens_line(hyphen):
-                self._join_half(here, hyphen, other, wholes)
+        for words in map(here.text.of_line, range(1, len(here.text.lines) + 1)):
+            if len(words) > 1 and here.text.texts[words[-1]] == "-" and here.there[words[-2]] < 0:
+                self._join_half(here, words[-1], other, wholes)
 
     def _join_half(self, here: Side, hyphen: int, other: Side, wholes: dict[str, list[int]]) -> None:
-        line = here.text.line_of[hyphen]
+        line, first = here.text.line_of[hyphen], hyphen - 1
         for words in map(here.text.of_line, range(line + 1, line + PAGE)):
-            halves = [hyphen - 1, hyphen, *words[:1]]
-            joined = here.text.texts[hyphen - 1] + here.text.texts[halves[-1]]
-            for whole in wholes.get(joined, ()):
+            if not words or here.there[words[0]] >= 0:
+                continue
+            for whole in wholes.get(here.text.texts[first] + here.text.texts[words[0]], ()):
                 apart = self._places[id(here)].apart(hyphen, other.text.line_of[whole])
-                if other.there[whole] < 0 and apart <= PAGE and all(here.there[half] < 0 for half in halves):
-                    here.halves.add(halves[-1])
-                    return self._take(here, halves, [whole])
+                if other.there[whole] < 0 and apart <= PAGE:
+                    here.halves.add(words[0])
+                    self._release(here, hyphen, other)
+                    return self._take(here, [first, hyphen, words[0]], [whole])
         return None
+
+    @staticmethod
+    def _release(here: Side, word: int, other: Side) -> None:
+        """Let a word have no counterpart: a hyphen may have got that of another."""
+        if here.there[word] >= 0:
+            other.there[here.there[word]] = -1
+        here.there[word] = -1
 
     def _match_equal(self) -> None:
         """Pieces that say the same: the longest first, each the nearest."""
