@@ -96,6 +96,7 @@ REMARKS = {
     "cover": (f"Manual\n\nOrder number 4711, for firmware 1.1.\n\n{OLD}", "front_matter"),
     "cover with the title": (f"# Heat pump\n\nOrder number 4711.\n\n{OLD}", "front_matter"),
     "pages of the contents": (_with("..... 7", "..... 9"), "contents"),
+    "contents with tabs": (_with("..... 7", "..... 7\nContents\nRegisters\t5\nWords\t7"), "contents"),
     "list of editions": (
         _with("## Registers", "## History\n\n| Edition | Of |\n| 1 | March 2020 |\n| 2 | 01.05.2025 |\n\n## Registers"),
         "list_of_editions",
@@ -184,6 +185,20 @@ def test_a_long_line_is_shown_around_its_change(subject: Subject) -> None:
     [shown] = [line for line in told if line.startswith("  + ")]
     assert shown.endswith("| 0012h | 0-5 | - |")
     assert len(shown) < 180
+
+
+@pytest.mark.parametrize(("old", "new"), [("\tready\t", "\tready left\t"), ("left or right", "left")])
+def test_a_label_that_got_or_lost_words_is_told_though_they_are_known(subject: Subject, old: str, new: str) -> None:
+    [finding] = _compared(subject, _with(old, new)).findings
+    assert any(not was or not now for was, now in finding.words)
+
+
+def test_equal_lines_that_changed_alike_are_told_once_however_they_break(subject: Subject) -> None:
+    old = OLD.replace("Chapter d,", "It waits for (ca. 20 ms) and so on.\n\nChapter d,")
+    pieces = old.replace("20 ms", "30 ms").split("(ca. 30")
+    new = f"{pieces[0]}(ca.\n30{'(ca. 30'.join(pieces[1:])}"
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert [len(finding.places) for finding in outcome.findings] == [3]
 
 
 def test_a_removed_row_is_told_once(subject: Subject) -> None:

@@ -1,4 +1,4 @@
-"""Heads and feet of pages in a text: lines that count pages, and what stands beside them again and again."""
+"""Heads and feet of pages: lines that count pages, and what stands beside them again and again, in one text or two."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 _DIGITS = re.compile(r"[0-9]+")
 _COUNTS = re.compile(
     r"\b(?:Seite|Blatt|page|sheet)\s*[0-9]+\b|\b[A-Z][-\u2013][0-9]+\s*$|[-\u2013]\s*[0-9]+\s*[-\u2013]\s*$|\b[0-9]+\s*(?:/|von|of)\s*[0-9]+\s*$",
     re.IGNORECASE,
 )
+_NAMES_PAGE = re.compile(r"(?:|.*\W)(?:Seite|page)\s+[0-9]+(?:\s+(?:von|of)\s+[0-9]+)?", re.IGNORECASE)
 _LETTERS = re.compile(r"[^\W\d_]{4}")
 _PAGES = 3
 """So many pages have the same head or foot."""
@@ -39,7 +40,7 @@ def page_lines(lines: Sequence[str]) -> frozenset[int]:
     groups: dict[str, list[int]] = {}
     for number, line in enumerate(lines, 1):
         if len(line) <= _LONGEST and not line.startswith("|") and _COUNTS.search(line):
-            groups.setdefault(_pattern(line), []).append(number)
+            groups.setdefault(pattern(line), []).append(number)
     counting = {number: page for group in groups.values() for number, page in _counted(lines, group).items()}
     alike = Counter(map(_plain, lines))
     pages = counting | _bare(lines, counting)
@@ -51,9 +52,50 @@ def page_lines(lines: Sequence[str]) -> frozenset[int]:
     return frozenset(pages)
 
 
+def page_lines_of_both(old: Sequence[str], new: Sequence[str]) -> tuple[frozenset[int], frozenset[int]]:
+    """The same for two editions: what two pages repeat is no head or foot where the other edition has it as text."""
+    was, now = page_lines(old), page_lines(new)
+    return _without_text(old, was, _text(new, now)), _without_text(new, now, _text(old, was))
+
+
+def repeated(lines: Sequence[str], numbers: Iterable[int]) -> Iterator[int]:
+    """Those of the lines that only one edition has which are heads or feet, too: less tells them than one text alone.
+
+    They end with a page in words, or repeat far apart and count pages, or have the same line above or below.
+    """
+    groups: dict[str, list[int]] = {}
+    for number in sorted(numbers):
+        groups.setdefault(pattern(lines[number - 1]), []).append(number)
+    for group in groups.values():
+        if _are_far_apart(group) and (_counted(lines, group) or _are_in_blocks(lines, group)):
+            yield from group
+        else:
+            yield from (number for number in group if _NAMES_PAGE.fullmatch(lines[number - 1].strip()))
+
+
+def _are_far_apart(group: list[int]) -> bool:
+    return len(group) >= _PAGES and median(below - above for above, below in pairwise(group)) >= _APART
+
+
+def _are_in_blocks(lines: Sequence[str], group: list[int]) -> bool:
+    """Whether the line above is the same at all places, or the one below."""
+    beside = ({_next(lines, number, step) for number in group} for step in (-1, 1))
+    return any(all(places) and len({pattern(lines[place - 1]) for place in places}) == 1 for places in beside)
+
+
+def _text(lines: Sequence[str], pages: frozenset[int]) -> Counter[str]:
+    return Counter(_plain(line) for number, line in enumerate(lines, 1) if number not in pages)
+
+
+def _without_text(lines: Sequence[str], pages: frozenset[int], text: Counter[str]) -> frozenset[int]:
+    plain = {number: _plain(lines[number - 1]) for number in pages}
+    often = Counter(plain.values())
+    return frozenset(number for number, line in plain.items() if often[line] != _BOTH or text[line] < _BOTH)
+
+
 def _counted(lines: Sequence[str], group: list[int]) -> dict[int, int]:
     """The page that each of these lines counts; none if one of their numbers does not count up."""
-    if len(group) < _PAGES or median(below - above for above, below in pairwise(group)) < _APART:
+    if not _are_far_apart(group):
         return {}
     columns = list(zip(*(map(int, _DIGITS.findall(lines[number - 1])) for number in group), strict=True))
     changing = [column for column in columns if len(set(column)) > 1]
@@ -76,14 +118,19 @@ def _bare(lines: Sequence[str], counting: dict[int, int]) -> dict[int, int]:
 
 
 def _farther(lines: Sequence[str], counting: dict[int, int], aparts: set[int]) -> dict[int, int]:
-    """Bare numbers of two digits that count with the next page below, where the text lies in disorder."""
+    """Bare numbers of two digits that count with the pages above and below, where the text lies in disorder."""
     told: dict[int, int] = {}
-    page = None
+    above: dict[int, int] = {}
+    page = 0
+    for number in range(1, len(lines) + 1):
+        above[number] = page = counting.get(number, page)
+    below = None
     for number in range(len(lines), 0, -1):
-        page = counting.get(number, page)
+        below = counting.get(number, below)
         text = lines[number - 1].strip()
-        if page is not None and len(text) > 1 and text.isdecimal() and int(text) - page in aparts:
-            told[number] = page
+        if below is not None and len(text) > 1 and text.isdecimal():
+            counts = {int(text) - apart for apart in aparts} & set(range(above[number] + 1, below + 1))
+            told.update(dict.fromkeys((number,) if counts else (), below))
     return told
 
 
@@ -116,7 +163,8 @@ def _next(lines: Sequence[str], number: int, step: int) -> int:
     return next((place for place in places if 1 <= place <= len(lines) and lines[place - 1].strip()), 0)
 
 
-def _pattern(line: str) -> str:
+def pattern(line: str) -> str:
+    """A line with a sign for each of its numbers."""
     return _DIGITS.sub("#", _plain(line))
 
 

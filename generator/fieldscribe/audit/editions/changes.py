@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from itertools import product
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
-from fieldscribe.audit.editions.words import Words, pressed
-from fieldscribe.audit.pages import page_lines
+from fieldscribe.audit.editions.reading_order import ReadingOrder
+from fieldscribe.audit.editions.words import Words, pressed, unspaced
+from fieldscribe.audit.pages import page_lines_of_both, pattern
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
@@ -21,6 +23,8 @@ Lines = tuple[int, int]
 """The first and the last of some lines."""
 _SECTION = re.compile(r"[\s#]*[0-9]+(?:\.[0-9]+)+\.?\s*([^\W\d][^|\t]*)")
 _LEADERS = re.compile(r"\.{4,}|\s[0-9]+\s*$")
+_FEW = 6
+"""A glued cell is at most so many words."""
 _NEAR = 12
 """The words of a line stand within so many lines; what stands farther away was matched by chance."""
 
@@ -51,12 +55,16 @@ class Editions:
     """Two editions of one text."""
 
     def __init__(self, old: str, new: str) -> None:
-        self.pages = page_lines(old.splitlines()), page_lines(new.splitlines())
+        self.pages = page_lines_of_both(old.splitlines(), new.splitlines())
         self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
         self._match_headings()
+        ReadingOrder(self._matching)
+        self._put_rows_in_their_places()
         self._part_unlike_rows()
+        for gap in list(self._matching.gaps()):
+            self._take_equal_ends(gap)
         gaps = [gap for gap in self._matching.gaps() if not self._is_layout(gap)]
         self.changes = tuple(sorted(self._changes(gaps), key=lambda change: (change.new or change.old, change.old)))
         self._instead = _in_place(self.changes)
@@ -95,13 +103,13 @@ class Editions:
         """Whether only the setting of words or the mark of an entry differs; its words are taken for each other."""
         first, last, start, end = gap
         above, below = self.old.texts[max(0, first - 1) : first], self.old.texts[last : last + 1]
-        was = pressed([*above, *self.old.texts[first:last], *below])
-        if was != pressed([*above, *self.new.texts[start:end], *below]) and not self._is_mark(gap):
+        was = pressed([*above, *unspaced(self.old.texts[first:last]), *below])
+        now = pressed([*above, *unspaced(self.new.texts[start:end]), *below])
+        if was != now and not self._is_mark(gap):
             return False
-        for word in range(first, last):
-            self._there[word] = min(start + (word - first) * (end - start) // (last - first), len(self._back) - 1)
-        for word in range(start, end):
-            self._back[word] = min(first + (word - start) * (last - first) // (end - start), len(self._there) - 1)
+        olds = range(first, last) or [min(first, len(self._there) - 1)]
+        news = range(start, end) or [min(start, len(self._back) - 1)]
+        self._matching.spread(olds, news)
         return True
 
     def _is_mark(self, gap: Gap) -> bool:
@@ -111,6 +119,22 @@ class Editions:
             return self.new.is_numbering(start, end) and self.old.is_entry(self._back, end)
         return start == end and self.old.is_numbering(first, last) and self.new.is_entry(self._there, last)
 
+    def _take_equal_ends(self, gap: Gap) -> None:
+        """What only blanks and hyphens set otherwise at an end of a gap is the same: something came beside it."""
+        first, last, start, end = gap
+        for old, new in product(range(1, min(_FEW, last - first) + 1), range(1, min(_FEW, end - start) + 1)):
+            for olds, news in (
+                (range(last - old, last), range(end - new, end)),
+                (range(first, first + old), range(start, start + new)),
+            ):
+                if self._says_the_same(olds, news):
+                    self._matching.spread(olds, news)
+                    return
+
+    def _says_the_same(self, olds: range, news: range) -> bool:
+        was, now = (text.texts[words.start : words.stop] for text, words in ((self.old, olds), (self.new, news)))
+        return len(was) != len(now) and pressed(unspaced(was)) == pressed(unspaced(now))
+
     def _match_headings(self) -> None:
         """A section that has another number now is the one with its title."""
         was, now = _titles(self.old), _titles(self.new)
@@ -119,6 +143,16 @@ class Editions:
             texts = [self.old.texts[word] for word in old], [self.new.texts[word] for word in new]
             if texts[0] != texts[1] and len(old) == len(new):
                 self._matching.take(old, new)
+
+    def _put_rows_in_their_places(self) -> None:
+        """Rows that differ in numbers alone, one below the other in both texts, are each the row in its place."""
+        for group in _grouped([self._with_lines(gap) for gap in self._matching.gaps()]):
+            olds, news = (sorted(set().union(*(placed[side] for placed in group))) for side in (1, 2))
+            was, now = (
+                [pattern(text.line(line)) for line in lines] for text, lines in ((self.old, olds), (self.new, news))
+            )
+            if len(olds) > 1 and was == now:
+                self._matching.put_in_their_places(olds, news)
 
     def _part_unlike_rows(self) -> None:
         """A row that shares hardly a word with the one in its place is another row."""

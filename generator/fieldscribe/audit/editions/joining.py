@@ -187,9 +187,9 @@ def _equal_once(findings: list[Finding]) -> list[Finding]:
 
 
 def _told_together(group: list[Finding]) -> Iterator[list[Finding]]:
-    """Equal lines are one finding; lines with equal words are, if at most one of them asks for something."""
+    """Lines that were equal are one finding; lines with equal words are, if at most one of them asks for something."""
     open_ones = [finding for finding in group if not finding.explained]
-    if len(open_ones) < 2 or len({(finding.was, finding.now) for finding in group}) == 1:
+    if len(open_ones) < 2 or len(set(map(_of_lines, group))) == 1:
         yield group
     else:
         yield from ([finding] for finding in group)
@@ -199,7 +199,14 @@ def _likeness(finding: Finding) -> object:
     """What equal changes have in common."""
     if finding.kind == "changed" and any(_TELLING.search(old) and _TELLING.search(new) for old, new in finding.words):
         return finding.kind, finding.words
-    return (finding.kind, finding.was, finding.now) if finding.kind != "moved" else finding.places
+    return _of_lines(finding) if finding.kind != "moved" else finding.places
+
+
+def _of_lines(finding: Finding) -> object:
+    """Equal lines that were changed in the same way, wherever the new ones break."""
+    if finding.kind != "changed":
+        return finding.kind, finding.was, finding.now
+    return finding.kind, finding.was, finding.was_at, finding.words
 
 
 def _at_all_places(first: Finding, alike: list[Finding]) -> Finding:

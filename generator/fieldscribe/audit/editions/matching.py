@@ -54,30 +54,31 @@ class Matching:
         self._slide()
         self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
-            self._put_in_their_places(olds, news)
+            self.put_in_their_places(olds, news)
 
     def gaps(self) -> Iterator[Gap]:
         """What has no counterpart, as pairs that stand between the same neighbours; a side of a pair may be empty."""
-        seen = set()
+        come = dict(_runs(self.back))
+        starts = {end: start for start, end in come.items()}
         for first, last in _runs(self.there):
-            start = self.there[first - 1] + 1 if first else 0
-            end = self.there[last] if last < len(self.there) else len(self.back)
-            if start < end and self._is_open(start, end):
-                seen.add(start)
-                yield first, last, start, end
-            else:
-                yield first, last, start, start
-        for start, end in _runs(self.back):
-            if start not in seen:
-                first = self.back[start - 1] + 1 if start else 0
-                yield first, first, start, end
+            start = self._place_of(first, last, come, starts)
+            yield first, last, start, come.pop(start, start)
+        for start, end in come.items():
+            first = self.back[start - 1] + 1 if start else 0
+            yield first, first, start, end
 
-    def _is_open(self, start: int, end: int) -> bool:
-        """Whether no word of the new text from..to has a counterpart, and both neighbours have."""
-        free = start
-        while free < end and self.back[free] < 0:
-            free += 1
-        return free == end
+    def _place_of(self, first: int, last: int, come: dict[int, int], starts: dict[int, int]) -> int:
+        """Where in the new text something came in the place of words of the old one; else where it would stand.
+
+        One of the neighbours may stand elsewhere: then the other one tells, if it is of the same line.
+        """
+        start = self.there[first - 1] + 1 if first else 0
+        end = self.there[last] if last < len(self.there) else len(self.back)
+        is_behind = not self.old.opens_line(first) and not self.new.opens_line(start)
+        if start in come and (come[start] == end or is_behind):
+            return start
+        is_before = not self.old.opens_line(last) and not self.new.opens_line(end)
+        return starts[end] if is_before and starts.get(end) in come else start
 
     def _match(self, at: int, there: int, count: int = 1) -> None:
         for step in range(count):
@@ -181,7 +182,7 @@ class Matching:
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
 
-    def _put_in_their_places(self, olds: list[int], news: list[int]) -> None:
+    def put_in_their_places(self, olds: list[int], news: list[int]) -> None:
         """Take each of these lines for the one in its place, whatever words they share with others."""
         for line in olds:
             self.forget(self.old.of_line(line))
@@ -204,6 +205,15 @@ class Matching:
         self._match(olds.start, news.start, len(olds))
         if {olds.start - 1, olds.stop} & self.moved:
             self.moved.update(olds)
+
+    def spread(self, olds: Sequence[int], news: Sequence[int]) -> None:
+        """Take words for each other that say the same in another number of words, as far along as they stand."""
+        for place, word in enumerate(olds):
+            if self.there[word] < 0:
+                self.there[word] = news[place * len(news) // len(olds)]
+        for place, word in enumerate(news):
+            if self.back[word] < 0:
+                self.back[word] = olds[place * len(olds) // len(news)]
 
     def forget_new(self, words: range) -> None:
         """Let words of the new text have none."""

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 _COLUMNS = re.compile(r"\S(?: {3,}|\t)\S")
 _CONTINUES = re.compile(r"[\t ]|\|\s*\|")
+_ENTRY = re.compile(r"\s*\W?\w*[0-9]\w*\S*(?:\s\S+){0,5}\s*")
 _UNLIKE = 3
 """Two rows that share fewer than one word of so many are not the same row."""
 
@@ -52,9 +53,14 @@ def parted(old: Words, new: Words, gap: Gap) -> Iterator[Gap]:
 
 def _apart(text: Words, side: _Side, other: _Side) -> list[tuple[int, int]]:
     """The whole lines of a side that say something by themselves, where the other side has no more than their ends."""
-    if other.has_lines or (other.first < other.last and not side.has_ends):
+    if other.has_lines or (other.first < other.last and not side.has_ends and not _opens_entry(text, side)):
         return []
     return _whole_lines(text, side)
+
+
+def _opens_entry(text: Words, side: _Side) -> bool:
+    """Whether the first of some whole lines has a number of its own, and goes on with few words."""
+    return side.has_lines and _ENTRY.fullmatch(text.line(text.line_of[side.head])) is not None
 
 
 def _around(beside: tuple[int, int], side: _Side, rows: list[tuple[int, int]]) -> Iterator[Gap]:

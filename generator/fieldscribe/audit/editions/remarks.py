@@ -8,11 +8,11 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
-from fieldscribe.audit.editions.furniture import heads_and_feet
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.telling import DATE, is_code
+from fieldscribe.audit.editions.telling import DATE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
+from fieldscribe.audit.pages import pattern, repeated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -33,6 +33,7 @@ KINDS = (
 )
 _BOTH = 2
 _LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
+_PAGE_BEHIND = re.compile(r"[\s.]+[0-9]+\s*$")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
 """A section's number, its title and its page; sections of sections stand near."""
 _POINTS = re.compile(
@@ -63,16 +64,12 @@ class Remarks:
             ("references", self._is_reference),
             ("repeated_heads", self._is_repeated),
             ("moved", lambda finding: finding.kind == "moved"),
-            ("wording", lambda finding: _is_wording(finding) and not self._loses_words(finding)),
+            ("wording", lambda finding: _is_wording(finding) and not self._says_less_or_more(finding)),
         )
 
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
         """What may hold facts, in its order, and what does not, by kinds."""
-        kind_of = {
-            id(finding): "heads_and_feet"
-            for finding in heads_and_feet(findings, self.editions.old.lines, self.editions.new.lines)
-        }
-        kind_of |= {id(finding): "heads_and_feet" for finding in findings if self._is_of_pages(finding)}
+        kind_of = {id(finding): "heads_and_feet" for finding in self._of_pages(findings)}
         for finding in findings:
             if id(finding) not in kind_of and (kind := self._kind(finding)):
                 kind_of[id(finding)] = kind
@@ -81,10 +78,20 @@ class Remarks:
         remarks = [Remark(kind, tuple(group)) for kind, group in by_kind.items() if group]
         return [finding for finding in findings if id(finding) not in kind_of], remarks
 
-    def _is_of_pages(self, finding: Finding) -> bool:
-        """Whether its lines are a head or foot that the text of another page lies between."""
-        lines = _written((*finding.was, *finding.now))
-        return bool(lines) and finding.kind != "moved" and not finding.cited_by and self._page_texts.issuperset(lines)
+    def _of_pages(self, findings: Sequence[Finding]) -> Iterator[Finding]:
+        """Findings whose lines are heads or feet of pages, as far as no fact is lost with them."""
+        findings = [finding for finding in findings if _may_be_of_pages(finding)]
+        olds, news = (
+            self._page_texts.union(
+                _plain(text[line - 1]) for line in repeated(text, set().union(*map(lines_of, findings)))
+            )
+            for text, lines_of in ((self.editions.old.lines, _old_lines), (self.editions.new.lines, _new_lines))
+        )
+        for finding in findings:
+            was, now = _written(finding.was), _written(finding.now)
+            alike = finding.kind != "changed" or list(map(pattern, was)) == list(map(pattern, now))
+            if alike and (was or now) and olds.issuperset(was) and news.issuperset(now):
+                yield finding
 
     @cached_property
     def _page_texts(self) -> set[str]:
@@ -116,12 +123,16 @@ class Remarks:
             return ""
         return next((kind for kind, fits in self._kinds if fits(finding)), "")
 
-    def _loses_words(self, finding: Finding) -> bool:
-        """Whether a row says less, with nothing in its place: what it says of may be less now."""
-        lost = (name for old, new in finding.words if not new.strip() for name in _ALNUM.findall(old))
-        if finding.old is None or not any(is_name(name) or is_code(name) for name in lost):
+    def _says_less_or_more(self, finding: Finding) -> bool:
+        """Whether a row or label lost or got words, with nothing in their place: what it says of may be another now."""
+        alone = (old or new for old, new in finding.words if not (old.strip() and new.strip()))
+        names = [name for words in alone for name in _ALNUM.findall(words)]
+        if finding.kind == "added" or not any(is_name(name) or is_code(name) for name in names):
             return False
-        return any(is_row(self.editions.old.line(line)) for line in range(finding.old[0], finding.old[1] + 1))
+        if finding.kind == "changed" and not all(map(is_prose, (*finding.was, *finding.now))):
+            return True
+        olds = range(finding.old[0], finding.old[1] + 1) if finding.old else ()
+        return any(is_row(self.editions.old.line(line)) for line in olds)
 
     def _second_line(self) -> int:
         """Where the second line of the old edition that has words stands now."""
@@ -137,13 +148,18 @@ class Remarks:
         return finding.kind == "added" and finding.new is not None and finding.new[1] < self._below_title
 
     def _is_contents(self, finding: Finding) -> bool:
-        """Whether each line has leaders and a page, or a section's number and a page."""
-        lines = _written((*finding.was, *finding.now))
+        """Whether each line that has a number ends with a page: behind leaders, a title, or between such lines."""
+        lines = [line for line in _written((*finding.was, *finding.now)) if any(map(str.isdigit, line))]
         if finding.kind == "moved" or not lines:
             return False
-        return all(map(_LEADERS.search, lines)) or (
-            all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
-        )
+        if all(_LEADERS.search(line) or self._is_title_with_page(line) for line in lines):
+            return True
+        return all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
+
+    def _is_title_with_page(self, line: str) -> bool:
+        """Whether the text has a line that says the same but for the number at its end."""
+        title = _PAGE_BEHIND.sub("", line)
+        return title != line and _words_of(title) in self._lines_of_new
 
     def _among_sections(self, finding: Finding) -> bool:
         """Whether the lines above and below are numbered sections with pages, too."""
@@ -190,6 +206,22 @@ class Remarks:
     @cached_property
     def _lines_of_new(self) -> set[tuple[str, ...]]:
         return set(map(_words_of, self.editions.new.lines))
+
+
+def _may_be_of_pages(finding: Finding) -> bool:
+    """Whether it is about lines of text, and no fact is lost with it; facts may seem to stand on it by chance."""
+    if finding.kind == "moved" or finding.drafts or finding.void:
+        return False
+    loses = any(reason.kind in ("missing", "gone") for reason in finding.reasons)
+    return not loses and not any(map(is_row, (*finding.was, *finding.now)))
+
+
+def _old_lines(finding: Finding) -> set[int]:
+    return {line for place in finding.places if place.old for line in range(place.old[0], place.old[1] + 1)}
+
+
+def _new_lines(finding: Finding) -> set[int]:
+    return {line for place in finding.places if place.new for line in range(place.new[0], place.new[1] + 1)}
 
 
 def is_spelling(finding: Finding) -> bool:

@@ -31,6 +31,8 @@ _MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
 _HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH])\b")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
+_SPACED = 4
+"""A word with blanks between its letters has so many: `C R C 1 6`."""
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 _THOUSANDS = re.compile(r"(?<![0-9])[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9])")
 
@@ -169,3 +171,11 @@ def pressed(texts: list[str]) -> str:
     written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
     written = _BLANK.sub("", _DASH_IN_WORD.sub("", written))
     return _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
+
+
+def unspaced(texts: list[str]) -> list[str]:
+    """Letters that blanks part as one word."""
+    is_spaced = (
+        len(texts) >= _SPACED and texts[0].isalpha() and all(len(text) == 1 and text.isalnum() for text in texts)
+    )
+    return ["".join(texts)] if is_spaced else texts
