@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.contents import Contents
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.words import Words, pressed
@@ -52,7 +53,11 @@ class Editions:
 
     def __init__(self, old: str, new: str) -> None:
         self.pages = page_lines(old.splitlines()), page_lines(new.splitlines())
-        self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
+        self.contents = Contents(old.splitlines()), Contents(new.splitlines())
+        self.old, self.new = (
+            Words(text, pages, contents.ends)
+            for text, pages, contents in zip((old, new), self.pages, self.contents, strict=True)
+        )
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
         self._match_headings()

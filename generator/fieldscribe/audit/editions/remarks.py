@@ -31,10 +31,6 @@ KINDS = (
     "moved",
     "wording",
 )
-_BOTH = 2
-_LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
-_NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
-"""A section's number, its title and its page; sections of sections stand near."""
 _POINTS = re.compile(
     r"\b(?:siehe|vgl|see|refer|described|beschrieben|beschreibt|found|finden|aufgef\u00fchrt|listed|zu entnehmen)\b",
     re.IGNORECASE,
@@ -137,21 +133,9 @@ class Remarks:
         return finding.kind == "added" and finding.new is not None and finding.new[1] < self._below_title
 
     def _is_contents(self, finding: Finding) -> bool:
-        """Whether each line has leaders and a page, or a section's number and a page."""
-        lines = _written((*finding.was, *finding.now))
-        if finding.kind == "moved" or not lines:
-            return False
-        return all(map(_LEADERS.search, lines)) or (
-            all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
-        )
-
-    def _among_sections(self, finding: Finding) -> bool:
-        """Whether the lines above and below are numbered sections with pages, too."""
-        text = self.editions.new if finding.new else self.editions.old
-        first, last = finding.new or finding.old or (1, 1)
-        beside = (_NUMBERED.fullmatch(text.line(line).strip()) for line in (first - 1, last + 1))
-        sections = [match for match in beside if match]
-        return len(sections) == _BOTH and any(match[1] for match in sections)
+        """Whether all its lines are in a table of contents."""
+        both = zip((finding.old, finding.new), self.editions.contents, strict=True)
+        return all(ends is None or contents.lines.issuperset(range(ends[0], ends[1] + 1)) for ends, contents in both)
 
     def _is_list_of_editions(self, finding: Finding) -> bool:
         """Whether rows below a heading or a row without numbers have a date each."""
@@ -178,8 +162,11 @@ class Remarks:
         """Whether all its rows stand in the other edition, too: the head of a table, on one page more or less."""
         if finding.kind not in ("added", "removed"):
             return False
-        lines = _written(finding.now or finding.was)
-        other = self._lines_of_old if finding.kind == "added" else self._lines_of_new
+        text, other = self.editions.new, self._lines_of_old
+        if finding.kind == "removed":
+            text, other = self.editions.old, self._lines_of_new
+        ends = ((place.new or place.old or (1, 0)) for place in finding.places)
+        lines = _written(text.line(line) for first, last in ends for line in range(first, last + 1))
         may_be = finding.kind == "removed" and len(lines) > 1
         return all((may_be or is_row(line)) and _words_of(line) in other for line in lines)
 

@@ -4,31 +4,44 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
+from fieldscribe.audit.editions.formulas import without_setting
+
 if TYPE_CHECKING:
-    from collections.abc import Container
+    from collections.abc import Container, Mapping
 
 LINE_BREAK = " \u23ce "
 """Stands for the end of a line where words of several lines are shown."""
 _INVISIBLE = "\u00ad\u200b\u200c\u200d\u2060\ufeff"
 _DASHES = "\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63\uff0d"
 _WORD = re.compile(rf"[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_")
-_AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
+_DOTS = "\u22c5\u2219"
+_AS_WRITTEN = str.maketrans(
+    {
+        **dict.fromkeys(_INVISIBLE),
+        **dict.fromkeys(_DASHES, "-"),
+        **dict.fromkeys(_DOTS, "\u00b7"),
+        "\u2026": "...",
+        "\u00b5": "\u03bc",
+    }
+)
 _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
 _BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
 _HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
+_NO_ENDS: Mapping[int, int] = MappingProxyType({})
 
 
 class Words:
     """The words of a text with the place of each: a name, a number, or one sign of punctuation."""
 
-    def __init__(self, text: str, without: Container[int] = ()) -> None:
-        """The words of all lines but some: heads and feet of pages part what belongs together."""
+    def __init__(self, text: str, without: Container[int] = (), ends: Mapping[int, int] = _NO_ENDS) -> None:
+        """The words of all lines but some (heads and feet of pages part what belongs together), of others to an end."""
         self.lines = text.splitlines()
         self.texts: list[str] = []
         self.line_of: list[int] = []
@@ -36,12 +49,12 @@ class Words:
         self._first: list[int] = [0]
         for number, line in enumerate(self.lines, 1):
             if number not in without and not _RULE.fullmatch(line):
-                self._add(number, line)
+                self._add(number, line[: ends.get(number)])
             self._first.append(len(self.texts))
 
     def _add(self, number: int, line: str) -> None:
         marks = _HEADING_MARKS.match(line)
-        line = _BREAK.sub(lambda match: " " * len(match[0]), line)
+        line = without_setting(_BREAK.sub(lambda match: " " * len(match[0]), line))
         for match in _WORD.finditer(line, marks.end() if marks else 0):
             written = match[0]
             self.texts.append(written if written.isascii() else normalize("NFC", written.translate(_AS_WRITTEN)))

@@ -1,0 +1,58 @@
+"""Pieces of text in two layouts that say the same, and beside each the nearest change that must not pass for layout."""
+
+from __future__ import annotations
+
+import pytest
+from fieldscribe.audit.editions.changes import Editions
+
+TITLES = ("1 Bus", "1.1 Frames", "1.2 Errors", "2 Points")
+TEXT = "\n".join(f"{title}\n\nWords of it, {'and more ' * number}.\n" for number, title in enumerate(TITLES))
+
+SAME = {
+    # two layouts of one text
+    "formula in pieces": (r"value = t [s] · 50 · $\frac{1}{s}$", r"$value = t [s] \cdot 50 \cdot \frac{1}{\text{s}}$"),
+    "names of a formula upright": (r"$\text{value} = f[\text{Hz}] \cdot 256$", r"value = $f [Hz] \cdot 256$"),
+    "fraction in one line": (r"step $\frac{256}{\text{Hz}}$", "step 256 / Hz"),
+    "signs of formulas": (r"20 $^{\circ}$C, 5 $\mu$s, 2 $\Omega$, 3 \%", "20 °C, 5 µs, 2 Ω, 3 %"),
+    "contents with other pages and leaders": (
+        "\n".join(f"{title}.....\t{page}" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
+        "\n".join(f"{title}\t{page}" for page, title in enumerate(TITLES, 6)) + f"\n\n{TEXT}",
+    ),
+    "contents in a table": (
+        "\n".join(f"| {title} ..... | {page} |" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
+        "\n".join(f"| {title}.. | {page} |" for page, title in enumerate(TITLES, 9)) + f"\n\n{TEXT}",
+    ),
+}
+CHANGED = {
+    # what is said otherwise: the words
+    "number of a formula": (r"$t \cdot 50 \cdot \frac{1}{s}$", r"$t \cdot 20 \cdot \frac{1}{s}$", [("50", "20")]),
+    "unit of a formula": (r"$\frac{256}{\text{Hz}}$", r"$\frac{256}{\text{kHz}}$", [("Hz", "kHz")]),
+    "fraction": (r"$\frac{1}{10}$ V", r"$\frac{1}{100}$ V", [("10", "100")]),
+    "title in the contents": (
+        "\n".join(f"{title}.....\t{page}" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
+        "\n".join(f"{title}.....\t{page}" for page, title in enumerate((*TITLES[:3], "2 Words"), 5)) + f"\n\n{TEXT}",
+        [("Points", "Words")],
+    ),
+    "rows that end with a number": (
+        "1 Mode ..... 3\n2 Speed ..... 5\n3 Delay ..... 8",
+        "1 Mode ..... 3\n2 Speed ..... 6\n3 Delay ..... 8",
+        [("5", "6")],
+    ),
+}
+
+
+@pytest.mark.parametrize(("old", "new"), SAME.values(), ids=SAME)
+def test_another_layout_changes_nothing(old: str, new: str) -> None:
+    assert _words(old, new) == _words(new, old) == []
+
+
+@pytest.mark.parametrize(("old", "new", "words"), CHANGED.values(), ids=CHANGED)
+def test_what_says_something_else_is_a_change(old: str, new: str, words: list[tuple[str, str]]) -> None:
+    assert _words(old, new) == words
+
+
+def _words(old: str, new: str) -> list[tuple[str, str]]:
+    """What was changed, old and new."""
+    editions = Editions(old, new)
+    gaps = [gap for change in editions.changes for gap in change.gaps]
+    return [(editions.old.shown(was), editions.new.shown(now)) for was, now in gaps]
