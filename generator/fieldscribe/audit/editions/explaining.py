@@ -74,7 +74,7 @@ class Explaining:
             if self.fails(pair):
                 self._note_failing(pair, touched)
         self.subjects_at: dict[int, dict[str, None]] = {}
-        for extent, subjects in self.new.subjects.items():
+        for extent, subjects in sorted(self.new.subjects.items(), key=lambda item: item[0].kind == "section"):
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
 
@@ -133,7 +133,7 @@ class Explaining:
         return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
-        """What cites a changed line: the facts that stood on its words, else the subjects."""
+        """What cites a changed line: the facts that stood on its words, else the subjects, those of its section last."""
         gone = {word for old, _ in change.gaps for word in old}
         come = {word for _, new in change.gaps for word in new}
         exact, whole = dict[Cite, None](), dict[Cite, None]()
@@ -144,7 +144,9 @@ class Explaining:
                 exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
             whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
         named = {cite.subject for cite in exact}
-        return (*exact, *(cite for cite in whole if cite.subject not in named))
+        order = list(dict.fromkeys(name for line in change.new for name in self.subjects_at.get(line, ())))
+        rest = [cite for cite in whole if cite.subject not in named]
+        return (*exact, *sorted(rest, key=lambda cite: order.index(cite.subject) if cite.subject in order else -1))
 
     def reasons(self, number: int, change: Change) -> Iterator[Reason]:
         """Everything that keeps a change from being explained; what words tell, where nothing else is said."""

@@ -1,0 +1,56 @@
+"""A changed line belongs to what cites it: only the words of that explain it, and the nearest of them is told first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.audit.editions import Edition, compare
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_subject
+from support.described import group, head, together, write
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+OLD = """# Heat pump
+
+## 1.1 Flow
+
+Register\t0010h
+Range\t0-900
+
+Mode\tMeans
+1\tstandby
+2\theating
+
+## 1.2 Frames
+
+Write flow\t01 06 00 10 01 95 48 30\tfree
+"""
+HEADER = """enums:
+  mode: {1: {name: standby, en: standby, line: 9}, 2: {name: heating, en: heating, line: 10}}
+  kind: {1: {name: boosted, en: Boosted}}
+frames:
+- {name: write_flow, line: 14, direction: request, bytes: 01 06 00 10 01 95 49 F0}
+"""
+POINTS = """- {name: flow, at: 0010h, range: 0..900, line: 3}
+- {name: mode, at: 0011h, enum: mode}
+- {name: kind, at: 0012h, enum: kind}
+"""
+
+CHANGES = {
+    # what is changed: who is told first, and whether it is explained
+    "a label of an enum elsewhere": ("free", "Boosted", "frame write_flow", False),
+    "a row of a table in a section": ("heating", "cooling", "enum mode", False),
+    "a row that is added there": ("2\theating", "2\theating\n3\tcooling 4711", "enum mode", False),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "subject", "explained"), CHANGES.values(), ids=CHANGES)
+def test_a_change_is_told_of_what_cites_it(old: str, new: str, subject: str, explained: bool, tmp_path: Path) -> None:
+    described = load_subject(write(tmp_path / "plant", together(head() + HEADER, group(POINTS, access="rw"))), Report())
+    assert described is not None
+    outcome, _ = compare(described, Edition("old", OLD, None), Edition("new", OLD.replace(old, new), None))
+    [finding] = outcome.findings
+    assert (finding.cited_by[0].subject, finding.explained) == (subject, explained)
