@@ -26,7 +26,7 @@ Mode\tMeans
 
 ## 1.2 Frames
 
-Write flow\t01 06 00 10 01 95 48 30\tfree
+Write flow\t01 06 00 10 01 95 49 F0\tfree
 """
 HEADER = """enums:
   mode: {1: {name: standby, en: standby, line: 9}, 2: {name: heating, en: heating, line: 10}}

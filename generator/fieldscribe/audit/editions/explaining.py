@@ -133,7 +133,7 @@ class Explaining:
         return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
-        """What cites a changed line: the facts that stood on its words, else the subjects, those of its section last."""
+        """What cites a changed line: the facts that stood on its words, else the subjects, of its section last."""
         gone = {word for old, _ in change.gaps for word in old}
         come = {word for _, new in change.gaps for word in new}
         exact, whole = dict[Cite, None](), dict[Cite, None]()
