@@ -282,14 +282,18 @@ CAN, USS = str(descriptions_dir() / "woodward_mpu2s"), str(descriptions_dir() / 
 @pytest.mark.parametrize(
     ("words", "code", "said"),
     [
-        (("decode", CAN, "321#DD00051E13880064"), 0, "321#DD00051E13880064\n  Frame  CAN 321h, unit 1, visualisation"),
+        (
+            ("decode", CAN, "321#DD00051E13880064"),
+            0,
+            "321#DD00051E13880064\n  Frame        CAN 321h, unit 1, visualisation",
+        ),
         (
             ("decode", CAN, "DD", "00", "05", "1E", "13", "88", "00", "64", "--can-id", "321"),
             0,
             "generator_frequency = 50 Hz",
         ),
         (("decode", CAN, "321#DD00051E13880064", "--with", "PGNEXPO=3"), 0, "generator_active_power = 100000 W"),
-        (("decode", CAN, "33F#FF0101FB00000000"), 1, "Checksum  wrong: 00 00; these bytes give FE FA"),
+        (("decode", CAN, "33F#FF0101FB00000000"), 1, "Checksum     wrong: 00 00; these bytes give FE FA"),
         (("decode", CAN, "321#DD00051E13880064", "--unit", "2"), 0, "no frame of that unit"),
         (("decode", CAN, "DD00"), 2, "or give the identifier with --can-id 321"),
         (("decode", CAN, "321#00", "--pkw", "0"), 2, "--pkw is for uss devices"),

@@ -156,7 +156,9 @@ def test_whole_telegrams() -> None:
     assert heard[0].checks == "ok (E6)"
     items = [item.text for item in heard[1].items]
     assert items[0].startswith("P2000 reference_frequency = 50 Hz")
-    assert items[1].startswith("ZSW status_word = ready_to_switch_on, deviation (its bit is 0)")
+    assert items[1].startswith(
+        "ZSW status_word = raw 64049 = FA31h: Status word; ready_to_switch_on, deviation (its bit is 0)"
+    )
     assert "off2_pending (no OFF2)" in items[1]
     assert items[2].startswith("HIW main_actual_value = about 39.9993896 Hz")
     assert heard[0].items[-1].missing == ("reference_frequency",)

@@ -9,8 +9,9 @@ from functools import lru_cache
 from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Protocol
 
-from fieldscribe.cli.terminal import is_coloured, print_lines, print_rows, rows_text
-from fieldscribe.families.answers import Item
+from fieldscribe.cli.terminal import is_coloured, print_lines, print_rows
+from fieldscribe.families.answers import Item, bits_label
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.report import visible
 from fieldscribe.wording.buses import spaced
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from fieldscribe.families.answers import Heard
     from fieldscribe.model import Device
 
+_MOST_LABELS = 256
+"""How many labels of rows are remembered."""
 _STEP = 2
 """How far each depth of JSON stands in."""
 
@@ -41,8 +44,12 @@ def shown_as(form: str, device: Device) -> Shown:
 
 
 class _Text:
+    """Frames as rows of label and text; the labels of all frames have the same width, so that streams line up."""
+
     def __init__(self, device: Device) -> None:
-        del device
+        places = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
+        width = max(map(len, places | {"Checksum"}))
+        self._margins: Remembered[str, str] = Remembered(_MOST_LABELS, lambda label: f"\n  {label:<{width}}  ")
         self._coloured = is_coloured(sys.stdout)
         self._between = ""
 
@@ -53,7 +60,9 @@ class _Text:
             sys.stdout.write(self._between)
             print_rows(heading, rows)
         else:
-            sys.stdout.write(self._between + rows_text(heading, rows))
+            margins = self._margins
+            lines = [margins[label] + text for label, text in rows]
+            sys.stdout.write(f"{self._between}{heading}{''.join(lines)}\n")
         self._between = "\n"
 
     def end(self) -> None:
@@ -64,8 +73,9 @@ class _Text:
 def _rows(heard: Heard) -> list[tuple[str, str]]:
     rows = [("Frame", visible(heard.summary))]
     for item in heard.items:
-        rows.append(("Says", visible(item.head or item.text)))
-        rows += [bits.shown for bits in item.flags]
+        rows.append(("Says", visible(item.said)))
+        if item.telling:
+            rows += [bits.shown for bits in item.flags]
     if heard.checks:
         rows.append(("Header" if heard.framing == "tcp" else "Checksum", visible(heard.checks)))
     rows += [("Wrong", visible(fault)) for fault in (*heard.faults, *heard.findings)]

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.conversation.items import Base
-    from fieldscribe.conversation.told import Told
+    from fieldscribe.conversation.told import Told, Voice
     from fieldscribe.families.answers import Item
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
@@ -29,8 +29,8 @@ class Hearing:
     settings: dict[str, int | Fraction]
     """The numbers for rules: what the person gave, else what was heard."""
     words: dict[int, int] = field(default_factory=dict)
-    waiting: dict[str, tuple[Point, int]] = field(default_factory=dict)
-    """Points whose meaning needs others, by item, with their raw numbers."""
+    waiting: dict[str, tuple[Voice, int]] = field(default_factory=dict)
+    """What speaks for points whose meaning needs others, by item, with their raw numbers."""
     fresh: set[str] = field(default_factory=set)
     """The settings that have changed since the waiting points were last tried."""
 

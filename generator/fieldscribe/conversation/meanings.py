@@ -14,9 +14,9 @@ from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
-from fieldscribe.families.answers import Bits
+from fieldscribe.families.answers import Bits, bits_label
 from fieldscribe.families.spoken import Remembered
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, replace
 from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
@@ -36,7 +36,10 @@ _MOST_FLAGS = 64
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """The meaning of a raw number: text, the exact value of a quantity, and what is missing or unusual."""
+    """The meaning of a raw number: text, the exact value of a quantity, and what is missing or unusual.
+
+    Where `flags` tell it, the text is empty.
+    """
 
     text: str
     value: str | None = None
@@ -56,45 +59,47 @@ class Meanings:
         self._point = point
         self._entries = {entry.raw: entry for entry in reversed(point.enum.entries if point.enum else ())}
         self._flags = Flags(point) if point.flags else None
+        shape = point.shape
+        self._specials, self._floating, self._most_raw = shape.specials, shape.info.floating, shape.most_raw
+        self._named = self._naming()
         self._needs = point.scale_arguments
         self._rules: dict[tuple[object, ...], _Scale | Meaning] = {}
         self._failures: dict[tuple[object, ...], tuple[str, str]] = {}
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """The meaning of a raw number, where other points hold these settings."""
-        point = self._point
-        if point.text is not None:
-            return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
-        named = self._named(raw)
-        if named is None:
-            return self._quantity(raw, settings)
-        is_special = bool(point.shape.specials) and point.special(raw) is not None
-        return Meaning(named, flags=None if is_special else self._flags)
+        special = self._point.special(raw) if self._specials else None
+        if special is not None:
+            remark = ", no value" if special.no_value else ""
+            return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
+        return self._quantity(raw, settings) if self._named is None else self._named(raw)
 
     def lacks(self, settings: Settings) -> bool:
         """Whether the scale needs other points than those with these settings."""
         rule = self._rule(settings)
         return isinstance(rule, Meaning) and bool(rule.missing)
 
-    def _named(self, raw: int) -> str | None:
-        """The text of a raw number that is no quantity; None if it is one."""
-        point, shape = self._point, self._point.shape
-        special = point.special(raw) if shape.specials else None
-        if special is not None:
-            remark = ", no value" if special.no_value else ""
-            return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
-        if shape.enum is not None:
-            entry = self._entries.get(raw)
-            return line("" if entry is None else wording.entry_meaning(entry)) or _NAMELESS.format(raw)
-        if self._flags:
-            return self._flags.sentence(raw)
-        if shape.digits is not None:
-            return _digits_text(point, raw)
-        return ("on" if raw else "off") if shape.type == "bit" else None
+    def _naming(self) -> Callable[[int], Meaning] | None:
+        """What tells the raw numbers of a point that are no quantities; None where they are."""
+        point = self._point
+        if point.text is not None:
+            return lambda raw: Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
+        if point.enum is not None:
+            return lambda raw: Meaning(self._entry(raw))
+        if self._flags is not None:
+            told = Meaning("", flags=self._flags)
+            return lambda _raw: told
+        if point.digits is not None:
+            return lambda raw: Meaning(_digits_text(point, raw))
+        return (lambda raw: Meaning("on" if raw else "off")) if point.type == "bit" else None
+
+    def _entry(self, raw: int) -> str:
+        """The name of a number of an enum."""
+        entry = self._entries.get(raw)
+        return line("" if entry is None else wording.entry_meaning(entry)) or _NAMELESS.format(raw)
 
     def _quantity(self, raw: int, settings: Settings) -> Meaning:
-        shape = self._point.shape
-        if shape.info.floating or (shape.most_raw is not None and abs(raw) > shape.most_raw):
+        if self._floating or (self._most_raw is not None and abs(raw) > self._most_raw):
             return self._computed(raw, settings)
         rule = self._rule(settings)
         return rule if isinstance(rule, Meaning) else rule.meaning(raw)
@@ -159,6 +164,9 @@ class _Scale:
         """The meaning of a raw number."""
         factor, add, divisor = self._rule
         number = raw * factor + add
+        if self._decimals is None and divisor == 1:
+            exactly = str(number)
+            return Meaning(exactly + self._unit, exactly)
         exactly = exact(number, divisor) if self._places is None else shortest(number * self._parts, self._places)
         if self._decimals is not None:
             return Meaning(rounded(number, divisor, self._decimals) + self._unit, exactly)
@@ -204,7 +212,7 @@ def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits
     """By the number of a flag: whether it is a bit whose name is not true, what it is called, and both as a fact."""
     is_bit, low = flag.width == 1, lowest + flag.low
     high = low + flag.width - 1
-    place = f"Bit {low}" if is_bit else f"Bits {high}..{low}"
+    place = bits_label(high, low)
 
     def said(number: int) -> tuple[bool, str, Bits]:
         entry = next((entry for entry in flag.values if entry.raw == number), None)
@@ -218,7 +226,7 @@ def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits
 
 def _nameless_bit(bit: int) -> Bits:
     """A set bit that the manual does not name."""
-    return Bits(bit, bit, None, 1, None, "", (f"Bit {bit}", "1  not named by the manual"))
+    return Bits(bit, bit, None, 1, None, "", (bits_label(bit, bit), "1  not named by the manual"))
 
 
 def _flag_line(flag: Flag, number: int, told: str) -> str:
@@ -230,7 +238,8 @@ def _flag_line(flag: Flag, number: int, told: str) -> str:
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
     """The meaning of a raw number; never fails: if it is unknown, the text says so."""
-    return Meanings(device, point).of(raw, settings)
+    meaning = Meanings(device, point).of(raw, settings)
+    return meaning if meaning.flags is None else replace(meaning, text=meaning.flags.sentence(raw))
 
 
 def raw_text(point: Point, raw: int) -> str:
@@ -245,8 +254,8 @@ def raw_form(point: Point) -> Callable[[int], str]:
     if point.text is not None:
         return lambda raw: f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
     digits, mask = max(1, point.width + 3 >> 2), (1 << point.width) - 1
-    form = f"raw {{}} = {{:0{digits}X}}h".format
-    return lambda raw: form(raw, raw & mask)
+    form = f"raw %d = %0{digits}Xh"
+    return lambda raw: form % (raw, raw & mask)
 
 
 def _shortest(point: Point, raw: int) -> str:

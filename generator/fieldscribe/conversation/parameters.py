@@ -93,14 +93,14 @@ def _word(hearing: Hearing, word: Word, point: Point) -> Item:
     if len(point.addresses) == 1:
         item = hearing.value(point, base, raw_of(point, (word.raw,)), written=word.asked)
         odd = _fixed_finding(point, word.raw) if word.asked else ""
-        return replace(item, text=f"{item.text}; {odd}", findings=(*item.findings, odd)) if odd else item
+        return replace(item, said=f"{item.said}; {odd}", findings=(*item.findings, odd)) if odd else item
     now = replace(hearing, words={**hearing.words, word.address: word.raw})
     part = f"word {point.addresses.index(word.address) + 1} of {len(point.addresses)} = {words_text((word.raw,))}"
     if not _whole(now, point):
         left = sum(at not in now.words for at in point.addresses)
         return named_item(point, base, f"{part}; {left} more words to come")
     item = hearing.value(point, base, _heard(now, point))
-    return replace(item, text=f"{item.text}; here {part}")
+    return replace(item, said=f"{item.said}; here {part}")
 
 
 def _fixed_finding(point: Point, word: int) -> str:

@@ -135,7 +135,7 @@ class SpanLayout:
         def say(words: Sequence[int], settings: Settings) -> Item:
             del settings
             shown = " ".join(map(form.format, words[first : min(end, first + _MOST_WORDS)]))
-            return replace(item, text=f"{text} (carries {shown}{more})")
+            return replace(item, said=f"{text} (carries {shown}{more})")
 
         yield say if first < end else always(item)
 

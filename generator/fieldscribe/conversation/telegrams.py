@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, raw_reader
 from fieldscribe.conversation.items import named_item, value_with_raw
 from fieldscribe.families.answers import Item
+from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
     from fieldscribe.conversation.told import Told
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
     from fieldscribe.model import Device, Point
+
+_MOST_MISSING = 64
+"""How many ways to miss points are remembered of a stretch."""
 
 
 def _names(device: Device, direction: str) -> list[str]:
@@ -96,7 +101,8 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
 class _Part:
     """A point that has words of a stretch, and what makes its raw number: from the stretch, or from several."""
 
-    def __init__(self, told: Told, telegram: str, positions: range, point: Point) -> None:
+    def __init__(self, told: Told, key: StretchKey, point: Point) -> None:
+        telegram, positions, _ = key
         self.point, self.name, self.addresses = point, point.item, point.addresses
         self.base = telegram, min(point.addresses), len(point.addresses)
         self.voice = told.voice(point, self.base)
@@ -114,24 +120,29 @@ class _Part:
         return self._read(words) if status == "ok" else None
 
 
+StretchKey = tuple[str, range, int]
+"""A telegram, neighbouring words of it, and how many words one frame brings."""
+
+
 class Stretch:
     """Neighbouring words of a telegram: the points that have one of them, in order, and the words that no point has."""
 
-    def __init__(self, told: Told, key: tuple[str, range]) -> None:
-        telegram, positions = key
+    def __init__(self, told: Told, key: StretchKey) -> None:
+        telegram, positions, per_frame = key
         at = {place: told.directory.at(telegram, place) for place in positions}
         points = {point.item: point for here in at.values() for point in here}.values()
-        parts = [_Part(told, telegram, positions, point) for point in points]
+        parts = [_Part(told, key, point) for point in points]
+        comes = Remembered(_MOST_MISSING, partial(_multiplexers, told, telegram, per_frame))
+        for part in parts:
+            part.voice.comes = comes.__getitem__
         self.parts = sorted(parts, key=lambda part: part.start)
         self.teaching = [number for number, part in enumerate(self.parts) if part.teaches]
-        self.comes: dict[tuple[str, ...], str] = {}
-        """Where points come that others need, by their names."""
         self.alone = [place for place, here in at.items() if not here]
 
 
 def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
-    stretch = hearing.told.stretches[piece.telegram.name, piece.positions]
+    stretch = hearing.told.stretches[piece.telegram.name, piece.positions, piece.pieces.per_frame]
     raws = [part.raw(piece) for part in stretch.parts]
     if stretch.teaching:
         known = [(stretch.parts[number].point, raws[number]) for number in stretch.teaching]
@@ -145,28 +156,23 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
             hearing.waiting.pop(part.name, None)
         item = part.voice.item(raw, hearing.settings)
         if item.missing:
-            lacking[part.name] = part.point, raw
-            item = _with_multiplexers(hearing, piece, stretch, item)
+            lacking[part.name] = part.voice, raw
         items.append(item)
     for at in stretch.alone:
         said = words_text((piece.words[at - piece.positions.start],))
         alone = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({said})")
         items.insert(sum(part.start < at for part in stretch.parts) + stretch.alone.index(at), alone)
-    if hearing.waiting:
-        items += _completed_points(hearing, piece.telegram.name)
+    if hearing.fresh:
+        items += _completed_points(hearing)
     hearing.waiting.update(lacking)
     return items
 
 
-def _with_multiplexers(hearing: Hearing, piece: Piece, stretch: Stretch, item: Item) -> Item:
-    """The item of a point that waits for others, with where they come."""
-    comes = stretch.comes.get(item.missing)
-    if comes is None:  # as many as there are ways to miss something
-        firsts = [hearing.directory.first(piece.telegram.name, name) for name in item.missing]
-        slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
-        comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
-        stretch.comes[item.missing] = comes
-    return replace(item, text=item.text + comes) if comes else item
+def _multiplexers(told: Told, telegram: str, per_frame: int, missing: tuple[str, ...]) -> str:
+    """Where missing points come in a telegram; empty if they do not."""
+    firsts = [told.directory.first(telegram, name) for name in missing]
+    slots = sorted({first // per_frame for first in firsts if first is not None})
+    return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
 
 
 def _incomplete_text(hearing: Hearing, piece: Piece, point: Point) -> str:
@@ -190,14 +196,11 @@ def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) 
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _completed_points(hearing: Hearing, telegram: str) -> Iterator[Item]:
+def _completed_points(hearing: Hearing) -> Iterator[Item]:
     """Points of earlier frames whose missing values came with this frame."""
-    for name, (point, raw) in list(hearing.waiting.items()) if hearing.fresh else ():
-        if hearing.fresh.isdisjoint(point.scale_arguments):
-            continue
-        voice = hearing.told.voice(point, (telegram, min(point.addresses), len(point.addresses)))
-        if not voice.lacks(hearing.settings):
+    for name, (voice, raw) in list(hearing.waiting.items()):
+        if not hearing.fresh.isdisjoint(voice.needs) and not voice.lacks(hearing.settings):
             del hearing.waiting[name]
             item = voice.item(raw, hearing.settings)
-            yield replace(item, text=f"from a frame before: {item.text}")
+            yield replace(item, said=f"from a frame before: {item.said}")
     hearing.fresh.clear()

@@ -17,9 +17,12 @@ from fieldscribe.text import line
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.conversation.items import Base, Saying
     from fieldscribe.conversation.spans import SpanKey
+    from fieldscribe.conversation.telegrams import StretchKey
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
 
@@ -36,9 +39,11 @@ class Voice:
 
     def __init__(self, device: Device, point: Point, base: Base, *, written: bool) -> None:
         self._device, self._point, self._base, self._written = device, point, base, written
-        self._needs = point.arguments if written else point.scale_arguments
+        self.needs = point.arguments if written else point.scale_arguments
+        self.comes: Callable[[tuple[str, ...]], str] | None = None
+        """What tells where missing points come, if that is known."""
         self._head, self._title = f"{label(point)} = ", title_of(point)
-        self._name, self._is_text = point.item, point.text is not None
+        self._name, self._code, self._is_text = point.item, point.code, point.text is not None
         self._raw_text = raw_form(point)
         self._absent = absence(device, point) if written else ""
         self._meanings = Meanings(device, point)
@@ -47,8 +52,8 @@ class Voice:
     def item(self, raw: int, settings: Settings) -> Item:
         """The point with the meaning of its raw number; if it is written, also why the device refuses it."""
         key: Any = raw
-        if self._needs:  # a special code equals the plain number, and is no quantity: so the types
-            given = [settings.get(name) for name in self._needs]
+        if self.needs:  # a special code equals the plain number, and is no quantity: so the types
+            given = [settings.get(name) for name in self.needs]
             key = (raw, *given, *map(type, given))
         item = self._items.get(key)
         if item is None:
@@ -62,27 +67,23 @@ class Voice:
         return self._meanings.lacks(settings)
 
     def _said(self, raw: int, settings: Settings) -> Item:
-        point = self._point
-        meaning = self._meanings.of(raw, settings)
-        odd = remark = ""
-        if self._written:
-            odd, unchecked = (self._absent, "") if self._absent else written_remarks(self._device, point, raw, settings)
-            remark = odd or unchecked
-        number = self._raw_text(raw)
-        rest = f": {self._title}; {remark}" if remark else f": {self._title}"
-        rest += f"; {meaning.hint}" if meaning.hint else ""
+        meaning, number = self._meanings.of(raw, settings), self._raw_text(raw)
+        odd, rest = self._remarks(raw, settings) if self._written else ("", self._title)
+        rest = f"{rest}; {meaning.hint}" if meaning.hint else rest
+        rest += self.comes(meaning.missing) if meaning.missing and self.comes else ""
+        said = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
         return Item(
-            *self._base,
-            line(f"{self._head}{meaning.text} ({number}){rest}"),
-            self._name,
-            point.code,
-            None if self._is_text else raw,
-            meaning.value,
-            meaning.missing,
-            (odd,) if odd else (),
-            line(f"{self._head}{number}{rest}") if meaning.flags else "",
-            meaning.flags,
-        )
+            *self._base, line(self._head + said), self._name, self._code, None if self._is_text else raw,
+            meaning.value, meaning.missing, (odd,) if odd else (), meaning.flags,
+        )  # fmt: skip
+
+    def _remarks(self, raw: int, settings: Settings) -> tuple[str, str]:
+        """Why the device refuses a raw number that is written, and the title with what is remarked on it."""
+        odd, remark = self._absent, self._absent
+        if not odd:
+            odd, unchecked = written_remarks(self._device, self._point, raw, settings)
+            remark = odd or unchecked
+        return odd, f"{self._title}; {remark}" if remark else self._title
 
 
 class Told:
@@ -92,7 +93,7 @@ class Told:
         self.device, self.directory = device, directory
         self._voices: dict[tuple[str, Base, bool], Voice] = {}
         self.spans: Remembered[SpanKey, SpanLayout] = Remembered(_MOST_SPANS, partial(SpanLayout, self))
-        self.stretches: Remembered[tuple[str, range], Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
+        self.stretches: Remembered[StretchKey, Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
         """Parts of telegrams that have come."""
         self.process_data: Remembered[tuple[str, int], list[Saying]] = Remembered(64, partial(process_sayings, self))
         self.elements: Remembered[tuple[int, int, bool], list[Point]] = Remembered(_MOST_SPANS, self._element)

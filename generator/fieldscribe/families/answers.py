@@ -37,35 +37,48 @@ class Bits:
         return {"bits": [self.high, self.low], **own}
 
 
+def bits_label(high: int, low: int) -> str:
+    """What stands before a line about bits: `Bit 3`, `Bits 7..6`."""
+    return f"Bit {low}" if high == low else f"Bits {high}..{low}"
+
+
 class TellsBits(Protocol):
     """What tells the bits of a word."""
 
     def bits(self, raw: int) -> list[Bits]:
         """What each flag says, and each set bit that the manual does not name."""
 
+    def sentence(self, raw: int) -> str:
+        """The same in one sentence."""
+
 
 @dataclass(frozen=True, slots=True)
 class Item:
     """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `text` alone tells a person everything; `head` is the same without the flags, where `flags` are told one by one
-    (by `telling`, when they are asked for: most are never).
-    `missing` names the points whose raw numbers are needed to work out the
-    value. `findings` say what the device refuses or which address the manual closes; `text` repeats them.
+    `said` tells a person everything but the flags of a word: `telling` tells those, when they are asked for (most never
+    are). `missing` names the points whose raw numbers are needed to work out the value. `findings` say what the device
+    refuses or which address the manual closes; `said` repeats them.
     """
 
     space: str
     address: int
     count: int
-    text: str
+    said: str
     point: str | None = None
     code: str | None = None
     raw: int | None = None
     value: str | None = None
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    head: str = ""
     telling: TellsBits | None = None
+
+    @property
+    def text(self) -> str:
+        """What it says in one line, flags too."""
+        if self.telling is None or self.raw is None:
+            return self.said
+        return f"{self.said}; {self.telling.sentence(self.raw)}"
 
     @property
     def flags(self) -> list[Bits]:

@@ -204,11 +204,14 @@ class Recent(Generic[Key, Kept]):
 
     def __init__(self) -> None:
         self._kept: dict[Key, Kept] = {}
+        self._last: Key | None = None
 
     def of(self, key: Key, make: Callable[[], Kept]) -> Kept:
         """What is kept under this key, made if nothing is."""
-        kept = self._kept.pop(key) if key in self._kept else make()
-        self._kept[key] = kept
+        if key == self._last and self._kept:
+            return self._kept[key]
+        kept = self._kept[key] = self._kept.pop(key) if key in self._kept else make()
+        self._last = key
         if len(self._kept) > _MOST_KEPT:
             del self._kept[next(iter(self._kept))]
         return kept

@@ -45,7 +45,8 @@ class Pasted:
     @property
     def shown(self) -> str:
         """The frame as candump logs it."""
-        return " ".join(part for part in (self.stamp, self.bus, frame_text(self.frame, remote=self.remote)) if part)
+        text = frame_text(self.frame, remote=self.remote)
+        return " ".join([part for part in (self.stamp, self.bus, text) if part])
 
     @property
     def details(self) -> dict[str, object]:
@@ -55,7 +56,8 @@ class Pasted:
 
 def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
     """A frame as candump and cansend write it."""
-    return f"{frame.id:0{3 if frame.id <= 0x7FF else 8}X}#{'R' if remote else frame.data.hex().upper()}"
+    identifier = "%03X" % frame.id if frame.id <= 0x7FF else "%08X" % frame.id  # noqa: UP031  # a stream has millions
+    return f"{identifier}#{'R' if remote else frame.data.hex().upper()}"
 
 
 def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
