@@ -11,6 +11,7 @@ from collections import Counter
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.rows import broken_otherwise
 from fieldscribe.audit.editions.swaps import exchanged
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ class Matching:
         self._straighten(1)
         self._straighten(-1)
         self._slide()
+        for here, others, pairs in list(broken_otherwise(self)):
+            self._put_into_cells(here, others, pairs)
         for olds, news in list(exchanged(self)):
             self._put_in_their_places(olds, news)
 
@@ -179,6 +182,13 @@ class Matching:
         beside = at - step
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
+
+    def _put_into_cells(self, olds: range, news: range, pairs: list[tuple[int, int]]) -> None:
+        """Take the words of a row for those of another, pair by pair."""
+        self.forget(olds)
+        self.forget_new(news)
+        for pair in pairs:
+            self._match(*pair)
 
     def _put_in_their_places(self, olds: list[int], news: list[int]) -> None:
         """Take each of these lines for the one in its place, whatever words they share with others."""
