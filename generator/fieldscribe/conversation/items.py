@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from fieldscribe.conversation.meanings import meaning_of, raw_text
 from fieldscribe.conversation.selection import same_meaning
 from fieldscribe.families.answers import Item
 from fieldscribe.records import replace
@@ -16,16 +15,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Point
 
 Base = tuple[str, int, int]
 """Space, address, and count of an item."""
 
 Saying = Callable[[Sequence[int], "Settings"], Item]
 """What says an item, from the words of a frame and the known raw numbers of other points."""
-
-Numbers = tuple[int, "Settings"]
-"""The raw number of a point, and the known raw numbers of other points."""
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
@@ -54,9 +50,3 @@ def named_item(point: Point, base: Base, said: str = "", *, odd: str = "") -> It
 def always(item: Item) -> Saying:
     """What says the same whatever a frame carries."""
     return lambda _words, _settings: item
-
-
-def value_with_raw(device: Device, point: Point, numbers: Numbers) -> str:
-    """The meaning of a raw number, and the raw number itself: `5 Hz (raw 500 = 01F4h)`."""
-    raw, settings = numbers
-    return f"{meaning_of(device, point, raw, settings).text} ({raw_text(point, raw)})"

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, raw_reader
-from fieldscribe.conversation.items import named_item, value_with_raw
+from fieldscribe.conversation.items import named_item
 from fieldscribe.families.answers import Item
 from fieldscribe.families.spoken import Remembered
 from fieldscribe.records import replace
@@ -150,7 +150,7 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     items, lacking = [], {}
     for part, raw in zip(stretch.parts, raws, strict=True):
         if raw is None:
-            items.append(named_item(part.point, part.base, _incomplete_text(hearing, piece, part.point)))
+            items.append(named_item(part.point, part.base, _incomplete_text(hearing, piece, part)))
             continue
         if hearing.waiting:
             hearing.waiting.pop(part.name, None)
@@ -175,13 +175,13 @@ def _multiplexers(told: Told, telegram: str, per_frame: int, missing: tuple[str,
     return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
 
 
-def _incomplete_text(hearing: Hearing, piece: Piece, point: Point) -> str:
+def _incomplete_text(hearing: Hearing, piece: Piece, part: _Part) -> str:
     """What is known of a number whose words come in two frames and may not belong together."""
-    parts = [piece.pieces.words((at,)) for at in point.addresses]
-    if any(status != "ok" for status, _ in parts):
-        return _waiting_text(point, [words for _, words in parts], piece.pieces.per_frame)
-    would = value_with_raw(hearing.device, point, (raw_of(point, [words[0] for _, words in parts]), hearing.settings))
-    high = point.addresses[0] // piece.pieces.per_frame
+    words = [piece.pieces.words((at,)) for at in part.addresses]
+    if any(status != "ok" for status, _ in words):
+        return _waiting_text(part.point, [came for _, came in words], piece.pieces.per_frame)
+    would = part.voice.value(raw_of(part.point, [came[0] for _, came in words]), hearing.settings)
+    high = part.addresses[0] // piece.pieces.per_frame
     return (
         f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
         f"the next frame with multiplexer {high} tells"

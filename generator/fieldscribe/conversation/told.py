@@ -66,6 +66,12 @@ class Voice:
         """Whether its scale needs numbers of other points that are not among these."""
         return self._meanings.lacks(settings)
 
+    def value(self, raw: int, settings: Settings) -> str:
+        """The meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
+        meaning = self._meanings.of(raw, settings)
+        text = meaning.flags.sentence(raw) if meaning.flags else meaning.text
+        return f"{text} ({self._raw_text(raw)})"
+
     def _said(self, raw: int, settings: Settings) -> Item:
         meaning, number = self._meanings.of(raw, settings), self._raw_text(raw)
         odd, rest = self._remarks(raw, settings) if self._written else ("", self._title)

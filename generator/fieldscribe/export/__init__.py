@@ -7,17 +7,20 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fieldscribe.export.points import export_point, source_of
 from fieldscribe.export.rules import ExportError
 from fieldscribe.families import families, family
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Group, Message, Point, Telegram
+
+    Tasks = Callable[[Bus, Point], Sequence[tuple[str, int]]]
+    """The purposes and functions that a family has for a point."""
 
 FORMAT = 5
 """The version of the exported shape."""
@@ -27,6 +30,7 @@ def export_model(device: Device) -> dict[str, object]:
     """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`."""
     by_name: PointsByName = {name: point for point in device.points for name in (point.item, point.name)}
     directions = {telegram.name: telegram.direction for telegram in device.telegrams}
+    tasks = getattr(family(device.family).part("export"), "tasks", None)
     return {
         "format": FORMAT,
         "device": device.id,
@@ -40,7 +44,7 @@ def export_model(device: Device) -> dict[str, object]:
         "variants": {axis: list(values) for axis, values in device.variants.items()},
         "limits": _limits(device),
         "groups": [_group(group) for group in device.groups],
-        "points": [_point(device, point, by_name, directions) for point in device.points],
+        "points": [_point(device, point, by_name, directions, tasks) for point in device.points],
         "commands": [_command(command) for command in device.commands],
         "messages": [_message(message) for message in device.messages],
         "telegrams": [_telegram(telegram) for telegram in device.telegrams],
@@ -60,11 +64,11 @@ def export_form(form: str, device: Device, unit: int | None) -> bytes:
     return exported
 
 
-def _point(device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str]) -> dict[str, object]:
+def _point(
+    device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str], tasks: Tasks | None
+) -> dict[str, object]:
     direction = None if point.telegram is None else directions.get(point.telegram)
-    family_part: Any = family(device.family).part("export")
-    tasks = family_part.tasks(device.bus, point) if hasattr(family_part, "tasks") else ()
-    return export_point(point, by_name, direction, tasks)
+    return export_point(point, by_name, direction, tasks(device.bus, point) if tasks else ())
 
 
 def _document(document: Document) -> dict[str, object]:

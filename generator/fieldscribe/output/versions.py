@@ -25,6 +25,7 @@ _FORMATS = [1, FORMAT]
 """Those of the record and of the exported model: one that another compiler wrote is replaced where it differs."""
 _MOST_BYTES = 512 << 20
 _SOME, _LONG, _NUMBER = 64, 60, "#"
+_ENCODER = json.JSONEncoder()
 
 
 class Record(NamedTuple):
@@ -117,16 +118,20 @@ def _things(things: Any) -> str:
     rows = [{key: said for key, said in thing.items() if key not in most or most[key] != said} for thing in things]
     often: dict[str, dict[str, int]] = {}
     for key in most:
-        texts = Counter(_text(row[key]) for row in rows if isinstance(row.get(key), dict | list))
-        repeated = [text for text, times in texts.items() if times > 1 and len(text) >= _LONG]
-        often |= {key: {text: number for number, text in enumerate(repeated)}} if repeated else {}
+        times = Counter(repr(row[key]) for row in rows if isinstance(row.get(key), dict | list))
+        repeated = [said for said, count in times.items() if count > 1 and len(said) >= _LONG]
+        often |= {key: {said: number for number, said in enumerate(repeated)}} if repeated else {}
+    values: dict[str, dict[int, str]] = {key: {} for key in often}
     for row in rows:
         for key in sorted(often.keys() & row.keys()):
-            number = often[key].get(_text(row[key]))
-            row[key] = row[key] if number is None else {_NUMBER: number}
-    values = ", ".join(f"{json.dumps(key)}: [{', '.join(texts)}]" for key, texts in often.items())
+            number = often[key].get(repr(row[key]))
+            if number is not None:
+                if number not in values[key]:
+                    values[key][number] = _text(row[key])
+                row[key] = {_NUMBER: number}
+    listed = ", ".join(f"{json.dumps(key)}: [{', '.join(texts.values())}]" for key, texts in values.items())
     each = ",\n".join(map(_text, rows))
-    return f'{{"most": {_text(most)}, "often": {{{values}}}, "each": [\n{each}]}}'
+    return f'{{"most": {_text(most)}, "often": {{{listed}}}, "each": [\n{each}]}}'
 
 
 def _read(most: dict[str, Any], often: dict[str, list[Any]], each: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
@@ -144,4 +149,4 @@ def _most(key: str, things: list[dict[str, Any]]) -> Any:
 
 
 def _text(value: object) -> str:
-    return json.dumps(value, separators=(", ", ": "))
+    return _ENCODER.encode(value)

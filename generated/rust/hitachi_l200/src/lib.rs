@@ -21,7 +21,7 @@
 //!     let line = TcpLine::new("192.168.0.20:4001");
 //!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
 //!     println!("{:?}", client.read::<p::Trip1OutputFrequency>()?);
-//!     client.write::<p::NetworkFrequencySetpoint>(200.0)?;
+//!     client.write::<p::NetworkFrequencySetpoint>(40.0)?;
 //!     Ok(())
 //! }
 //! ```
@@ -46,7 +46,7 @@
 //! fn talk(client: &mut Client<Line>) -> Result<(), ClientError<std::io::Error>> {
 //!     let value = client.read::<p::NetworkFrequencySetpoint>()?;
 //!     println!("it is {value:?}");
-//!     client.write::<p::NetworkFrequencySetpoint>(200.0)?;
+//!     client.write::<p::NetworkFrequencySetpoint>(40.0)?;
 //!     // What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.
 //!     let with = with::DcBrakeFrequency { start_frequency: 1 };
 //!     client.write_with::<p::DcBrakeFrequency>(1.0, with)?;

@@ -105,12 +105,15 @@ def _takes_a_value(one: CratePoint) -> bool:
 
 
 def _inside(subject: CratePoint) -> str:
-    """A value in the middle of what the point takes."""
+    """A modest value that the point takes, a tenth of the way up: people run first programs on real machines."""
     low, high = subject.point.outer
     rule = subject.shape.rule
     if rule is None:
         return "1.0"
-    return float_literal(float(round((((low + high) // 2) - rule.offset) / rule.ratio)))
+    least = max(low, 0) if high > 0 else low
+    value = (least + (high - least) // 10 - rule.offset) / rule.ratio
+    whole = low <= round(value) * rule.ratio + rule.offset <= high
+    return float_literal(float(round(value) if whole else value))
 
 
 def _special(asked: list[CratePoint]) -> Snippet:
