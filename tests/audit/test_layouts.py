@@ -8,6 +8,8 @@ from fieldscribe.audit.editions.changes import Editions
 TITLES = ("1 Bus", "1.1 Frames", "1.2 Errors", "2 Points")
 TEXT = "\n".join(f"{title}\n\nWords of it, {'and more ' * number}.\n" for number, title in enumerate(TITLES))
 
+NAMES = ("first", "other", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+
 SAME = {
     # two layouts of one text
     "formula in pieces": (r"value = t [s] · 50 · $\frac{1}{s}$", r"$value = t [s] \cdot 50 \cdot \frac{1}{\text{s}}$"),
@@ -75,3 +77,11 @@ def _words(old: str, new: str) -> list[tuple[str, str]]:
     editions = Editions(old, new)
     gaps = [gap for change in editions.changes for gap in change.gaps]
     return [(editions.old.shown(was), editions.new.shown(now)) for was, now in gaps]
+
+
+def test_sections_that_moved_take_all_words_of_their_headings_along() -> None:
+    titles = [f"4.2.{100 + number} Threshold {name}" for number, name in enumerate(NAMES)]
+    sections = [f"{title}\n\n{title[-5:]} is the threshold of it, as said.\nID\t{title[4:7]}\n" for title in titles]
+    now = [*sections[:2], *sections[4:6], *sections[2:4], *sections[6:]]
+    editions = Editions("\n".join(sections), "\n".join(now))
+    assert [editions.now(5 * number + 1) for number in (2, 4, 6)] == [(21, 21), (11, 11), (31, 31)]

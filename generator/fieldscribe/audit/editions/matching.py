@@ -52,6 +52,8 @@ class Matching:
         self._match_moved(_LENGTHS[1:3])
         self._straighten(1)
         self._straighten(-1)
+        self._mend_torn_lines(1)
+        self._mend_torn_lines(-1)
         self._slide()
         for here, others, pairs in list(broken_otherwise(self)):
             self._put_into_cells(here, others, pairs)
@@ -176,6 +178,29 @@ class Matching:
                 self._match(other, own)
                 self._match(at, there)
                 self.moved.update({at, other} if {at - step, other - step} & self.moved else ())
+
+    def _mend_torn_lines(self, step: int) -> None:
+        """The first (or last) words of lines that moved may be those of each other: `4.2.` of headings."""
+        for beside in range(max(0, step), len(self.there) + min(0, step)):
+            at, there = beside - step, self.there[beside] - step
+            if self.there[beside] < 0 or self.there[at] in (-1, there) or not 0 <= there < len(self.back):
+                continue
+            olds, news = self.old.up_to_end(at, -step), self.new.up_to_end(there, -step)
+            same = [self._a[word] for word in olds] == [self._b[word] for word in news]
+            if same and self.old.line_of[at] == self.old.line_of[beside] and all(self.back[word] >= 0 for word in news):
+                self._exchange(olds, news, step)
+
+    def _exchange(self, olds: range, news: range, step: int) -> None:
+        """Take words for these, and those that had them for theirs."""
+        for at, there in zip(olds, news, strict=True):
+            other, left = self.back[there], self.there[at]
+            self._match(at, there)
+            if left >= 0:
+                self._match(other, left)
+            else:
+                self.there[other] = -1
+            for word in (at, other):
+                (self.moved.add if word + step in self.moved else self.moved.discard)(word)
 
     def _beside(self, at: int, step: int) -> int | None:
         """The word of the new text behind (or before) the counterpart of the one before (or behind) a word."""

@@ -78,6 +78,11 @@ class Words:
         """Whether a word is the first of its line; what stands behind the last word is."""
         return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
 
+    def up_to_end(self, word: int, step: int) -> range:
+        """The words of its line from a word on, forwards or (-1) backwards."""
+        line = self.of_line(self.line_of[word])
+        return range(word, line.stop if step > 0 else line.start - 1, step)
+
     def is_in_one_line(self, start: int, end: int) -> bool:
         """Whether the words from..to stand in one line."""
         return self.line_of[start] == self.line_of[end - 1]
