@@ -593,6 +593,13 @@ def test_only_errata_of_the_description_can_hold(described: Described) -> None:
     assert "the description has no erratum `nothing`" in described.capsys.readouterr().err
 
 
+def test_editions_that_are_given_the_wrong_way_round_are_noticed(described: Described) -> None:
+    (described.folder / "new.txt").write_text(OLD.replace("200-550", "200-600"), "utf-8")
+    files = ["--manual", str(described.folder / "old.txt"), "--old", str(described.folder / "new.txt")]
+    main(["audit", str(described.folder / "audited"), *files])
+    assert "old.txt is the text that the description records" in described.capsys.readouterr().out
+
+
 def test_an_erratum_of_a_row_that_goes_on_in_a_new_line_has_to_be_looked_at(described: Described) -> None:
     """A list that lacked an entry may have it now."""
     lacking = (

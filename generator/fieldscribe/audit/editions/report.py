@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.findings import Cite, Comparison, Draft, Finding, Place, Remark, Void
     from fieldscribe.report import Line
 
-_MOST_CITES, _MOST_LINES, _MOST_PLACES = 6, 4, 6
+_MOST_CITES, _MOST_LINES, _MOST_PLACES, _MOST_NAMED = 6, 4, 6, 20
 """A finding shows at most so many facts that cite it, lines of each edition, and places."""
 _BEFORE, _LONGEST = 60, 160
 """Of a long line so many characters are shown before what was changed, and so many in all."""
@@ -194,8 +194,9 @@ def figures(outcome: Comparison) -> Iterator[Line]:
     left = "all explained" if outcome.explained else f"{outcome.unexplained} not explained"
     yield [("", f"  findings  {len(outcome.findings)}, {left}")]
     if outcome.doubts:
-        names = ",".join(doubt.erratum for doubt in outcome.doubts)
-        said = f"  errata    {len(outcome.doubts)} to look at: mend or remove them; if they hold, say --holds {names}"
+        ids = [doubt.erratum for doubt in outcome.doubts]
+        names = ",".join(ids) if len(ids) <= _MOST_NAMED else f"and the ids named above, as in {ids[0]},{ids[1]}"
+        said = f"  errata    {len(ids)} to look at: mend or remove them; if they hold, say --holds {names}"
         yield [("", visible(said))]
     if outcome.notes:
         yield [("", f"  notes     {len(outcome.notes)} to read again: they say what changed")]
@@ -206,5 +207,8 @@ def figures(outcome: Comparison) -> Iterator[Line]:
     elif outcome.shifted:
         cited = f"{outcome.shifted} cited line{'' if outcome.shifted == 1 else 's'}"
         yield [("", f"  numbers   {cited} moved: --renumber writes the new numbers")]
-    if outcome.old_is_known is False and not outcome.renumbered:
+    if outcome.old_is_known is False and outcome.new_is_known:
+        said = f"{outcome.new} is the text that the description records: accepted before, or are the two swapped?"
+        yield [("", visible(f"  note      {said}"))]
+    elif outcome.old_is_known is False and not outcome.renumbered:
         yield [("", visible(f"  note      {outcome.old} is not the text that was transcribed"))]
