@@ -13,6 +13,9 @@ from support.described import group, head, together, write
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.audit.editions.findings import Finding
+    from fieldscribe.resolve.subject import Subject
+
 OLD = """# Heat pump
 
 ## 1.1 Flow
@@ -51,6 +54,28 @@ CHANGES = {
 def test_a_change_is_told_of_what_cites_it(old: str, new: str, subject: str, explained: bool, tmp_path: Path) -> None:
     described = load_subject(write(tmp_path / "plant", together(head() + HEADER, group(POINTS, access="rw"))), Report())
     assert described is not None
-    outcome, _ = compare(described, Edition("old", OLD, None), Edition("new", OLD.replace(old, new), None))
-    [finding] = outcome.findings
+    [finding] = _findings(described, OLD, OLD.replace(old, new))
     assert (finding.cited_by[0].subject, finding.explained) == (subject, explained)
+
+
+def test_a_new_section_tells_which_sections_it_counts_anew(tmp_path: Path) -> None:
+    points = "".join(
+        f"- {{name: {name}, at: {number}, section: '1.{number}', line: {4 * number - 3}}}\n"
+        for number, name in enumerate(("flow", "speed", "level"), 1)
+    )
+    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    old = [f"1.{number} Value of {name}\n\nRegister\t{number}\n" for number, name in enumerate("abc", 1)]
+    new = [
+        old[0],
+        old[1].replace("of b", "of x, new").replace("2\n", "9\n"),
+        old[1].replace("1.2", "1.3"),
+        old[2].replace("1.3", "1.4"),
+    ]
+    assert described is not None
+    [finding] = _findings(described, "\n".join(old), "\n".join(new))
+    reasons = [reason.text for reason in finding.reasons if reason.kind == "missing"]
+    assert (finding.kind, reasons) == ("added", ["speed: section 1.2 is not there", "level: section 1.3 is not there"])
+
+
+def _findings(described: Subject, old: str, new: str) -> list[Finding]:
+    return compare(described, Edition("old", old, None), Edition("new", new, None))[0].findings
