@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from fieldscribe.audit.editions.changes import Editions
+from fieldscribe.audit.manual import tokens_of
 
 TITLES = ("1 Bus", "1.1 Frames", "1.2 Errors", "2 Points")
 TEXT = "\n".join(f"{title}\n\nWords of it, {'and more ' * number}.\n" for number, title in enumerate(TITLES))
@@ -24,6 +25,7 @@ SAME = {
         "\n".join(f"| {title} ..... | {page} |" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
         "\n".join(f"| {title}.. | {page} |" for page, title in enumerate(TITLES, 9)) + f"\n\n{TEXT}",
     ),
+    "thousands apart": ("from 3840 to 17920 s", "from 3 840 to 17\u202f920 s"),
     "cells over two lines": (
         "1\tstop\tnone\n2\tflow temperature of circuit 2\tdegrees Celsius\tread only",
         "1\tstop\tnone\n2\tflow temperature\tdegrees\tread only\n\tof circuit 2\tCelsius\t",
@@ -37,6 +39,7 @@ CHANGED = {
     # what is said otherwise: the words
     "number of a formula": (r"$t \cdot 50 \cdot \frac{1}{s}$", r"$t \cdot 20 \cdot \frac{1}{s}$", [("50", "20")]),
     "unit of a formula": (r"$\frac{256}{\text{Hz}}$", r"$\frac{256}{\text{kHz}}$", [("Hz", "kHz")]),
+    "numbers that stand apart": ("bytes 1 200 100 300", "bytes 1200 100 300", [("1 200", "1200")]),
     "fraction": (r"$\frac{1}{10}$ V", r"$\frac{1}{100}$ V", [("10", "100")]),
     "title in the contents": (
         "\n".join(f"{title}.....\t{page}" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
@@ -70,6 +73,19 @@ def test_another_layout_changes_nothing(old: str, new: str) -> None:
 def test_what_says_something_else_is_a_change(old: str, new: str, words: list[tuple[str, str]] | None) -> None:
     changed = _words(old, new)
     assert changed if words is None else changed == words
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("to 17 920 s", ["17 920"]),
+        ("to 1 000 000", ["1 000 000"]),
+        ("1 200 100 30", ["1", "200", "100", "30"]),
+        ("0 100", ["0", "100"]),
+    ],
+)
+def test_thousands_are_one_number_where_no_others_stand_beside(text: str, numbers: list[str]) -> None:
+    assert [token.text for token in tokens_of(text, 1)] == numbers
 
 
 def _words(old: str, new: str) -> list[tuple[str, str]]:

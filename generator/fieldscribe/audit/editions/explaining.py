@@ -126,8 +126,11 @@ class Explaining:
 
     def _is_counted_anew(self, pair: Pair) -> bool:
         """Whether the number of a section is another now: its heading is known by its title."""
-        is_lost = pair.new in self.new.missed and pair.old not in self.old.missed
-        return pair.claim.fact == "section" and pair.new is not None and is_lost
+        if pair.claim.fact != "section" or pair.old is None or pair.new not in self.new.missed:
+            return False
+        olds, news = self.editions.old.texts, self.editions.new.texts
+        places = ((word, self.editions.there(word)) for word in self.old.named.get(pair.old, ()))
+        return any(there >= 0 and olds[word] != news[there] for word, there in places)
 
     def _lost_access(self, pair: Pair) -> bool:
         """Whether a row that printed an access does not print it any more."""

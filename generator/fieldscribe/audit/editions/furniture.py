@@ -27,7 +27,7 @@ def heads_and_feet(findings: Sequence[Finding], old: list[str], new: list[str]) 
     """The findings that are about heads and feet of pages."""
     groups: dict[object, list[Finding]] = {}
     for finding in findings:
-        if finding.kind in ("added", "removed", "changed") and _may_be(finding):
+        if finding.kind in ("added", "removed", "changed") and _may_be(finding, old, new):
             likeness = finding.kind, _pattern(finding.was), _pattern(finding.now)
             groups.setdefault(likeness, []).append(finding)
     for group in groups.values():
@@ -35,11 +35,14 @@ def heads_and_feet(findings: Sequence[Finding], old: list[str], new: list[str]) 
             yield from group
 
 
-def _may_be(finding: Finding) -> bool:
+def _may_be(finding: Finding, old: list[str], new: list[str]) -> bool:
     """Whether it is about lines of text, and no fact is lost with it; facts may seem to stand on it by chance."""
     if finding.drafts or finding.void or any(reason.kind in ("missing", "gone") for reason in finding.reasons):
         return False
-    return not any(_ROW.search(line) for line in (*finding.was, *finding.now))
+    lines = [*finding.was, *finding.now]
+    if finding.kind == "changed" and finding.old and finding.new:  # a foot may have tabs, but not the rows of a table
+        lines = [*old[finding.old[0] - 1 : finding.old[1]], *new[finding.new[0] - 1 : finding.new[1]]]
+    return not any(map(_ROW.search, lines))
 
 
 def _names_page(finding: Finding) -> bool:

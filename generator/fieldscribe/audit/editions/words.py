@@ -33,6 +33,7 @@ _BREAK = re.compile(r"<br ?/?>", re.IGNORECASE)
 _HEADING_MARKS = re.compile(r"\s*#{1,6}(?=\s)")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,]|[.,][0-9]+")
+_THOUSANDS = re.compile(r"(?<![0-9.,])(?<![0-9] )[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]| [0-9])")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 _NO_ENDS: Mapping[int, int] = MappingProxyType({})
 
@@ -135,5 +136,6 @@ class Words:
 
 
 def pressed(texts: list[str]) -> str:
-    """Words without the blanks and hyphens that only set them: two numbers stay apart."""
-    return _BLANK.sub("", _DASH_IN_WORD.sub("", " ".join(texts)))
+    """Words without the blanks and hyphens that only set them: two numbers stay apart, but for thousands."""
+    joined = _THOUSANDS.sub(lambda match: match[0].replace(" ", ""), " ".join(texts))
+    return _BLANK.sub("", _DASH_IN_WORD.sub("", joined))
