@@ -21,6 +21,10 @@ SAME = {
         "\n".join(f"{title}.....\t{page}" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
         "\n".join(f"{title}\t{page}" for page, title in enumerate(TITLES, 6)) + f"\n\n{TEXT}",
     ),
+    "long titles of the contents in two lines": (
+        "1.1 Frames\t5\n1.2 Errors of IEC 255 and others\t6\n2 Points\t7\n" + TEXT,
+        "1.1 Frames\t6\n1.2 Errors of IEC 255\nand others\t7\n2 Points\t8\n" + TEXT,
+    ),
     "contents in a table": (
         "\n".join(f"| {title} ..... | {page} |" for page, title in enumerate(TITLES, 5)) + f"\n\n{TEXT}",
         "\n".join(f"| {title}.. | {page} |" for page, title in enumerate(TITLES, 9)) + f"\n\n{TEXT}",

@@ -79,9 +79,7 @@ def test_a_new_section_tells_which_sections_it_counts_anew(tmp_path: Path) -> No
 
 def test_rows_that_change_alike_are_no_feet_of_pages(tmp_path: Path) -> None:
     described = load_subject(write(tmp_path / "plant", together(head(), group("- {name: flow, at: 1}\n"))), Report())
-    old = [
-        f"Words of chapter {name}.\n" * 10 + f"Limit of {name * 4}\t{number}\n" for number, name in enumerate("abcd", 1)
-    ]
+    old = [f"Words of chapter {name}.\n" * 10 + f"Limit of it\t{number}\n" for number, name in enumerate("abcd", 1)]
     new = [text.replace(f"\t{number}", f"\t{number + 4}") for number, text in enumerate(old, 1)]
     assert described is not None
     assert len(_findings(described, "".join(old), "".join(new))) == len(old)

@@ -39,13 +39,22 @@ class Contents:
 
 
 def _runs(lines: Sequence[str]) -> Iterator[list[_Entry]]:
-    """Entries below each other whose pages never fall; a line between may be the first half of a title."""
+    """Entries below each other whose pages never fall; a title may begin on the line above."""
     run: list[_Entry] = []
-    others = 0
+    others, above = 0, ""
     for number, line in enumerate(lines, 1):
+        if _RULE.fullmatch(line):
+            continue
         entry = _entry(number, line)
         if entry is None:
-            others += not _RULE.fullmatch(line)
+            entry = _entry(number, line, above)
+            if entry is not None and run and not others and entry.page >= run[-1].page:
+                entry = None  # the line above is an entry by itself
+            elif entry is not None and run and not others:
+                run.pop()  # it ended with a number that is no page
+        above = line
+        if entry is None:
+            others += 1
             continue
         if run and (others > 1 or entry.page < run[-1].page):
             yield run
@@ -55,17 +64,18 @@ def _runs(lines: Sequence[str]) -> Iterator[list[_Entry]]:
     yield run
 
 
-def _entry(number: int, line: str) -> _Entry | None:
+def _entry(number: int, line: str, above: str = "") -> _Entry | None:
     """A title and a page, with a section's number before them or leaders between."""
-    page, section = _PAGE.search(line), _SECTION.match(line)
+    page, section = _PAGE.search(line), _SECTION.match(above or line)
     if page is None:
         return None
     title = line[: page.start()].rstrip(_BEHIND_TITLE)
     has_leaders = _LEADERS.search(line, len(title), page.start()) is not None
     is_parted = page.start() > len(title) and title and not line.startswith("|")
-    if not has_leaders and not (section and is_parted and section.end() < len(title)):
+    if not has_leaders and not (section and is_parted and section.end() < len(above or title)):
         return None
-    titles = _letters(title), _letters(title[section.end() :] if section else title)
+    whole = f"{above} {title}" if above else title
+    titles = _letters(whole), _letters(whole[section.end() :] if section else whole)
     is_sure = has_leaders or (section is not None and "." in section[1])
     return _Entry(number, len(title), int(re.sub(r"\D", "", page[0])), titles, is_sure)
 
