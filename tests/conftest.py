@@ -49,3 +49,12 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> Folders:
     from support.c_device import Folders
 
     return Folders(tmp_path_factory)
+
+
+@pytest.fixture
+def loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So many commands ask for so few devices; how these are read and compiled is tried elsewhere."""
+    from fieldscribe import pipeline
+    from support.loaded_once import load_device
+
+    monkeypatch.setattr(pipeline, "load_device", load_device)

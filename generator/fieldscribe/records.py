@@ -126,12 +126,13 @@ def _values(names: tuple[str, ...]) -> Callable[[object], tuple[Any, ...]]:
 
 
 class _StandardFields:
-    """Lets `fields`, `asdict` and `astuple` of the standard library work for those who import it."""
+    """Lets `fields`, `replace`, `asdict` and `astuple` of the standard library work for those who import it."""
 
     def __get__(self, instance: object, owner: Any) -> Mapping[str, Any]:
         from dataclasses import make_dataclass
 
         made: Any = make_dataclass(owner.__name__, owner.__fields__)
+        owner.__dataclass_fields__ = made.__dataclass_fields__  # from now on the class has them, without us
         fields: Mapping[str, Any] = made.__dataclass_fields__
         return fields
 

@@ -16,29 +16,31 @@ from support.places import TESTS
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.diagnostics import Diagnostic
+
 BAD = TESTS / "bad"
 CASES = sorted(path for path in BAD.iterdir() if path.is_dir() or path.suffix == ".yaml")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.stem)
 def test_bad(case: Path) -> None:
-    """The findings are exactly those that the case expects, with place, wording and hint."""
+    """The findings are exactly those that the case expects, with place, wording and hint, and each of them helps."""
     if os.environ.get("FIELDSCRIBE_ACCEPT"):
         accept(case)
-    found = wording(case, findings_of(case))
-    assert found, "a bad case must be refused"
-    assert found == expected(case)
+    findings = findings_of(case)
+    assert findings, "a bad case must be refused"
+    assert wording(case, findings) == expected(case)
+    for one in findings:
+        helps(one)
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.stem)
-def test_every_finding_helps(case: Path) -> None:
-    """Every finding has a place and says what to do, in clean printable text of a bearable length."""
-    for one in findings_of(case):
-        assert one.span.file
-        assert one.span.line >= 1
-        assert one.span.column >= 1
-        assert one.hint, one.message
-        assert f"{one.message}{one.hint}".isprintable()
-        assert len(one.message) < 300, one.message
-        assert not one.message.endswith(".")
-        assert "Traceback" not in one.message
+def helps(finding: Diagnostic) -> None:
+    """It has a place and says what to do, in clean printable text of a bearable length."""
+    assert finding.span.file
+    assert finding.span.line >= 1
+    assert finding.span.column >= 1
+    assert finding.hint, finding.message
+    assert f"{finding.message}{finding.hint}".isprintable()
+    assert len(finding.message) < 300, finding.message
+    assert not finding.message.endswith(".")
+    assert "Traceback" not in finding.message

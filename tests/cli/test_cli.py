@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 L200 = str(descriptions_dir() / "hitachi_l200")
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 PACKAGES = Path(import_module("fieldscribe").__file__ or "").parents[1]
 
 DEVICE = head(

@@ -10,34 +10,17 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe import pipeline
 from support.places import ROOT, TESTS
 from support.transcripts import commands_of, remarks_of, told
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.model import Device
 
 FOLDER = TESTS / "transcripts"
 TRANSCRIPTS = sorted(FOLDER.glob("*/*.txt"))
 
-LOADED: dict[Path, Device] = {}
-"""Sound devices; so many commands ask for so few of them."""
-
-
-@pytest.fixture(autouse=True)
-def _loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    load = pipeline.load_device
-
-    def load_once(device_file: Path, report: Report, _inputs: object = None) -> Device | None:
-        device = LOADED.get(device_file.resolve()) or load(device_file, report)
-        if device is not None and not report.findings:
-            LOADED[device_file.resolve()] = device
-        return device
-
-    monkeypatch.setattr(pipeline, "load_device", load_once)
+pytestmark = pytest.mark.usefixtures("loads_once")
 
 
 @pytest.mark.parametrize(

@@ -135,7 +135,7 @@ def test_reading_takes_time_in_proportion(tmp_path: Path) -> None:
         "a: b:c:d: e",
         "- - - - ",
     ):
-        text = "".join(f"{piece}{chance.randrange(9)}\n" for _ in range(100_000))
+        text = "".join(f"{piece}{chance.randrange(9)}\n" for _ in range(40_000))
         started = time.process_time()
         plain_documents(SourceFile("a.yaml", text))
-        assert time.process_time() - started < 3, piece
+        assert time.process_time() - started < 1.5, piece

@@ -226,12 +226,12 @@ def test_many_errors_stay_quick(tmp_path: Path) -> None:
 
 
 def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
-    """Thousands of points that each need the next one end in findings or a device."""
+    """More points than Python has frames, each of which needs the next one, end in findings or a device."""
     for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):
-        points = [f"- {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
+        points = [f"- {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 1500)}}}\n" for n in range(1500)]
         started = time.process_time()
         load_text(tmp_path, described("".join(points)))
-        assert time.process_time() - started < 10
+        assert time.process_time() - started < 5
 
 
 @pytest.mark.full(seconds=4)

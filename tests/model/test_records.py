@@ -108,6 +108,12 @@ def test_replaced_copied_and_taken_apart() -> None:
     assert dataclasses.is_dataclass(one)
 
 
+def test_what_the_standard_library_reads_is_made_once() -> None:
+    """It compiles six methods, and `dataclasses.replace` asks for it each time."""
+    for kind in OURS:
+        assert kind.__dataclass_fields__ is kind.__dataclass_fields__
+
+
 def test_records_of_the_model_can_be_pickled() -> None:
     from fieldscribe.diagnostics import Diagnostic, Span
 

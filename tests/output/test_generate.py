@@ -21,17 +21,17 @@ from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool
 
 DOCS = [
-    *("docs/hitachi_l200.csv", "docs/hitachi_l200.md", "docs/hitachi_l200_meanings.csv"),
-    *("manifest/hitachi_l200.facts.json", "manifest/hitachi_l200.json"),
+    *("docs/jumo_controller.csv", "docs/jumo_controller.md", "docs/jumo_controller_meanings.csv"),
+    *("manifest/jumo_controller.facts.json", "manifest/jumo_controller.json"),
 ]
 
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with descriptions/hitachi_l200, the working folder, with a cache of its own."""
+    """A folder with descriptions/jumo_controller, the working folder, with a cache of its own."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     place = tmp_path / "project"
-    shutil.copytree(ROOT / "descriptions/hitachi_l200", place / "descriptions/hitachi_l200")
+    shutil.copytree(ROOT / "descriptions/jumo_controller", place / "descriptions/jumo_controller")
     monkeypatch.chdir(place)
     return place
 
@@ -46,10 +46,10 @@ def test_writes_every_target_once(project: Path, capsys: pytest.CaptureFixture[s
     assert main(["generate"]) == 0
     first = files(project / "generated")
     assert {
-        "c/hitachi_l200.h",
-        "python/hitachi_l200/__init__.py",
-        "docs/hitachi_l200.md",
-        "vectors/hitachi_l200.txt",
+        "c/jumo_controller.h",
+        "python/jumo_controller/__init__.py",
+        "docs/jumo_controller.md",
+        "vectors/jumo_controller.txt",
     } <= first.keys()
     assert main(["generate"]) == 0
     assert files(project / "generated") == first
@@ -69,16 +69,16 @@ def test_check_sees_a_touched_output_and_writes_nothing(
 ) -> None:
     main(["generate", "--target", "docs"])
     assert main(["generate", "--target", "docs", "--check"]) == 0
-    place = project / "generated/docs/hitachi_l200.md"
+    place = project / "generated/docs/jumo_controller.md"
     before = place.stat()
     if spoil == "delete":
         place.unlink()
     else:
-        place.write_bytes(place.read_bytes().replace(b"4136", b"4135", 1))
+        place.write_bytes(place.read_bytes().replace(b"4294", b"4295", 1))
     if spoil == "same size and time":
         os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
     assert main(["generate", "--target", "docs", "--check"]) == 1
-    assert "stale: generated/docs/hitachi_l200.md" in capsys.readouterr().out
+    assert "stale: generated/docs/jumo_controller.md" in capsys.readouterr().out
     assert main(["generate", "--target", "docs"]) == 0
     assert main(["generate", "--target", "docs", "--check"]) == 0
 
@@ -100,7 +100,7 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
     from fieldscribe import pipeline
 
     assert main(["generate", "--target", "docs", "--out", "right"]) == 0
-    place = project / "descriptions/hitachi_l200/device.yaml"
+    place = project / "descriptions/jumo_controller/device.yaml"
     text, before, load = place.read_bytes(), place.stat(), pipeline.load_models
 
     def meddling(*arguments: Any) -> Any:
@@ -114,36 +114,36 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
     monkeypatch.setattr(pipeline, "load_models", meddling)
     assert main(["generate", "--target", "docs"]) == 0
     monkeypatch.setattr(pipeline, "load_models", load)
-    made = project / "generated/docs/hitachi_l200.md"
+    made = project / "generated/docs/jumo_controller.md"
     assert b"6.6.6" in made.read_bytes()
     assert main(["generate", "--target", "docs", "--check"]) == 1
     assert main(["generate", "--target", "docs"]) == 0
-    assert made.read_bytes() == (project / "right/docs/hitachi_l200.md").read_bytes()
+    assert made.read_bytes() == (project / "right/docs/jumo_controller.md").read_bytes()
 
 
 def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    place = project / "made/docs/hitachi_l200.csv"
+    place = project / "made/docs/jumo_controller.csv"
     place.parent.mkdir(parents=True)
     place.write_text("precious")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1
     said = capsys.readouterr().err
     assert "error[foreign-file]: a file is in the way: " in said
-    assert " --> made/docs/hitachi_l200.csv:1:1\n" in said
-    assert "hint: move it away, or replace it with `--force`; nothing of hitachi_l200 was written\n" in said
+    assert " --> made/docs/jumo_controller.csv:1:1\n" in said
+    assert "hint: move it away, or replace it with `--force`; nothing of jumo_controller was written\n" in said
     assert place.read_text() == "precious"
-    assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
+    assert list(files(project / "made")) == ["docs/jumo_controller.csv"]
     assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
     assert main(["generate", "--target", "docs", "--out", "made", "--check"]) == 0
 
 
 def test_a_folder_in_the_way_is_not_taken_over(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (project / "made/docs/hitachi_l200.csv").mkdir(parents=True)
+    (project / "made/docs/jumo_controller.csv").mkdir(parents=True)
     for force in ([], ["--force"]):
         assert main(["generate", "--target", "docs", "--out", "made", *force]) == 1
         assert (
-            "hint: move it away, or choose another folder or name; nothing of hitachi_l200 was written\n"
+            "hint: move it away, or choose another folder or name; nothing of jumo_controller was written\n"
             in capsys.readouterr().err
         )
 
@@ -160,7 +160,7 @@ def test_what_is_read_is_opened_so_that_nothing_hangs(project: Path, monkeypatch
     monkeypatch.setattr(os, "open", noting)
     assert main(["check"]) == 0
     assert flags["device.yaml"] == os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
-    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place = project / "descriptions/jumo_controller/process_data.yaml"
     place.unlink()
     os.mkfifo(place)
     flags.clear()
@@ -173,9 +173,9 @@ def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
 ) -> None:
     from fieldscribe.targets import vectors
 
-    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/other")
+    shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/other")
     place = project / "descriptions/other/device.yaml"
-    place.write_text(place.read_text("utf-8").replace("device: hitachi_l200", "device: other"), "utf-8")
+    place.write_text(place.read_text("utf-8").replace("device: jumo_controller", "device: other"), "utf-8")
     outputs = vectors.outputs
 
     def failing(device: Any, render: Any) -> Any:
@@ -185,7 +185,7 @@ def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
 
     monkeypatch.setattr(vectors, "outputs", failing)
     assert main(["generate", "--target", "docs,vectors"]) == 1
-    assert sorted(files(project / "generated")) == [*DOCS, "vectors/hitachi_l200.txt"]
+    assert sorted(files(project / "generated")) == [*DOCS, "vectors/jumo_controller.txt"]
     said = capsys.readouterr().err
     assert "internal error in target vectors: ValueError: no [31m vectors" in said
     assert "descriptions/other/device.yaml" in said
@@ -197,11 +197,11 @@ def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
 ) -> None:
     from fieldscribe.targets import docs
 
-    monkeypatch.setattr(docs, "outputs", lambda *_: [("docs/hitachi_l200.md", "half a pair: \ud800")])
+    monkeypatch.setattr(docs, "outputs", lambda *_: [("docs/jumo_controller.md", "half a pair: \ud800")])
     assert main(["generate", "--target", "docs"]) == 1
     said = " ".join(capsys.readouterr().err.split())
     assert "internal error in a text: UnicodeEncodeError: " in said
-    assert "descriptions/hitachi_l200/device.yaml:1:1" in said
+    assert "descriptions/jumo_controller/device.yaml:1:1" in said
     assert not (project / "generated/docs").exists()
 
 
@@ -210,7 +210,7 @@ def test_a_compiler_that_fails_on_one_device_writes_the_others(
 ) -> None:
     from fieldscribe import pipeline
 
-    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/a_broken_one")
+    shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/a_broken_one")
     load = pipeline.load_models
 
     def failing(device_file: Path, *rest: Any) -> Any:
@@ -220,25 +220,25 @@ def test_a_compiler_that_fails_on_one_device_writes_the_others(
 
     monkeypatch.setattr(pipeline, "load_models", failing)
     assert main(["generate", "--target", "docs"]) == 1
-    assert "docs/hitachi_l200.md" in files(project / "generated")
+    assert "docs/jumo_controller.md" in files(project / "generated")
     assert "internal error in the compiler: KeyError: 'x'" in capsys.readouterr().err
 
 
 def test_what_lies_beside_a_description_is_not_read(project: Path) -> None:
     for number, kind in enumerate(KINDS):
-        put(kind, project / f"descriptions/hitachi_l200/.#device_{number}.yaml")
-        put(kind, project / f"descriptions/hitachi_l200/another_{number}.yaml")
+        put(kind, project / f"descriptions/jumo_controller/.#device_{number}.yaml")
+        put(kind, project / f"descriptions/jumo_controller/another_{number}.yaml")
     assert run_bounded(project, "generate", "--target", "docs", "--depfile", "docs.d").returncode == 0
     rule = (project / "docs.d").read_text()
-    assert "standard_a.yaml" in rule
-    assert "hitachi_l200/another" not in rule
-    assert "hitachi_l200/.#device" not in rule
+    assert "process_data.yaml" in rule
+    assert "jumo_controller/another" not in rule
+    assert "jumo_controller/.#device" not in rule
 
 
 @pytest.mark.parametrize("kind", KINDS[:-1])
-@pytest.mark.parametrize("name", ["device.yaml", "standard_a.yaml"])
+@pytest.mark.parametrize("name", ["device.yaml", "process_data.yaml"])
 def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind: str, name: str) -> None:
-    place = project / "descriptions/hitachi_l200" / name
+    place = project / "descriptions/jumo_controller" / name
     place.unlink()
     put(kind, place)
     for command in (["check"], ["generate", "--target", "docs"]):
@@ -246,17 +246,17 @@ def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind:
         assert done.returncode == 1
         said = done.stdout + done.stderr
         assert any(rule in said for rule in ("file-unreadable", "file-too-large", "part-outside")), said
-        assert f"hitachi_l200/{'device.yaml' if 'part-outside' in said else name}" in said
+        assert f"jumo_controller/{'device.yaml' if 'part-outside' in said else name}" in said
 
 
 def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path, tmp_path: Path) -> None:
-    folder = project / "descriptions/hitachi_l200"
-    (folder / "standard_a.yaml").rename(folder / "somewhere.txt")
-    (folder / "standard_a.yaml").symlink_to("somewhere.txt")
+    folder = project / "descriptions/jumo_controller"
+    (folder / "process_data.yaml").rename(folder / "somewhere.txt")
+    (folder / "process_data.yaml").symlink_to("somewhere.txt")
     assert main(["check"]) == 0
     (folder / "somewhere.txt").rename(tmp_path / "outside.txt")
-    (folder / "standard_a.yaml").unlink()
-    (folder / "standard_a.yaml").symlink_to(tmp_path / "outside.txt")
+    (folder / "process_data.yaml").unlink()
+    (folder / "process_data.yaml").symlink_to(tmp_path / "outside.txt")
     assert main(["check"]) == 1
 
 
@@ -266,7 +266,7 @@ def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path,
 def test_a_part_that_is_not_there_is_told_from_a_link_that_leads_nowhere(
     project: Path, put: str, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    place = project / "descriptions/hitachi_l200/standard_a.yaml"
+    place = project / "descriptions/jumo_controller/process_data.yaml"
     place.unlink()
     if put == "link":
         place.symlink_to("nowhere.yaml")
@@ -275,9 +275,9 @@ def test_a_part_that_is_not_there_is_told_from_a_link_that_leads_nowhere(
 
 
 def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:
-    farm = tmp_path / "farm/hitachi_l200"
+    farm = tmp_path / "farm/jumo_controller"
     farm.mkdir(parents=True)
-    for path in (project / "descriptions/hitachi_l200").iterdir():
+    for path in (project / "descriptions/jumo_controller").iterdir():
         (farm / path.name).symlink_to(path)
     assert main(["check", str(farm.parent)]) == 0
 
@@ -299,7 +299,7 @@ def test_a_device_whose_folder_may_not_be_looked_into_is_not_left_out(
 
 
 def test_a_circle_of_links_is_a_finding(project: Path) -> None:
-    place = project / "descriptions/hitachi_l200/device.yaml"
+    place = project / "descriptions/jumo_controller/device.yaml"
     place.unlink()
     place.symlink_to("device.yaml")
     assert main(["check"]) == 1
@@ -315,7 +315,7 @@ def test_names_of_files_reach_nobody_raw(project: Path, capsys: pytest.CaptureFi
         ["generate", f"--{evil}"],
         ["generate", "--format", evil],
         ["check", evil],
-        ["audit", "hitachi_l200", "--manual", evil],
+        ["audit", "jumo_controller", "--manual", evil],
         [evil],
     ):
         main(command)
@@ -381,7 +381,7 @@ def test_a_depfile_replaces_only_a_file(project: Path, kind: str, capsys: pytest
 @pytest.mark.parametrize("kind", ["pipe", "device", "huge"])
 def test_a_manual_has_to_be_a_regular_file_too(project: Path, kind: str) -> None:
     put(kind, project / "manual.txt")
-    done = run_bounded(project, "audit", "hitachi_l200", "--manual", "manual.txt")
+    done = run_bounded(project, "audit", "jumo_controller", "--manual", "manual.txt")
     assert done.returncode == 2
     assert "it is " in done.stderr
 
@@ -395,12 +395,13 @@ def run_bounded(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/broken")
+    shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/broken")
     place = project / "descriptions/broken/device.yaml"
-    place.write_text(place.read_text("utf-8").replace("device: hitachi_l200", "device: broken\nnonsense: 1"), "utf-8")
+    text = place.read_text("utf-8").replace("device: jumo_controller", "device: broken\nnonsense: 1")
+    place.write_text(text, "utf-8")
     assert main(["generate", "--target", "docs"]) == 1
     made = files(project / "generated")
-    assert "docs/hitachi_l200.md" in made
+    assert "docs/jumo_controller.md" in made
     assert not any("broken" in path for path in made)
     assert "descriptions/broken/device.yaml" in capsys.readouterr().err
 
@@ -409,14 +410,14 @@ def test_where_no_device_is_sound_no_folder_is_made_or_locked(project: Path, mon
     from fieldscribe.output import lock
 
     monkeypatch.setattr(lock, "only_run", None)  # whoever called it would fail
-    place = project / "descriptions/hitachi_l200/device.yaml"
+    place = project / "descriptions/jumo_controller/device.yaml"
     place.write_text("nonsense: 1\n", "utf-8")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1
     assert not (project / "made").exists()
 
 
 def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/copy")
+    shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/copy")
     assert main(["generate", "--target", "docs"]) == 1
     assert "described twice" in capsys.readouterr().err
 
@@ -425,10 +426,10 @@ def test_depfile_and_list(project: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert main(["generate", "--target", "docs", "--out", "my out", "--depfile", "docs.d"]) == 0
     rule = (project / "docs.d").read_text("utf-8")
     assert rule.startswith(" ".join(f"my\\ out/{path}" for path in DOCS) + ":")
-    assert "descriptions/hitachi_l200/standard_a.yaml" in rule
+    assert "descriptions/jumo_controller/process_data.yaml" in rule
     capsys.readouterr()
     assert main(["generate", "--target", "docs", "--out", "elsewhere", "--list-outputs"]) == 0
-    assert capsys.readouterr().out.splitlines()[0] == "elsewhere/docs/hitachi_l200.csv"
+    assert capsys.readouterr().out.splitlines()[0] == "elsewhere/docs/jumo_controller.csv"
     assert not (project / "elsewhere").exists()
 
 
@@ -444,9 +445,9 @@ def test_json_tells_what_happened(project: Path, capsys: pytest.CaptureFixture[s
         (["--target", "cobol"], 2, "cobol"),
         (["--target", ""], 2, "target"),
         (["no/such/folder"], 2, "no such file or folder"),
-        (["hitachi_l20"], 2, "did you mean `hitachi_l200`?"),
+        (["jumo_controlle"], 2, "did you mean `jumo_controller`?"),
         (["--out", ""], 2, "the path is empty"),
-        (["--out", "descriptions/hitachi_l200/device.yaml"], 2, "cannot write"),
+        (["--out", "descriptions/jumo_controller/device.yaml"], 2, "cannot write"),
     ],
 )
 def test_wrong_calls(

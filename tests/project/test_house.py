@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,9 +74,20 @@ def modules() -> dict[str, Path]:
 MODULES = modules()
 
 
-def imports(name: str) -> Iterator[str]:
+@cache
+def nodes(name: str) -> list[ast.AST]:
+    """All that a module is made of."""
+    return list(ast.walk(ast.parse(MODULES[name].read_text("utf-8"))))
+
+
+@cache
+def imports(name: str) -> list[str]:
     """The modules of the package that a module imports, also late and for types alone."""
-    for node in ast.walk(ast.parse(MODULES[name].read_text("utf-8"))):
+    return list(_imports(name))
+
+
+def _imports(name: str) -> Iterator[str]:
+    for node in nodes(name):
         if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "fieldscribe":
             source = str(node.module).partition(".")[2]
             for one in node.names:
@@ -83,6 +95,7 @@ def imports(name: str) -> Iterator[str]:
                 yield inner if inner in MODULES else source or "__init__"
 
 
+@cache
 def room_of(name: str) -> int:
     """The number of the room that a module lies in."""
     fitting = [
@@ -98,7 +111,7 @@ def room_of(name: str) -> int:
 def named_families(name: str) -> set[str]:
     """The families that a module names: in imports, in other names, or as a text that is nothing else."""
     words: set[str] = set()
-    for node in ast.walk(ast.parse(MODULES[name].read_text("utf-8"))):
+    for node in nodes(name):
         words.update(_identifiers(node))
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.fullmatch(r"[\w./-]+", node.value):
             words.add(node.value)

@@ -52,25 +52,10 @@ def test_mypy_and_ruff_of_the_generated_python() -> None:
     assert_clean(run(sys.executable, "-m", "ruff", "format", "--isolated", "--line-length", "120", "--check", *places))
 
 
-def test_generated_is_current() -> None:
-    assert_clean(run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--check"))
-
-
-def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
-    for seed in ("1", "2"):
-        out = str(tmp_path / seed)
-        assert_clean(
-            run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--out", out, PYTHONHASHSEED=seed)
-        )
-    first, second = (
-        {
-            path.relative_to(tmp_path / seed): path.read_bytes()
-            for path in (tmp_path / seed).rglob("*")
-            if path.is_file()
-        }
-        for seed in "12"
-    )
-    assert first == second
+@pytest.mark.parametrize("seed", ["1", "2"])
+def test_generated_is_current_whatever_the_order_of_hashes(seed: str) -> None:
+    """Two runs that compile everything make the same bytes, those that are kept."""
+    assert_clean(run(sys.executable, "-m", "fieldscribe", "generate", "descriptions", "--check", PYTHONHASHSEED=seed))
 
 
 @pytest.mark.parametrize(
@@ -93,10 +78,7 @@ def test_no_machine_paths_and_no_registry_hosts(pattern: str) -> None:
     assert found == []
 
 
-@pytest.mark.parametrize(
-    "path",
-    [*sorted(p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"})],
-    ids=lambda p: p.name,
-)
-def test_runtime_sources_carry_their_licence(path: Path) -> None:
-    assert "0BSD" in path.read_text("utf-8")[:600]
+def test_runtime_sources_carry_their_licence() -> None:
+    sources = [p for p in (ROOT / "templates").rglob("runtime/**/*") if p.suffix in {".h", ".py", ".rs", ".toml"}]
+    assert len(sources) > 100
+    assert [path for path in sources if "0BSD" not in path.read_text("utf-8")[:600]] == []

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+import pytest
 from fieldscribe.model import Digits, Entry, Enum, Fixed, Flag, Limit, ScaleCase, Special, Text
 from fieldscribe.targets import c, vectors
 
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    import pytest
     from fieldscribe.model import Device, Point
 
 WARNINGS = (
@@ -41,6 +41,8 @@ SANITIZERS = {
     "gcc": ("-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
     "clang": ("-fsanitize=address,undefined,integer,implicit-conversion", "-fno-sanitize-recover=all"),
 }
+SANITIZING = ("clang", pytest.param("gcc", marks=pytest.mark.full(seconds=1)))
+"""Both compilers; the core suite takes the one that has more sanitizers and compiles twice as fast with them."""
 STANDARDS = {
     "c99": ("-std=c99",),
     "c11": ("-std=c11",),

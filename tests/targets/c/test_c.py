@@ -15,6 +15,7 @@ from fieldscribe.targets.identifiers import clashes
 from support.c_device import (
     MADE,
     SANITIZERS,
+    SANITIZING,
     STANDARDS,
     WARNINGS,
     Folders,
@@ -24,13 +25,14 @@ from support.c_device import (
     write_c,
 )
 from support.described import kitchen_sink, made
+from support.made_once import made_once
 from support.models import FREQUENCY_SOURCE, point, sample_device, trip_device
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 from support.vector_file import counts_of, spoil
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from _pytest.mark.structures import ParameterSet
     from fieldscribe.model import Device
@@ -76,17 +78,16 @@ def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[Paramet
     return found
 
 
-AS_C = ("gcc", "c99", "float")
-QUICKEST = ("clang", "c99", "float")
+QUICKEST = Build("clang", "c99", "float", "-O0", sanitized=False)
 
 
-def quick_first(of_all: list[Build], *quick: tuple[str, str, str]) -> list[Build | ParameterSet]:
-    """The core suite takes one build of C with floating point."""
-    return [one if one[:3] in quick else pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all]
+def quick_first(of_all: list[Build]) -> list[Build | ParameterSet]:
+    """The core suite takes the build that compiles quickest: the sanitizers cost three times as much."""
+    return [QUICKEST, *(pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all)]
 
 
 def named(build: Build) -> str:
-    return "-".join(map(str, build[:4]))
+    return "quickest" if build is QUICKEST else "-".join(map(str, build[:4]))
 
 
 @pytest.fixture(scope="session")
@@ -143,7 +144,7 @@ def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Pat
     assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"]), QUICKEST), ids=named)
+@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"])), ids=named)
 @pytest.mark.parametrize("device", SHIPPED)
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
     conforms(GENERATED, device, build, tmp_path)
@@ -235,20 +236,36 @@ def test_headers_have_no_clang_warning_at_all(
     succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *places, source])
 
 
+@pytest.fixture(scope="session")
+def conformance(folders: Folders, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The conformance program of a made device, which gcc builds once."""
+
+    def program(device: str) -> Path:
+        source, flags = conformance_source(folders[device], device), ("-std=c99", *WARNINGS)
+        return made_once(
+            tmp_path_factory, f"built-{device}", lambda out: compiled("gcc", flags, source, out / "program")
+        )
+
+    return lambda device: program(device) / "program"
+
+
 @pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
-def test_conformance_catches_each_kind(device: str, folders: Folders, tmp_path: Path) -> None:
+def test_conformance_catches_each_kind(
+    device: str, folders: Folders, conformance: Callable[[str], Path], tmp_path: Path
+) -> None:
     text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"), "c")
     (tmp_path / "vectors.txt").write_text(text, encoding="utf-8")
-    program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
-    done = run([program, tmp_path / "vectors.txt"])
+    done = run([conformance(device), tmp_path / "vectors.txt"])
     assert done.returncode == 1
     failed = {row[0]: int(row[3]) for row in map(str.split, done.stdout.splitlines())}
     assert failed == {**spoiled, "total": sum(spoiled.values())}
 
 
-def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path) -> None:
+def test_vectors_of_another_description_are_refused(
+    sample: Path, conformance: Callable[[str], Path], tmp_path: Path
+) -> None:
     text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
-    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    program = conformance("sample_drive")
     for old, new in (("\t0123", "\t1123"), ("vectors\t2", "vectors\t3"), ("\tsample_drive\t", "\tsample\t")):
         (tmp_path / "vectors.txt").write_text(text.replace(old, new, 1), encoding="utf-8")
         assert run([program, tmp_path / "vectors.txt"]).returncode == 1
@@ -256,9 +273,9 @@ def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path
     assert run([program, tmp_path / "absent.txt"]).returncode == 2
 
 
-def test_a_file_that_lacks_vectors_is_refused(sample: Path, tmp_path: Path) -> None:
+def test_a_file_that_lacks_vectors_is_refused(sample: Path, conformance: Callable[[str], Path], tmp_path: Path) -> None:
     text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
-    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    program = conformance("sample_drive")
     (tmp_path / "vectors.txt").write_text("\n".join(text.split("\n")[:-2]) + "\n", encoding="utf-8")
     assert run([program, tmp_path / "vectors.txt"]).returncode == 1
 
@@ -404,7 +421,7 @@ int main(void)
 """
 
 
-@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("compiler", SANITIZING)
 def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path) -> None:
     (tmp_path / "noise.c").write_text(NOISE, encoding="utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
@@ -438,10 +455,11 @@ int main(void)
 """
 
 
-def test_an_echo_needs_no_room(sample: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("compiler", SANITIZING)
+def test_an_echo_needs_no_room(compiler: str, sample: Path, tmp_path: Path) -> None:
     (tmp_path / "echo.c").write_text(ECHO, encoding="utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], "-I", str(sample / "c"))
-    succeed([compiled("gcc", flags, tmp_path / "echo.c", tmp_path / "echo")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
+    succeed([compiled(compiler, flags, tmp_path / "echo.c", tmp_path / "echo")])
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.resources import templates_dir
-from support.c_device import SANITIZERS, WARNINGS
+from support.c_device import SANITIZERS, SANITIZING, WARNINGS
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ void ignore(uint16_t *raw)
 
 
 @pytest.mark.parametrize("language", ["c99", "c++17"])
-@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize("compiler", SANITIZING)
 def test_the_cores(compiler: str, language: str, tmp_path: Path) -> None:
     (tmp_path / "cores.c").write_text(CHECKS, encoding="utf-8")
     standard = ("-std=c99",) if language == "c99" else ("-x", "c++", "-std=c++17")

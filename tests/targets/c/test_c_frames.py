@@ -11,7 +11,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
 from support import wrong_bytes
-from support.c_device import SANITIZERS, STANDARDS, WARNINGS, driver, write_headers
+from support.c_device import SANITIZERS, SANITIZING, STANDARDS, WARNINGS, driver, write_headers
 from support.described import made, shipped
 from support.models import changed
 from support.places import ROOT
@@ -459,7 +459,7 @@ int main(void)
 """
 
 
-@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("noise", [CAN_NOISE, USS_NOISE], ids=FAMILIES)
 def test_any_bytes_are_safe_to_parse(noise: str, compiler: str, folder: Path, tmp_path: Path) -> None:
     (tmp_path / "noise.c").write_text(noise.replace("@DRAW@", DRAW), encoding="utf-8")
@@ -537,7 +537,7 @@ int main(void)
 }
 
 
-@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("family", sorted(STRANGE))
 def test_strange_tables_and_requests_are_safe(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
     """Numbers that shift too far, frames of no words, links of one word, echoes of no value."""
@@ -766,12 +766,13 @@ int main(void)
 """
 
 
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("use", ["modbus", "uss"])
-def test_a_receiver_knows_how_long_an_answer_is(use: str, folder: Path, tmp_path: Path) -> None:
+def test_a_receiver_knows_how_long_an_answer_is(use: str, compiler: str, folder: Path, tmp_path: Path) -> None:
     """It takes the bytes of one answer from a stream, and not one more."""
     (tmp_path / "serial.c").write_text(SERIAL if use == "modbus" else SERIAL_USS, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "serial.c", tmp_path / "serial")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
+    succeed([compiled(compiler, flags, tmp_path / "serial.c", tmp_path / "serial")])
 
 
 # words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
@@ -858,7 +859,7 @@ TOO_FEW = {
 }
 
 
-@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("family", sorted(TOO_FEW))
 def test_too_few_words_are_refused(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
     device = "kitchen_sink" if family == "modbus" else f"kitchen_{family}"
@@ -936,10 +937,11 @@ int main(void)
 """
 
 
-def test_a_point_comes_out_of_a_block(folder: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("compiler", SANITIZING)
+def test_a_point_comes_out_of_a_block(compiler: str, folder: Path, tmp_path: Path) -> None:
     (tmp_path / "block.c").write_text(BLOCK, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "block.c", tmp_path / "block")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
+    succeed([compiled(compiler, flags, tmp_path / "block.c", tmp_path / "block")])
 
 
 @pytest.mark.parametrize("language", ["c", "c++"])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.resources import templates_dir
-from support.c_device import SANITIZERS, WARNINGS, write_headers
+from support.c_device import SANITIZERS, SANITIZING, WARNINGS, write_headers
 from support.described import made, shipped
 from support.toolchains import compiled, run, succeed, tool
 
@@ -172,8 +172,9 @@ int main(void)
 }
 
 
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("family", sorted(RECIPES))
-def test_the_recipe_of_a_runtime_works(family: str, tmp_path: Path) -> None:
+def test_the_recipe_of_a_runtime_works(family: str, compiler: str, tmp_path: Path) -> None:
     """As it stands there, also with noise before the request and the answer; its names are each of one thing."""
     name = DEVICES[family]
     device = shipped(name)
@@ -183,8 +184,8 @@ def test_the_recipe_of_a_runtime_works(family: str, tmp_path: Path) -> None:
     (tmp_path / "recipe.c").write_text(head + program, "utf-8")
     # statuses on the way are given, and not all of them looked at
     allowed = ("-Wno-unused-but-set-variable", "-Wno-float-equal")
-    flags = ("-std=c99", "-O1", *WARNINGS, *allowed, *SANITIZERS["gcc"], f"-I{tmp_path / 'c'}")
-    succeed([compiled("gcc", flags, tmp_path / "recipe.c", tmp_path / "recipe")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *allowed, *SANITIZERS[compiler], f"-I{tmp_path / 'c'}")
+    succeed([compiled(compiler, flags, tmp_path / "recipe.c", tmp_path / "recipe")])
 
 
 @pytest.mark.parametrize("family", ["modbus", "uss"])
@@ -274,13 +275,16 @@ static size_t whole(const fieldscribe_uss_link *link, const uint8_t *bytes)
 }
 
 
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("family", sorted(TOLD))
-def test_an_answer_of_another_length_is_received_whole(family: str, folder: Path, tmp_path: Path) -> None:
+def test_an_answer_of_another_length_is_received_whole(
+    family: str, compiler: str, folder: Path, tmp_path: Path
+) -> None:
     """What it says of its length counts: it is refused for that, without waiting for bytes that never come."""
     head = f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{KITCHENS[family]}_{family}.h"\n'
     (tmp_path / "told.c").write_text(f"{head}{WHOLE[family]}int main(void)\n{{{TOLD[family]}", "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "told.c", tmp_path / "told")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
+    succeed([compiled(compiler, flags, tmp_path / "told.c", tmp_path / "told")])
 
 
 GONE = """
@@ -320,7 +324,7 @@ int main(void)
 """
 
 
-@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize("compiler", SANITIZING)
 def test_an_answer_does_not_need_the_words_that_were_written(compiler: str, folder: Path, tmp_path: Path) -> None:
     (tmp_path / "gone.c").write_text(GONE, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
@@ -434,13 +438,16 @@ NOTHING = {
 }
 
 
+@pytest.mark.parametrize("compiler", SANITIZING)
 @pytest.mark.parametrize("family", sorted(NOTHING))
-def test_where_there_is_nothing_nothing_is_read_or_stored(family: str, folder: Path, tmp_path: Path) -> None:
+def test_where_there_is_nothing_nothing_is_read_or_stored(
+    family: str, compiler: str, folder: Path, tmp_path: Path
+) -> None:
     """NULL with a count beside it is refused like too few."""
     head = f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{KITCHENS[family]}_{family}.h"\n'
     (tmp_path / "nothing.c").write_text(f"{head}int main(void)\n{{{NOTHING[family]}}}\n", "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "nothing.c", tmp_path / "nothing")])
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
+    succeed([compiled(compiler, flags, tmp_path / "nothing.c", tmp_path / "nothing")])
 
 
 @pytest.mark.parametrize("family", sorted(KITCHENS))

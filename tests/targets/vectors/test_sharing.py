@@ -52,7 +52,13 @@ def text_of(device: Device) -> str:
     return text
 
 
-SOUND = {device.id: text_of(device) for device in ALL}
+SOUND: dict[str, str] = {}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _sound_texts() -> None:
+    """What the vectors of all devices are before a test makes anything forget."""
+    SOUND.update({device.id: text_of(device) for device in ALL})
 
 
 # Each point by itself

@@ -1,0 +1,34 @@
+"""The devices of this repository, compiled once for all commands that a process of the tests tries."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from fieldscribe import pipeline
+from fieldscribe.diagnostics import Report
+
+from support.places import ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+    from fieldscribe.reading import Inputs
+
+_load = pipeline.load_device
+
+
+def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
+    """As that of the pipeline; it compiles each time what tests write, and where the caller wants to know the files."""
+    place = device_file.resolve()
+    known = _loaded(place) if inputs is None and ROOT in place.parents else None
+    return known or _load(device_file, report, inputs)
+
+
+@cache
+def _loaded(device_file: Path) -> Device | None:
+    """A device that no test changes; None where it has findings, which are told each time."""
+    report = Report()
+    device = _load(device_file, report)
+    return None if report.findings else device
