@@ -95,8 +95,8 @@ REMARKS = {
     "one foot that says so": (_with("## Words", "Edition 2 of 2025, page 4 of 9\n\n## Words"), "heads_and_feet"),
     "cover": (f"Manual\n\nOrder number 4711, for firmware 1.1.\n\n{OLD}", "front_matter"),
     "cover with the title": (f"# Heat pump\n\nOrder number 4711.\n\n{OLD}", "front_matter"),
-    "pages of the contents": (_with("..... 7", "..... 9"), "contents"),
     "contents with tabs": (_with("..... 7", "..... 7\nContents\nRegisters\t5\nWords\t7"), "contents"),
+    "a line of the contents": (_with("Words .....", "Registers ..... 5\nWords ....."), "contents"),
     "list of editions": (
         _with("## Registers", "## History\n\n| Edition | Of |\n| 1 | March 2020 |\n| 2 | 01.05.2025 |\n\n## Registers"),
         "list_of_editions",

@@ -22,6 +22,7 @@ _NUMBER = re.compile(
       | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?!\w)
       | (?P<tailed>[0-9A-Fa-f]+)[hH](?!\w)
       | (?P<bare>[0-9A-F]*[0-9][0-9A-F]*[A-F][0-9A-F]*|[A-F][0-9A-F]*[0-9][0-9A-F]*|[A-F]{2}|[A-F]{4})(?!\w)
+      | (?P<grouped>(?<![0-9][ ])[1-9][0-9]{0,2}(?:[ \u00a0\u2009\u202f][0-9]{3})+)(?![\w'.,]*[0-9])(?![ ][0-9])
       | (?P<decimal>[0-9]+(?:[.,][0-9]+)*)
     )""",
     re.VERBOSE,
@@ -38,6 +39,7 @@ _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
 _BLANKS = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " "))
+_DASH = r"\s*[-\u2010-\u2015\u2212]\s*"
 _LONG_ROW = 40
 """A row or paragraph has at most so many lines."""
 
@@ -270,9 +272,9 @@ def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
 
 
 def _name(name: str) -> str:
-    """A pattern of a name that stands by itself, with any blanks in it."""
-    words = r"\s+".join(map(re.escape, name.split()))
-    return rf"(?<!\w){words}(?!\w)"
+    """A pattern of a name that stands by itself, with any blanks and dashes in it."""
+    pieces = (r"\s+".join(map(re.escape, piece.split())) for piece in re.split(_DASH, name))
+    return rf"(?<!\w){_DASH.join(pieces)}(?!\w)"
 
 
 def _chapter(text: str) -> tuple[str, str] | None:
@@ -295,6 +297,8 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
         return {Fraction(int(digits, 2 if set(digits) <= {"0", "1"} else 10))}
     if spaced := match["spaced"]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
+    if grouped := match["grouped"]:
+        return {Fraction("".join(grouped.split())), *map(Fraction, grouped.split())}
     if bare := match["bare"]:
         amount = {Fraction(int(bare[:-1]))} if re.fullmatch("[1-9][0-9]*A", bare) else set()
         return {Fraction(int(bare, 16)), *amount}  # "10A" may be ten ampere

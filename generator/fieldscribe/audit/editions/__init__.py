@@ -1,7 +1,9 @@
 """A manual that changed: what its new edition means for a description, line by line.
 
-words.py        a text as words, in which layout counts for nothing
-matching.py     which words of the old text are which of the new one (swaps.py: of lines that changed places)
+words.py        a text as words, in which layout counts for nothing (formulas.py: how formulas are set; contents.py: the
+                pages of a table of contents)
+matching.py     which words of the old text are which of the new one (swaps.py: of lines that changed places; rows.py:
+                of cells that are broken over other lines)
 changes.py      lines that were changed, added, removed, moved (parting.py: rows that went or came, each by itself)
 citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact

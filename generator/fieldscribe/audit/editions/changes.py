@@ -7,6 +7,7 @@ from collections import Counter
 from itertools import product
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.contents import Contents
 from fieldscribe.audit.editions.matching import Matching
 from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.reading_order import ReadingOrder
@@ -56,7 +57,11 @@ class Editions:
 
     def __init__(self, old: str, new: str) -> None:
         self.pages = page_lines_of_both(old.splitlines(), new.splitlines())
-        self.old, self.new = Words(old, self.pages[0]), Words(new, self.pages[1])
+        self.contents = Contents(old.splitlines()), Contents(new.splitlines())
+        self.old, self.new = (
+            Words(text, pages, contents.ends)
+            for text, pages, contents in zip((old, new), self.pages, self.contents, strict=True)
+        )
         self._matching = Matching(self.old, self.new)
         self._there, self._back = self._matching.there, self._matching.back
         self._match_headings()
@@ -102,7 +107,7 @@ class Editions:
     def _is_layout(self, gap: Gap) -> bool:
         """Whether only the setting of words or the mark of an entry differs; its words are taken for each other."""
         first, last, start, end = gap
-        above, below = self.old.texts[max(0, first - 1) : first], self.old.texts[last : last + 1]
+        above, below = self.old.beside(range(first, last))
         was = pressed([*above, *unspaced(self.old.texts[first:last]), *below])
         now = pressed([*above, *unspaced(self.new.texts[start:end]), *below])
         if was != now and not self._is_mark(gap):
@@ -132,8 +137,11 @@ class Editions:
                     return
 
     def _says_the_same(self, olds: range, news: range) -> bool:
-        was, now = (text.texts[words.start : words.stop] for text, words in ((self.old, olds), (self.new, news)))
-        return len(was) != len(now) and pressed(unspaced(was)) == pressed(unspaced(now))
+        both = (self.old, olds), (self.new, news)
+        beside = (word for text, words in both for side in text.beside(words) for word in side)
+        number = ["0"] if any(map(str.isdecimal, beside)) else []  # it parts the numbers of a list
+        was, now = ([*number, *unspaced(text.texts[words.start : words.stop]), *number] for text, words in both)
+        return len(olds) != len(news) and pressed(was) == pressed(now)
 
     def _match_headings(self) -> None:
         """A section that has another number now is the one with its title."""

@@ -62,7 +62,7 @@ class Explaining:
         self.pairs_of: dict[int, list[Pair]] = {}
         self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
-        self.headings = frozenset(self.new.manual.headings)
+        self.headings, self._old_headings = frozenset(self.new.manual.headings), frozenset(self.old.manual.headings)
         self.place_of: dict[str, str] = {}
         self.failing_at: dict[int, list[Pair]] = {}
         self.elsewhere: list[Pair] = []
@@ -74,7 +74,7 @@ class Explaining:
             if self.fails(pair):
                 self._note_failing(pair, touched)
         self.subjects_at: dict[int, dict[str, None]] = {}
-        for extent, subjects in self.new.subjects.items():
+        for extent, subjects in sorted(self.new.subjects.items(), key=lambda item: item[0].kind == "section"):
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
 
@@ -82,11 +82,25 @@ class Explaining:
         """A claim that does not hold belongs to the change of its words, else to all that touch its lines."""
         gone = {word for word in _borne(self.old, pair.old) if self.editions.is_gone(word)}
         own = {number for number in touched for old, _ in self.editions.changes[number].gaps if gone.intersection(old)}
-        for number in own or touched:
+        own = own or self._counted_anew_by(pair) or touched
+        for number in own:
             self.failing_at.setdefault(number, []).append(pair)
         failed_before = pair.old is not None and pair.old in self.old.missed
-        if not touched and not failed_before:
+        if not own and not failed_before:
             self.elsewhere.append(pair)
+
+    def _counted_anew_by(self, pair: Pair) -> set[int]:
+        """The nearest change above a section that has another number now which brought a heading, or took one."""
+        if not self._is_counted_anew(pair) or pair.old is None or pair.new is None:
+            return set()
+        was, now = pair.old.cited[0][0], pair.new.cited[0][0]
+        above = [
+            number
+            for number, change in enumerate(self.editions.changes)
+            if (change.kind == "added" and any(line < now for line in self.headings.intersection(change.new)))
+            or (change.kind == "removed" and any(line < was for line in self._old_headings.intersection(change.old)))
+        ]
+        return set(above[-1:])
 
     def _touched(self, pair: Pair) -> set[int]:
         """The changes in the lines that a claim takes its fact from."""
@@ -99,7 +113,7 @@ class Explaining:
 
     def fails(self, pair: Pair) -> bool:
         """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
-        if self._lost_access(pair) or self._is_parted(pair) or self._lost_list(pair):
+        if self._lost_access(pair) or self._is_parted(pair) or self._lost_list(pair) or self._is_counted_anew(pair):
             return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
             return False
@@ -109,6 +123,14 @@ class Explaining:
         if borne:
             return any(map(self.editions.is_gone, borne))
         return bool(self._touched(pair)) or pair.new is None
+
+    def _is_counted_anew(self, pair: Pair) -> bool:
+        """Whether the number of a section is another now: its heading is known by its title."""
+        if pair.claim.fact != "section" or pair.old is None or pair.new not in self.new.missed:
+            return False
+        olds, news = self.editions.old.texts, self.editions.new.texts
+        places = ((word, self.editions.there(word)) for word in self.old.named.get(pair.old, ()))
+        return any(there >= 0 and olds[word] != news[there] for word, there in places)
 
     def _lost_access(self, pair: Pair) -> bool:
         """Whether a row that printed an access does not print it any more."""
@@ -133,7 +155,7 @@ class Explaining:
         return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
-        """What cites a changed line: the facts that stood on its words, else the subjects."""
+        """What cites a changed line: the facts that stood on its words, else the subjects, of its section last."""
         gone = {word for old, _ in change.gaps for word in old}
         come = {word for _, new in change.gaps for word in new}
         exact, whole = dict[Cite, None](), dict[Cite, None]()
@@ -144,7 +166,9 @@ class Explaining:
                 exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
             whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
         named = {cite.subject for cite in exact}
-        return (*exact, *(cite for cite in whole if cite.subject not in named))
+        order = list(dict.fromkeys(name for line in change.new for name in self.subjects_at.get(line, ())))
+        rest = [cite for cite in whole if cite.subject not in named]
+        return (*exact, *sorted(rest, key=lambda cite: order.index(cite.subject) if cite.subject in order else -1))
 
     def reasons(self, number: int, change: Change) -> Iterator[Reason]:
         """Everything that keeps a change from being explained; what words tell, where nothing else is said."""

@@ -11,6 +11,7 @@ from collections import Counter
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.editions.rows import broken_otherwise
 from fieldscribe.audit.editions.swaps import exchanged
 
 if TYPE_CHECKING:
@@ -51,7 +52,11 @@ class Matching:
         self._match_moved(_LENGTHS[1:3])
         self._straighten(1)
         self._straighten(-1)
+        self._mend_torn_lines(1)
+        self._mend_torn_lines(-1)
         self._slide()
+        for here, others, pairs in list(broken_otherwise(self)):
+            self._put_into_cells(here, others, pairs)
         self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self.put_in_their_places(olds, news)
@@ -73,6 +78,8 @@ class Matching:
         One of the neighbours may stand elsewhere: then the other one tells, if it is of the same line.
         """
         start = self.there[first - 1] + 1 if first else 0
+        while first and start < len(self.back) and self.back[start] == first - 1:
+            start += 1  # one word may be several now
         end = self.there[last] if last < len(self.there) else len(self.back)
         is_behind = not self.old.opens_line(first) and not self.new.opens_line(start)
         if start in come and (come[start] == end or is_behind):
@@ -176,11 +183,41 @@ class Matching:
                 self._match(at, there)
                 self.moved.update({at, other} if {at - step, other - step} & self.moved else ())
 
+    def _mend_torn_lines(self, step: int) -> None:
+        """The first (or last) words of lines that moved may be those of each other: `4.2.` of headings."""
+        for beside in range(max(0, step), len(self.there) + min(0, step)):
+            at, there = beside - step, self.there[beside] - step
+            if self.there[beside] < 0 or self.there[at] in (-1, there) or not 0 <= there < len(self.back):
+                continue
+            olds, news = self.old.up_to_end(at, -step), self.new.up_to_end(there, -step)
+            same = [self._a[word] for word in olds] == [self._b[word] for word in news]
+            if same and self.old.line_of[at] == self.old.line_of[beside] and all(self.back[word] >= 0 for word in news):
+                self._exchange(olds, news, step)
+
+    def _exchange(self, olds: range, news: range, step: int) -> None:
+        """Take words for these, and those that had them for theirs."""
+        for at, there in zip(olds, news, strict=True):
+            other, left = self.back[there], self.there[at]
+            self._match(at, there)
+            if left >= 0:
+                self._match(other, left)
+            else:
+                self.there[other] = -1
+            for word in (at, other):
+                (self.moved.add if word + step in self.moved else self.moved.discard)(word)
+
     def _beside(self, at: int, step: int) -> int | None:
         """The word of the new text behind (or before) the counterpart of the one before (or behind) a word."""
         beside = at - step
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
+
+    def _put_into_cells(self, olds: range, news: range, pairs: list[tuple[int, int]]) -> None:
+        """Take the words of a row for those of another, pair by pair."""
+        self.forget(olds)
+        self.forget_new(news)
+        for pair in pairs:
+            self._match(*pair)
 
     def put_in_their_places(self, olds: list[int], news: list[int]) -> None:
         """Take each of these lines for the one in its place, whatever words they share with others."""

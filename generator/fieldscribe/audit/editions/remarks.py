@@ -31,11 +31,6 @@ KINDS = (
     "moved",
     "wording",
 )
-_BOTH = 2
-_LEADERS = re.compile(r"(?:\.{4,}|[^\W\d]\s*\.{2,})[\s|]*[0-9]+[\s|]*$")
-_PAGE_BEHIND = re.compile(r"[\s.]+[0-9]+\s*$")
-_NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)*\.?\s+[^\W\d].*\s[0-9]+")
-"""A section's number, its title and its page; sections of sections stand near."""
 _POINTS = re.compile(
     r"\b(?:siehe|vgl|see|refer|described|beschrieben|beschreibt|found|finden|aufgef\u00fchrt|listed|zu entnehmen)\b",
     re.IGNORECASE,
@@ -80,7 +75,7 @@ class Remarks:
 
     def _of_pages(self, findings: Sequence[Finding]) -> Iterator[Finding]:
         """Findings whose lines are heads or feet of pages, as far as no fact is lost with them."""
-        findings = [finding for finding in findings if _may_be_of_pages(finding)]
+        findings = [finding for finding in findings if self._may_be_of_pages(finding)]
         olds, news = (
             self._page_texts.union(
                 _plain(text[line - 1]) for line in repeated(text, set().union(*map(lines_of, findings)))
@@ -92,6 +87,17 @@ class Remarks:
             alike = finding.kind != "changed" or list(map(pattern, was)) == list(map(pattern, now))
             if alike and (was or now) and olds.issuperset(was) and news.issuperset(now):
                 yield finding
+
+    def _may_be_of_pages(self, finding: Finding) -> bool:
+        """Whether it is about lines of text, and no fact is lost with it; facts may seem to stand on it by chance."""
+        if finding.kind == "moved" or finding.drafts or finding.void:
+            return False
+        lines = [*finding.was, *finding.now]
+        if finding.kind == "changed":  # a foot may have tabs, but not the rows of a table
+            lines += [self.editions.old.line(line) for line in _old_lines(finding)]
+            lines += [self.editions.new.line(line) for line in _new_lines(finding)]
+        loses = any(reason.kind in ("missing", "gone") for reason in finding.reasons)
+        return not loses and not any(map(is_row, lines))
 
     @cached_property
     def _page_texts(self) -> set[str]:
@@ -148,26 +154,9 @@ class Remarks:
         return finding.kind == "added" and finding.new is not None and finding.new[1] < self._below_title
 
     def _is_contents(self, finding: Finding) -> bool:
-        """Whether each line that has a number ends with a page: behind leaders, a title, or between such lines."""
-        lines = [line for line in _written((*finding.was, *finding.now)) if any(map(str.isdigit, line))]
-        if finding.kind == "moved" or not lines:
-            return False
-        if all(_LEADERS.search(line) or self._is_title_with_page(line) for line in lines):
-            return True
-        return all(map(_NUMBERED.fullmatch, lines)) and self._among_sections(finding)
-
-    def _is_title_with_page(self, line: str) -> bool:
-        """Whether the text has a line that says the same but for the number at its end."""
-        title = _PAGE_BEHIND.sub("", line)
-        return title != line and _words_of(title) in self._lines_of_new
-
-    def _among_sections(self, finding: Finding) -> bool:
-        """Whether the lines above and below are numbered sections with pages, too."""
-        text = self.editions.new if finding.new else self.editions.old
-        first, last = finding.new or finding.old or (1, 1)
-        beside = (_NUMBERED.fullmatch(text.line(line).strip()) for line in (first - 1, last + 1))
-        sections = [match for match in beside if match]
-        return len(sections) == _BOTH and any(match[1] for match in sections)
+        """Whether all its lines are in a table of contents."""
+        both = zip((finding.old, finding.new), self.editions.contents, strict=True)
+        return all(ends is None or contents.lines.issuperset(range(ends[0], ends[1] + 1)) for ends, contents in both)
 
     def _is_list_of_editions(self, finding: Finding) -> bool:
         """Whether rows below a heading or a row without numbers have a date each."""
@@ -194,8 +183,11 @@ class Remarks:
         """Whether all its rows stand in the other edition, too: the head of a table, on one page more or less."""
         if finding.kind not in ("added", "removed"):
             return False
-        lines = _written(finding.now or finding.was)
-        other = self._lines_of_old if finding.kind == "added" else self._lines_of_new
+        text, other = self.editions.new, self._lines_of_old
+        if finding.kind == "removed":
+            text, other = self.editions.old, self._lines_of_new
+        ends = ((place.new or place.old or (1, 0)) for place in finding.places)
+        lines = _written(text.line(line) for first, last in ends for line in range(first, last + 1))
         may_be = finding.kind == "removed" and len(lines) > 1
         return all((may_be or is_row(line)) and _words_of(line) in other for line in lines)
 
@@ -206,14 +198,6 @@ class Remarks:
     @cached_property
     def _lines_of_new(self) -> set[tuple[str, ...]]:
         return set(map(_words_of, self.editions.new.lines))
-
-
-def _may_be_of_pages(finding: Finding) -> bool:
-    """Whether it is about lines of text, and no fact is lost with it; facts may seem to stand on it by chance."""
-    if finding.kind == "moved" or finding.drafts or finding.void:
-        return False
-    loses = any(reason.kind in ("missing", "gone") for reason in finding.reasons)
-    return not loses and not any(map(is_row, (*finding.was, *finding.now)))
 
 
 def _old_lines(finding: Finding) -> set[int]:

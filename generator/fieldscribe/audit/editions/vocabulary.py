@@ -80,10 +80,10 @@ def _is_within(shorter: str, longer: str) -> bool:
 
 
 class Vocabulary:
-    """The words of each point, and those of everything else."""
+    """The words of each point and of each shared enum, and those of everything else."""
 
     def __init__(self, subject: Subject) -> None:
-        self._of_points: dict[str, set[str]] = {}
+        self._words_of = {f"enum {name}": _words_in(entries) for name, entries in subject.scope.named_enums.items()}
         self._units: dict[str, tuple[str, str]] = {}
         for resolved in subject.resolved:
             draft = resolved.draft
@@ -91,10 +91,12 @@ class Vocabulary:
             words |= _words_in(subject.scope.named_enums.get(str(draft.get("enum")), ()))
             words |= _words_in(_OF_ACCESS.get(str(draft.get("access")), ""))
             words |= _words_in([erratum.node for erratum in subject.cited.get(resolved.point.name, ())])
-            self._of_points[resolved.point.item] = words
+            self._words_of[resolved.point.item] = words
             span = draft.span("unit")
             self._units[resolved.point.item] = str(draft.get("unit", "")), f"{span.file}:{span.line}:{span.column}"
-        others = [value for file in subject.scope.files for key, value in file.items() if key != "points"]
+        others = [
+            value for file in subject.scope.files for key, value in file.items() if key not in ("points", "enums")
+        ]
         self._of_others = _words_in(others)
         for bus in (file["bus"] for file in subject.scope.files if "bus" in file):
             self._of_others |= _words_in([parity_words(setting) for setting in _settings_in(bus.get("serial", ()))])
@@ -106,7 +108,7 @@ class Vocabulary:
     def has(self, word: str, subjects: Iterable[str]) -> bool:
         """Whether the description has a word for one of these subjects."""
         folded = word.casefold()
-        return any(folded in self._of_points.get(subject, self._of_others) for subject in subjects)
+        return any(folded in self._words_of.get(subject, self._of_others) for subject in subjects)
 
 
 def _settings_in(value: Any) -> list[Any]:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
+from fieldscribe.audit.editions.formulas import without_setting
 from fieldscribe.audit.manual import lines_of
 
 if TYPE_CHECKING:
-    from collections.abc import Container
+    from collections.abc import Container, Mapping
 
 LINE_BREAK = " \u23ce "
 """Stands for the end of a line where words of several lines are shown."""
@@ -20,7 +22,16 @@ _WORD = re.compile(
     rf"[0-9A-F](?: [0-9A-F]){{1,3}} h(?!\w)|[^\W_]+(?:[{_INVISIBLE}\u0300-\u036f]+[^\W_]*)*|[^\w\s|{_INVISIBLE}]|_"
 )
 """A number with a blank behind each digit is one, as it is for `Manual`."""
-_AS_WRITTEN = str.maketrans({**dict.fromkeys(_INVISIBLE), **dict.fromkeys(_DASHES, "-"), "\u2026": "..."})
+_DOTS = "\u22c5\u2219"
+_AS_WRITTEN = str.maketrans(
+    {
+        **dict.fromkeys(_INVISIBLE),
+        **dict.fromkeys(_DASHES, "-"),
+        **dict.fromkeys(_DOTS, "\u00b7"),
+        "\u2026": "...",
+        "\u00b5": "\u03bc",
+    }
+)
 _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_DASHES}-]*")
 _TAG = re.compile(
     r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
@@ -33,15 +44,16 @@ _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
 _SPACED = 4
 """A word with blanks between its letters has so many: `C R C 1 6`."""
+_THOUSANDS = re.compile(r"(?<![0-9.,])(?<![0-9] )[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]| [0-9])")
 _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
-_THOUSANDS = re.compile(r"(?<![0-9])[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9])")
+_NO_ENDS: Mapping[int, int] = MappingProxyType({})
 
 
 class Words:
     """The words of a text with the place of each: a name, a number, or one sign of punctuation."""
 
-    def __init__(self, text: str, without: Container[int] = ()) -> None:
-        """The words of all lines but some: heads and feet of pages part what belongs together."""
+    def __init__(self, text: str, without: Container[int] = (), ends: Mapping[int, int] = _NO_ENDS) -> None:
+        """The words of all lines but some (heads and feet of pages part what belongs together), of others to an end."""
         self.lines = lines_of(text)
         self.texts: list[str] = []
         self.line_of: list[int] = []
@@ -52,14 +64,14 @@ class Words:
         """The lines that a mark makes entries of a list."""
         for number, line in enumerate(self.lines, 1):
             if number not in without and not _RULE.fullmatch(line):
-                self._add(number, line)
+                self._add(number, line[: ends.get(number)])
             self._first.append(len(self.texts))
 
     def _add(self, number: int, line: str) -> None:
         marks = _MARKS.match(line)
         if marks and "#" not in marks[0]:
             self.entries.add(number)
-        plain = _TAG.sub(lambda match: " " * len(match[0]), line)
+        plain = without_setting(_TAG.sub(lambda match: " " * len(match[0]), line))
         end = 0
         for match in _WORD.finditer(plain, marks.end() if marks else 0):
             written = match[0]
@@ -96,6 +108,16 @@ class Words:
     def opens_cell(self, word: int) -> bool:
         """Whether a word is the first of its cell, or of a line in it."""
         return word in self._opening
+
+    def beside(self, words: range) -> tuple[list[str], list[str]]:
+        """The word before these and the one behind, where they are in the same cell."""
+        above = [] if self.opens_cell(words.start) else self.texts[max(0, words.start - 1) : words.start]
+        return above, [] if self.opens_cell(words.stop) else self.texts[words.stop : words.stop + 1]
+
+    def up_to_end(self, word: int, step: int) -> range:
+        """The words of its line from a word on, forwards or (-1) backwards."""
+        line = self.of_line(self.line_of[word])
+        return range(word, line.stop if step > 0 else line.start - 1, step)
 
     def is_in_one_line(self, start: int, end: int) -> bool:
         """Whether the words from..to stand in one line."""
@@ -167,10 +189,10 @@ def _as_word(written: str) -> str:
 
 
 def pressed(texts: list[str]) -> str:
-    """Words without what only sets them: blanks, hyphens, marks of hexadecimal numbers; two numbers stay apart."""
+    """Words without what only sets them: blanks, hyphens, marks of hexadecimal numbers; thousands are one number."""
     written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
-    written = _BLANK.sub("", _DASH_IN_WORD.sub("", written))
-    return _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
+    joined = _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
+    return _BLANK.sub("", _DASH_IN_WORD.sub("", joined))
 
 
 def unspaced(texts: list[str]) -> list[str]:
