@@ -360,3 +360,21 @@ def test_a_row_that_prints_an_access_where_it_had_none_is_a_finding(tmp_path: Pa
     (finding,) = compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
     assert (finding.kind, finding.words) == ("changed", (("-", "R/W"),))
     assert ": access none is not there" in [reason.said for reason in finding.reasons]
+
+
+@pytest.mark.parametrize(("mark", "doubts"), [("- ", []), ("", ["setting"])])
+def test_an_erratum_of_an_entry_does_not_speak_of_a_new_one_below_it(
+    tmp_path: Path, mark: str, doubts: list[str]
+) -> None:
+    errata = (
+        "\n- {id: setting, point: P01, line: 3, printed: P01 has no unit., taken: None., why: x, certainty: likely}"
+    )
+    points = "- {code: P01, name: delay, at: 0010h, default: 4, line: 3}\n"
+    subject = load_subject(
+        write(tmp_path / "plant", together(head(errata=errata), group(points, access="rw"))), Report()
+    )
+    assert subject is not None
+    old = f"Settings:\n\n{mark}P01 at 0010h to 4\n{mark}Then start\n"
+    new = old.replace("0010h to 4\n", f"0010h to 4\n{mark}P07 at 0017h to 9\n")
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert ([doubt.erratum for doubt in outcome.doubts], len(outcome.findings)) == (doubts, 1)
