@@ -18,6 +18,8 @@ SAME = {
     "numbers of entries": ("Text.\n\n- one\n- two\n\nText", "Text.\n\n1. one\n2. two\n\nText"),
     "an entry without its number": ("1. one\n2. two", "- one\n- two"),
     "bold": ("**Request:**\n\n| 1 |", "#### Request:\n\n| **1** |"),
+    "blanks in a list of numbers": ("one of 0,3,4 and 127", "one of 0, 3, 4 and 127"),
+    "a row over two pages": ("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 3\n\n\tor a stop\tor 11"),
     "italics by tags": ("The <i>ramp</i> is free", "The ramp is free"),
 }  # fmt: skip
 
@@ -39,6 +41,12 @@ CHANGES = {
         "| 05 .. 96 bps<br>06 .. 192 bps |",
         "| 05 .. 96 bps<br>06 .. 192 bps<br>07 .. 9 bps |",
         ("", "07 .. 9 bps"),
+    ),
+    "a number that is none of a list": ("one of 0,3 or 4", "one of 0, 3 or 4", ("0,3", ",")),
+    "a misspelt row below a cell over two lines": (
+        "Bits\tone value = two values for others\twhere the value of P13 is 3, for words\n\tthre numbers\tif 127",
+        "Bits\tone value\twhere the value of P13 is 3, for words\n\t= two values for others\n\tthree numbers\tif 127",
+        ("thre", "three"),
     ),
     "what is no tag": ("<STX> and <LGE>", "<STX> and", ("<LGE>", "")),
 }
@@ -63,3 +71,8 @@ def test_a_row_that_a_page_break_passed_has_moved() -> None:
     old, new = (TABLE + "".join(rows[:cut]) + head + "".join(rows[cut:]) for cut in (5, 4))
     editions = Editions(old, new)
     assert (editions.changes, [(move.first, move.now) for move in editions.moves]) == ((), [(7, 11)])
+
+
+def test_a_cell_that_changed_beside_a_row_over_two_pages_is_told() -> None:
+    editions = Editions("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 4\n\n\tor a stop\tor 11")
+    assert [change.kind for change in editions.changes] == ["changed"]
