@@ -116,7 +116,7 @@ class Explaining:
         return touched | {number for line in lines for number in self._of_new.get(line, ())}
 
     def fails(self, pair: Pair) -> bool:
-        """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
+        """Whether a claim does not hold in the new edition: a fact whose words are all still there, in order, does."""
         lost = self._lost_access, self._is_parted, self._lost_list, self._is_counted_anew, self._left_column
         if any(has_lost(pair) for has_lost in lost):
             return True
@@ -126,7 +126,8 @@ class Explaining:
             return True
         borne = self.old.borne.get(pair.old, set())
         if borne:
-            return any(map(self.editions.is_gone, borne))
+            there = [self.editions.there(word) for word in sorted(borne)]
+            return min(there) < 0 or there != sorted(there)  # a label that stands behind its number now is another's
         return bool(self._touched(pair)) or pair.new is None
 
     def _is_counted_anew(self, pair: Pair) -> bool:
