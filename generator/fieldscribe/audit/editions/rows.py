@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
 
     Pairs = list[tuple[int, int]]
 
-_CONTINUES = re.compile(r"[\t ]|\|\s*\|")
 _LONGEST = 12
 """A row is broken over at most so many lines."""
 
@@ -58,18 +56,23 @@ def _pairs(matching: Matching) -> Iterator[tuple[range, range]]:
 def _head(text: Words, line: int) -> int:
     """The first word of the row that has a line."""
     first = line
-    while first > max(1, line - _LONGEST) and _CONTINUES.match(text.line(first)):
-        first -= 1
+    while first > max(1, line - _LONGEST) and text.continues(first):
+        first = _next(text, first, -1)
     words = text.of_line(first) or text.of_line(line)
     return words.start
 
 
 def _row(text: Words, line: int) -> range:
-    """The lines of a row: those below that have nothing in the first cell go on with it."""
-    last = line
-    while last - line < _LONGEST and _CONTINUES.match(text.line(last + 1)):
-        last += 1
+    """The lines of a row: those below that have nothing in the first cell go on with it, on the next page, too."""
+    last, below = line, _next(text, line, 1)
+    while below - line <= _LONGEST and text.continues(below):
+        last, below = below, _next(text, below, 1)
     return range(line, last + 1)
+
+
+def _next(text: Words, line: int, step: int) -> int:
+    """The line below (or above), on the next page where an empty one parts them."""
+    return line + step if text.line(line + step).strip() else line + 2 * step
 
 
 def _by_cells(text: Words, lines: range) -> list[int]:
