@@ -105,7 +105,7 @@ class _Comparing:
         elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
         findings, outcome.void = with_void(findings, self._void())
-        bearing = set().union(*self.new.borne.values())
+        bearing = set().union(*self.old.borne.values()), set().union(*self.new.borne.values())
         outcome.findings, outcome.remarks = Remarks(editions, self.new.manual, bearing).sort(findings)
         passed_over = {place for remark in outcome.remarks if remark.kind != "wording" for place in remark.places}
         outcome.notes = self.notes.stale((change, one) for change, one in told if one.places[0] not in passed_over)

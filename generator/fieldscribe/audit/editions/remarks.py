@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.set_again import in_shared_cells, is_head_of_page
+from fieldscribe.audit.editions.set_again import Heads, in_shared_cells, is_head_of_page
 from fieldscribe.audit.editions.telling import DATE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
@@ -49,12 +49,13 @@ _SENTENCE = re.compile(r"(?:[^.!?;]|\.(?=[0-9]))*[.!]?\s*")
 class Remarks:
     """Sorts findings into those that may hold facts and remarks about those that do not."""
 
-    def __init__(self, editions: Editions, manual: Manual, bearing: Container[int]) -> None:
-        """Facts stand on the words `bearing` of the new edition."""
+    def __init__(self, editions: Editions, manual: Manual, bearing: tuple[Container[int], Container[int]]) -> None:
+        """Facts stand on the words `bearing` of each edition."""
         self.editions, self.manual = editions, manual
         self._below_title = self._second_line()
+        heads = Heads(editions.old, bearing[0]), Heads(editions.new, bearing[1])
         self._kinds: tuple[tuple[str, Callable[[Finding], bool]], ...] = (
-            ("heads_and_feet", lambda finding: is_head_of_page(finding, editions.new, bearing)),
+            ("heads_and_feet", lambda finding: is_head_of_page(finding, *heads)),
             ("front_matter", self._is_front_matter),
             ("contents", self._is_contents),
             ("list_of_editions", self._is_list_of_editions),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left, bisect_right
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -22,20 +24,48 @@ _ENTRY = re.compile(r"\b\w+ ?= ?\w")
 _ALNUM = re.compile(r"[^\W_]+")
 
 
-def is_head_of_page(finding: Finding, text: Words, bearing: Container[int]) -> bool:
-    """Whether new lines stand so at several pages, one below the other, and no fact stands there on their words."""
-    if finding.kind != "added" or finding.drafts or finding.new is None:
+class Heads:
+    """Heads of pages in one edition: lines that several pages have one below the other, and that bear no fact."""
+
+    def __init__(self, text: Words, bearing: Container[int]) -> None:
+        self._text, self._bearing = text, bearing
+
+    def has(self, ends: Ends | None) -> bool:
+        """Whether some lines are such a head."""
+        if ends is None:
+            return False
+        numbers, written = self._numbers, self._written
+        first, last = bisect_left(numbers, ends[0]), bisect_right(numbers, ends[1])
+        block = written[first:last]
+        if not block or any(is_row(self._text.line(line)) for line in numbers[first:last]):
+            return False
+        starts = [at for at in range(len(written)) if at != first and written[at : at + len(block)] == block]
+        bearing = sum(any(map(self._bears, numbers[at : at + len(block)])) for at in starts)  # some do by chance
+        return are_far_apart([numbers[at] for at in starts]) and bearing * 2 < len(starts)
+
+    def is_long(self, ends: Ends | None) -> bool:
+        """Whether so many of some lines have words that they do not repeat by chance."""
+        return ends is not None and bisect_right(self._numbers, ends[1]) - bisect_left(self._numbers, ends[0]) >= _HEAD
+
+    def _bears(self, line: int) -> bool:
+        return any(word in self._bearing for word in self._text.of_line(line))
+
+    @cached_property
+    def _numbers(self) -> list[int]:
+        return [line for line in range(1, len(self._text.lines) + 1) if self._text.of_line(line)]
+
+    @cached_property
+    def _written(self) -> list[list[str]]:
+        return [[self._text.texts[word] for word in self._text.of_line(line)] for line in self._numbers]
+
+
+def is_head_of_page(finding: Finding, old: Heads, new: Heads) -> bool:
+    """Whether a page got a head that others have, or each has another head now, which says nothing new."""
+    if finding.drafts or finding.kind not in ("added", "changed"):
         return False
-    numbers = [line for line in range(1, len(text.lines) + 1) if text.of_line(line)]
-    written = [[text.texts[word] for word in text.of_line(line)] for line in numbers]
-    first = sum(line < finding.new[0] for line in numbers)
-    last = sum(line <= finding.new[1] for line in numbers)
-    block = written[first:last]
-    if len(block) < _HEAD or any(is_row(text.line(line)) for line in numbers[first:last]):
-        return False
-    starts = [at for at in range(len(written)) if at != first and written[at : at + len(block)] == block]
-    words = (word for at in starts for line in numbers[at : at + len(block)] for word in text.of_line(line))
-    return are_far_apart([numbers[at] for at in starts]) and not any(word in bearing for word in words)
+    if finding.kind == "added":
+        return new.is_long(finding.new) and new.has(finding.new)
+    return finding.explained and old.is_long(finding.old) and old.has(finding.old) and new.has(finding.new)
 
 
 def in_shared_cells(findings: Sequence[Finding], editions: Editions) -> Iterator[Finding]:
