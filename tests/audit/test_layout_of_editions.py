@@ -20,6 +20,10 @@ SAME = {
     "bold": ("**Request:**\n\n| 1 |", "#### Request:\n\n| **1** |"),
     "blanks in a list of numbers": ("one of 0,3,4 and 127", "one of 0, 3, 4 and 127"),
     "a row over two pages": ("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 3\n\n\tor a stop\tor 11"),
+    "marks below a mark": ("- one\n  - o two 1\n\nText", "- one\n  - two 1\n\nText"),
+    "hexadecimal numbers without digits": ("| 0xFC | 0xC4 |", "| FCh | C4h |"),
+    "a first cell for both rows": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n0\t1\ton\n1\t0\tslow"),
+    "one for three, with lines": ("| 7 | a |\n| | c |\n| | e |", "| 7 | a |\n| 7 | c |\n| 7 | e |"),
     "italics by tags": ("The <i>ramp</i> is free", "The ramp is free"),
 }  # fmt: skip
 
@@ -48,6 +52,10 @@ CHANGES = {
         "Bits\tone value\twhere the value of P13 is 3, for words\n\t= two values for others\n\tthree numbers\tif 127",
         ("thre", "three"),
     ),
+    "a hexadecimal number without digits": ("| of 0xFC |", "| of FDh |", ("0xFC", "FDh")),
+    "the first cell of another row": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n1\t1\ton\n1\t0\tslow", ("", "1")),
+    "a first cell in a row that had one": ("0\t0\toff\n1\t1\ton", "0\t0\toff\n0\t1\ton", ("1", "0")),
+    "an entry with a letter": ("- one\n- p two", "- one\n- two", ("p", "")),
     "what is no tag": ("<STX> and <LGE>", "<STX> and", ("<LGE>", "")),
 }
 
