@@ -227,6 +227,18 @@ def test_what_may_hold_a_fact_is_one_finding(
     assert all(".yaml:" in line for line in _told(outcome) if line.split(": ")[1:2] == [findings[0][0]])
 
 
+@pytest.mark.parametrize(("now", "ids"), [("frees the BCC", ["of_ramp"]), ("frees  the Ramp", []), ("frees ramp", [])])
+def test_an_erratum_is_looked_at_where_its_line_has_another_word(tmp_path: Path, now: str, ids: list[str]) -> None:
+    said = "line: 91, printed: It frees a ramp., taken: A stop., why: So., certainty: likely"
+    erratum = f"\nerrata:\n- {{id: of_ramp, where: Ramp, {said}}}"
+    looked_through = "\n- {lines: 3..38, why: Prose.}\n- {lines: 48..81, why: Prose.}\n- {lines: 88..124, why: Prose.}"
+    text = together(head(looked_through=looked_through + erratum), group(POINTS, access="rw"))
+    subject = load_subject(write(tmp_path / "plant", text), report := Report())
+    assert subject is not None, report
+    outcome = _compared(subject, _with("frees the ramp", now))
+    assert ([doubt.erratum for doubt in outcome.doubts], outcome.findings) == (ids, [])
+
+
 COLUMNS = "# Heat pump\n\nDirection\t1\t2\t3\t4\nto it\tSTW\tHSW\tHSW2\tSTW2\nfrom it\tZSW\tHIW\tZSW2\tHIW2\n"
 OF_COLUMNS = """- {code: ZSW2, name: status, at: 3, line: 5, lines: {address: 3}}
 - {code: HIW2, name: actual, at: 4, line: 5, lines: {address: 3}}

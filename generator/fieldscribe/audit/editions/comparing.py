@@ -14,7 +14,7 @@ from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
 from fieldscribe.audit.editions.findings import Cite, Comparison, Doubt, Finding, Place, Reason, Void
 from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere, with_void
 from fieldscribe.audit.editions.notes import Notes
-from fieldscribe.audit.editions.remarks import Remarks
+from fieldscribe.audit.editions.remarks import Remarks, is_reworded
 from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK
 from fieldscribe.audit.manual import Manual
@@ -181,13 +181,14 @@ class _Comparing:
     def _doubts(self, held: frozenset[str]) -> Iterator[Doubt]:
         """The errata in words that cite lines of findings and are not void, but for those that are said to hold."""
         void = {void.erratum for finding in self.outcome.findings for void in finding.void}
+        worded = [finding for remark in self.outcome.remarks for finding in remark.findings if is_reworded(finding)]
         for erratum in self.citations.errata:
             if not erratum.is_sentence or erratum.id in void | held:
                 continue
             name, place = self._named(erratum)
             lines = [
                 finding.new or finding.old
-                for finding in self.outcome.findings
+                for finding in (*self.outcome.findings, *worded)
                 if finding.kind != "moved" and any(cite.subject == name for cite in finding.cited_by)
             ]
             if lines:

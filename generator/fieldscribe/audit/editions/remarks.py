@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cached_property
-from itertools import islice
+from itertools import islice, starmap
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
@@ -219,6 +219,17 @@ def is_spelling(finding: Finding) -> bool:
         are_respelled(old, new) or is_one_spelling(old, new) or _letters(old) == _letters(new)
         for old, new in finding.words
     )
+
+
+def is_reworded(finding: Finding) -> bool:
+    """Whether a line says something in other words, and is not only spelt or set otherwise."""
+    return finding.kind == "changed" and any(starmap(_is_reworded, finding.words))
+
+
+def _is_reworded(old: str, new: str) -> bool:
+    if are_respelled(old, new) or _letters(old) == _letters(new):
+        return False
+    return all(any(map(is_name, _ALNUM.findall(text))) for text in (old, new))
 
 
 def _has_same_words(finding: Finding) -> bool:
