@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.parting import is_row
-from fieldscribe.audit.editions.telling import DATE, is_code, is_prose
+from fieldscribe.audit.editions.telling import DATE, REFERENCE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.pages import pattern, repeated
@@ -123,6 +123,8 @@ class Remarks:
             return ""
         if finding.explained and finding.kind == "changed" and (is_spelling(finding) or _has_same_words(finding)):
             return "wording"
+        if finding.explained and finding.kind == "changed" and _points_elsewhere(finding):
+            return "references"
         if any(cite.fact for cite in finding.cited_by):
             return ""
         if any(reason.kind not in ("number", "word") for reason in finding.reasons):
@@ -213,6 +215,15 @@ def is_spelling(finding: Finding) -> bool:
     return all(
         are_respelled(old, new) or is_one_spelling(old, new) or _letters(old) == _letters(new)
         for old, new in finding.words
+    )
+
+
+def _points_elsewhere(finding: Finding) -> bool:
+    """Whether only numbers of pages, chapters, pictures are others: what no fact says is explained, so they are those."""
+    return all(
+        number and re.search(f"{REFERENCE}{re.escape(number)}(?!\\w)", " ".join(lines), re.IGNORECASE)
+        for words in finding.words
+        for number, lines in zip(words, (finding.was, finding.now), strict=True)
     )
 
 

@@ -64,6 +64,12 @@ DATE = re.compile(
     re.IGNORECASE,
 )
 _EDITION = re.compile(r"\b(?:Edition|Ausgabe|Auflage|Stand|issue|revision)\b[^.;:,]{0,12}$|\u00a9[^.]*$", re.IGNORECASE)
+REFERENCE = (
+    r"\b(?:Seiten?|S\.|pages?|p\.|Kapitel|Kap\.|Abschnitt|chapter|section|Abbildung|Abb\.|Bild|figure|fig\.)\s*"
+    r"(?:\w{1,2}[-\u2010-\u2013.])?"
+)
+"""What stands before a number that is no fact: that of a page, a chapter, a picture; `3-` if the chapter counts them."""
+_REFERENCE = re.compile(f"{REFERENCE}$", re.IGNORECASE)
 _TITLE = re.compile(r"[0-9]+[^\W\d_]{4,}")
 _CODE = re.compile(r"\w*[0-9]\w*|[A-Z]{2,5}")
 
@@ -92,6 +98,11 @@ def is_of_edition(line: str, column: int) -> bool:
     """Whether a number is part of a date, or tells the edition."""
     dates = (match.span() for match in DATE.finditer(line))
     return _EDITION.search(line, 0, column - 1) is not None or any(first < column <= last for first, last in dates)
+
+
+def is_reference(line: str, column: int) -> bool:
+    """Whether a number is that of a page, a chapter, a picture."""
+    return _REFERENCE.search(line, 0, column - 1) is not None
 
 
 def is_title(word: str) -> bool:
