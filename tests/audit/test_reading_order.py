@@ -126,6 +126,14 @@ def test_labels_and_numbers_that_were_exchanged_are_told(old: str, new: str) -> 
     assert _told(ENTRIES, text)
 
 
+@pytest.mark.parametrize(("end", "cell"), [("127", "500"), ("127h", "500"), ("1.27", "500"), ("slow", "fast")])
+def test_the_end_of_a_line_and_the_cell_below_that_were_exchanged_are_told(end: str, cell: str) -> None:
+    was = PAGE.replace("max. 127", f"max. {end}\n{cell}")
+    now = PAGE.replace("max. 127", f"max. {cell}\n{end}")
+    assert _told(was, now)
+    assert _told(now, was)
+
+
 def test_rows_that_differ_in_numbers_stay_in_their_places() -> None:
     was = "Inputs\nBit 5R/WInput 8 (=0x0040)\nBit 5R/WInput 7 (=0x0080)\nThe end of it."
     now = "Inputs\nBit 6R/WInput 7 (=0x0040)\nBit 7R/WInput 8 (=0x0080)\nThe end of it."

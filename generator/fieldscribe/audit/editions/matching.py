@@ -161,9 +161,16 @@ class Matching:
         """The part of a run that is whole lines of both texts."""
         while first < last and not (self.old.opens_line(first) and self.new.opens_line(first + shift)):
             first += 1
-        while first < last and not (self.old.opens_line(last) and self.new.opens_line(last + shift)):
+        while first < last and not self._end_lines(last, last + shift):
             last -= 1
         return first, last
+
+    def _end_lines(self, at: int, there: int) -> bool:
+        """Whether lines end before these words, or behind them where they are a sign: it may be taken for another."""
+        if self.old.opens_line(at) or self.new.opens_line(there):
+            return self.old.opens_line(at) and self.new.opens_line(there)
+        ends = self.old.opens_line(at + 1) and self.new.opens_line(there + 1)
+        return ends and self._a[at] == self._b[there] and not self.old.texts[at].isalnum()
 
     def _fits(self, at: int, there: int) -> bool:
         return self.there[at] < 0 and self.back[there] < 0 and self._a[at] == self._b[there]
@@ -191,7 +198,7 @@ class Matching:
                 continue
             olds, news = self.old.up_to_end(at, -step), self.new.up_to_end(there, -step)
             same = [self._a[word] for word in olds] == [self._b[word] for word in news]
-            if same and self.old.line_of[at] == self.old.line_of[beside] and all(self.back[word] >= 0 for word in news):
+            if same and self.old.line_of[at] == self.old.line_of[beside]:
                 self._exchange(olds, news, step)
 
     def _exchange(self, olds: range, news: range, step: int) -> None:
@@ -199,11 +206,13 @@ class Matching:
         for at, there in zip(olds, news, strict=True):
             other, left = self.back[there], self.there[at]
             self._match(at, there)
-            if left >= 0:
+            if other >= 0 and left >= 0:
                 self._match(other, left)
-            else:
+            elif other >= 0:
                 self.there[other] = -1
-            for word in (at, other):
+            elif left >= 0:
+                self.back[left] = -1
+            for word in (at, other) if other >= 0 else (at,):
                 (self.moved.add if word + step in self.moved else self.moved.discard)(word)
 
     def _beside(self, at: int, step: int) -> int | None:

@@ -91,18 +91,18 @@ class ReadingOrder:
     def _may_be_one(self, old: Piece, new: Piece) -> bool:
         if not self._new.is_free(new.words):
             return False
-        if _LABEL.fullmatch(old.key):
-            return old.is_whole or new.is_whole
+        if old.is_whole and new.is_whole:
+            return _LABEL.fullmatch(old.key) is not None
         pieces = (self._new, new, self._old) if old.is_whole else (self._old, old, self._new)
-        return old.is_whole != new.is_whole and not self._stands_instead(*pieces)
+        return (old.is_whole or new.is_whole) and not self._stands_instead(*pieces)
 
     @staticmethod
     def _stands_instead(here: Side, piece: Piece, other: Side) -> bool:
-        """Whether an end of a line stands where the same line of the other text has another number."""
+        """Whether an end of a line stands where the same line of the other text has something else."""
         for beside, step in ((piece.words.start - 1, 1), (piece.words.stop, -1)):
             if 0 <= beside < len(here.there) and here.text.line_of[beside] == piece.line and here.there[beside] >= 0:
                 there = other.text.up_to_end(here.there[beside], step)
-                return any(other.text.texts[word].isdigit() for word in there[1:])
+                return any(other.text.texts[word].isalnum() for word in there[1:])
         return False
 
     def _match_composed(self, here: Side, other: Side) -> None:

@@ -1,29 +1,35 @@
-"""Rows whose cells are broken over other lines: read cell by cell, their words stand in the order that they had."""
+"""Rows whose cells are broken over other lines: read cell by cell, their words stand in the order that they had.
+
+A cell that belongs to two rows may be one or be cut between them: then the cells below the whole one are empty.
+"""
 
 from __future__ import annotations
 
 import re
 from difflib import SequenceMatcher
+from itertools import islice, takewhile
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.words import pressed
+from fieldscribe.audit.editions.words import Words, pressed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.audit.editions.matching import Matching
-    from fieldscribe.audit.editions.words import Words
 
     Pairs = list[tuple[int, int]]
 
 _CONTINUES = re.compile(r"[\t ]|\|\s*\|")
+_TEXT = re.compile(r"[^\W\d_]{2}")
+_TOGETHER = 4
+"""A cell belongs to at most so many rows."""
 _LONGEST = 12
 """A row is broken over at most so many lines."""
 
 
 def broken_otherwise(matching: Matching) -> Iterator[tuple[range, range, Pairs]]:
     """The words of rows that are the same cell by cell, and only so, with which of them are which."""
-    for old, new in dict.fromkeys(_pairs(matching)):
+    for old, new in dict.fromkeys((*_pairs(matching), *_cut_cells(matching))):
         if len(old) == len(new) == 1:
             continue
         here, there = _by_cells(matching.old, old), _by_cells(matching.new, new)
@@ -53,6 +59,48 @@ def _pairs(matching: Matching) -> Iterator[tuple[range, range]]:
             if matching.there[head] >= 0:
                 new = matching.new.line_of[matching.there[head]]
                 yield _row(matching.old, matching.old.line_of[head]), _row(matching.new, new)
+
+
+def _cut_cells(matching: Matching) -> Iterator[tuple[range, range]]:
+    """Rows one below the other in both texts, of which one cell is whole in the one text and cut in the other."""
+    for first, last, start, end in matching.gaps():
+        lines = {matching.old.line_of[word] for word in range(first, last)}
+        backs = {matching.back[matching.new.of_line(matching.new.line_of[word]).start] for word in range(start, end)}
+        lines |= {matching.old.line_of[word] for word in backs if word >= 0}
+        for line in {line - step for line in lines for step in range(_TOGETHER)}:
+            words = matching.old.of_line(line)
+            if words and matching.there[words.start] >= 0:
+                now = matching.new.line_of[matching.there[words.start]]
+                yield from _cut_rows(matching, line, now)
+
+
+def _cut_rows(matching: Matching, line: int, now: int) -> Iterator[tuple[range, range]]:
+    """The fewest rows from these lines on that are so."""
+    was, has = _cells(matching.old, line), _cells(matching.new, now)
+    most = min(len(was), len(has))
+    counts = (count for count in range(2, most + 1) if _are_cut(was[:count], has[:count]))
+    yield from ((range(line, line + count), range(now, now + count)) for count in islice(counts, 1))
+
+
+def _are_cut(was: list[list[str]], now: list[list[str]]) -> bool:
+    """Whether rows with the same first cells differ only in a cell that is whole in the uppermost in one text."""
+    if len({len(cells) for cells in (*was, *now)}) != 1 or not all(cells[0] for cells in was):
+        return False
+    both = list(zip(zip(*was, strict=True), zip(*now, strict=True), strict=True))
+    others = [(old, new) for old, new in both if old != new]
+    return bool(others) and all(_is_cut(old, new) or _is_cut(new, old) for old, new in others)
+
+
+def _is_cut(whole: tuple[str, ...], parts: tuple[str, ...]) -> bool:
+    """Whether a cell above empty ones is cut into parts, which are text: numbers and codes are those of their rows."""
+    texts = [part for part in parts if part]
+    return "".join(parts) == whole[0] and len(texts) > 1 and bool(parts[0]) and all(map(_TEXT.search, texts))
+
+
+def _cells(text: Words, line: int) -> list[list[str]]:
+    """The cells of some rows with lines between their columns, from a line on, each as its words say it."""
+    rows = takewhile(lambda row: row.startswith("|"), (text.line(line + step) for step in range(_TOGETHER)))
+    return [[pressed(Words(cell).texts) for cell in row.strip().strip("|").split("|")] for row in rows]
 
 
 def _head(text: Words, line: int) -> int:
