@@ -171,6 +171,9 @@ class Editions:
                 self._matching.forget_new(self.new.of_line(new))
 
     def _are_unlike(self, old: int, new: int) -> bool:
+        first = self._there[self.old.of_line(old).start]
+        if first >= 0 and self.new.line_of[first] != new:
+            return False  # the row stands elsewhere: what is here is a cell of it
         here = [word for word in self.old.of_line(old) if self.old.texts[word].isalnum()]
         there = {word: self.new.texts[word] for word in self.new.of_line(new) if self.new.texts[word].isalnum()}
         shared = sum(self._there[word] in there for word in here)

@@ -11,7 +11,7 @@ from collections import Counter
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.rows import broken_otherwise
+from fieldscribe.audit.editions.rows import broken_otherwise, cut_otherwise
 from fieldscribe.audit.editions.swaps import exchanged
 
 if TYPE_CHECKING:
@@ -55,8 +55,9 @@ class Matching:
         self._mend_torn_lines(1)
         self._mend_torn_lines(-1)
         self._slide()
-        for here, others, pairs in list(broken_otherwise(self)):
-            self._put_into_cells(here, others, pairs)
+        for of_cells in (broken_otherwise, cut_otherwise):
+            for here, others, pairs in list(of_cells(self)):
+                self._put_into_cells(here, others, pairs)
         self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self.put_in_their_places(olds, news)
@@ -221,7 +222,7 @@ class Matching:
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
 
-    def _put_into_cells(self, olds: range, news: range, pairs: list[tuple[int, int]]) -> None:
+    def _put_into_cells(self, olds: list[int], news: list[int], pairs: list[tuple[int, int]]) -> None:
         """Take the words of a row for those of another, pair by pair."""
         self.forget(olds)
         self.forget_new(news)
@@ -236,7 +237,7 @@ class Matching:
             here, there = self.old.of_line(old), self.new.of_line(new)
             self._match_word_by_word(here.start, here.stop, there.start, there.stop)
 
-    def forget(self, words: range) -> None:
+    def forget(self, words: Sequence[int]) -> None:
         """Let words of the old text have no counterpart."""
         for word in words:
             if self.there[word] >= 0:
@@ -261,7 +262,7 @@ class Matching:
             if self.back[word] < 0:
                 self.back[word] = olds[place * len(olds) // len(news)]
 
-    def forget_new(self, words: range) -> None:
+    def forget_new(self, words: Sequence[int]) -> None:
         """Let words of the new text have none."""
         for there in (self.back[word] for word in words if self.back[word] >= 0):
             self.forget(range(there, there + 1))

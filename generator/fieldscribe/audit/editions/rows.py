@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from difflib import SequenceMatcher
-from itertools import islice, takewhile
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.words import Words, pressed
@@ -27,14 +27,41 @@ _LONGEST = 12
 """A row is broken over at most so many lines."""
 
 
-def broken_otherwise(matching: Matching) -> Iterator[tuple[range, range, Pairs]]:
+def broken_otherwise(matching: Matching) -> Iterator[tuple[list[int], list[int], Pairs]]:
     """The words of rows that are the same cell by cell, and only so, with which of them are which."""
-    for old, new in dict.fromkeys((*_pairs(matching), *_cut_cells(matching))):
+    for old, new in dict.fromkeys(_pairs(matching)):
         if len(old) == len(new) == 1:
             continue
         here, there = _by_cells(matching.old, old), _by_cells(matching.new, new)
         if pairs := list(_same(matching, here, there)):
-            yield range(min(here), max(here) + 1), range(min(there), max(there) + 1), pairs
+            yield here, there, pairs
+
+
+def cut_otherwise(matching: Matching) -> Iterator[tuple[list[int], list[int], Pairs]]:
+    """The same for rows with a cell that is whole above empty ones in the one text, and cut between them in the other."""
+    done: set[int] = set()
+    for line, now in dict.fromkeys(_heads(matching)):
+        was, has = _cells(matching.old, line), _cells(matching.new, now)
+        counts = dict(_cut_columns(was, has))
+        rows = max(counts.values(), default=0)
+        if not rows or line in done:
+            continue
+        done.update(range(line, line + rows))
+        pairs: Pairs = []
+        for column in range(len(was[0])):
+            step = counts.get(column, 1)
+            for row in range(0, rows, step):
+                here = _of_column(matching.old, range(line + row, line + row + step), column)
+                there = _of_column(matching.new, range(now + row, now + row + step), column)
+                pairs += _alike(matching, here, there)
+        yield _of_rows(matching.old, line, rows), _of_rows(matching.new, now, rows), pairs
+
+
+def _alike(matching: Matching, here: list[int], there: list[int]) -> Iterator[tuple[int, int]]:
+    """The equal words of two series, in order."""
+    texts = [matching.old.texts[word] for word in here], [matching.new.texts[word] for word in there]
+    for at, to, count in SequenceMatcher(None, *texts, autojunk=False).get_matching_blocks():
+        yield from zip(here[at : at + count], there[to : to + count], strict=True)
 
 
 def _same(matching: Matching, here: list[int], there: list[int]) -> Iterator[tuple[int, int]]:
@@ -61,40 +88,53 @@ def _pairs(matching: Matching) -> Iterator[tuple[range, range]]:
                 yield _row(matching.old, matching.old.line_of[head]), _row(matching.new, new)
 
 
-def _cut_cells(matching: Matching) -> Iterator[tuple[range, range]]:
-    """Rows one below the other in both texts, of which one cell is whole in the one text and cut in the other."""
+def _heads(matching: Matching) -> Iterator[tuple[int, int]]:
+    """Rows of the old text at or just above words that lack a counterpart, each with the row that begins so now."""
     for first, last, start, end in matching.gaps():
         lines = {matching.old.line_of[word] for word in range(first, last)}
         backs = {matching.back[matching.new.of_line(matching.new.line_of[word]).start] for word in range(start, end)}
         lines |= {matching.old.line_of[word] for word in backs if word >= 0}
-        for line in {line - step for line in lines for step in range(_TOGETHER)}:
+        for line in sorted({line - step for line in lines for step in range(_TOGETHER)}):
             words = matching.old.of_line(line)
             if words and matching.there[words.start] >= 0:
-                now = matching.new.line_of[matching.there[words.start]]
-                yield from _cut_rows(matching, line, now)
+                yield line, matching.new.line_of[matching.there[words.start]]
 
 
-def _cut_rows(matching: Matching, line: int, now: int) -> Iterator[tuple[range, range]]:
-    """The fewest rows from these lines on that are so."""
-    was, has = _cells(matching.old, line), _cells(matching.new, now)
-    most = min(len(was), len(has))
-    counts = (count for count in range(2, most + 1) if _are_cut(was[:count], has[:count]))
-    yield from ((range(line, line + count), range(now, now + count)) for count in islice(counts, 1))
+def _cut_columns(was: list[list[str]], now: list[list[str]]) -> Iterator[tuple[int, int]]:
+    """The columns of a table that have such a cell in its first row here, each with the number of the cell's rows."""
+    if len({len(cells) for cells in (*was, *now)}) != 1:
+        return
+    heads = takewhile(lambda row: row[0][0] and row[0][0] == row[1][0], zip(was, now, strict=False))
+    most = len(list(heads))
+    for column in range(1, len(was[0])):
+        old, new = ([cells[column] for cells in rows[:most]] for rows in (was, now))
+        count = max(_rows_of(old, new), _rows_of(new, old)) if old and new else 0
+        if count > 1:
+            yield column, count
 
 
-def _are_cut(was: list[list[str]], now: list[list[str]]) -> bool:
-    """Whether rows with the same first cells differ only in a cell that is whole in the uppermost in one text."""
-    if len({len(cells) for cells in (*was, *now)}) != 1 or not all(cells[0] for cells in was):
-        return False
-    both = list(zip(zip(*was, strict=True), zip(*now, strict=True), strict=True))
-    others = [(old, new) for old, new in both if old != new]
-    return bool(others) and all(_is_cut(old, new) or _is_cut(new, old) for old, new in others)
+def _rows_of(whole: list[str], parts: list[str]) -> int:
+    """Over how many rows a cell above empty ones is cut into parts of text: numbers and codes are those of their rows.
+
+    The first part begins as the whole does.
+    """
+    empty = len(list(takewhile(lambda cell: not cell, whole[1:])))
+    cut = len(list(takewhile(_TEXT.search, parts[: 1 + empty])))
+    return cut if cut > 1 and whole[0].startswith(parts[0]) else 0
 
 
-def _is_cut(whole: tuple[str, ...], parts: tuple[str, ...]) -> bool:
-    """Whether a cell above empty ones is cut into parts, which are text: numbers and codes are those of their rows."""
-    texts = [part for part in parts if part]
-    return "".join(parts) == whole[0] and len(texts) > 1 and bool(parts[0]) and all(map(_TEXT.search, texts))
+def _of_rows(text: Words, line: int, rows: int) -> list[int]:
+    return [word for number in range(line, line + rows) for word in text.of_line(number)]
+
+
+def _of_column(text: Words, lines: range, column: int) -> list[int]:
+    """The words in a column of some rows."""
+    words = _of_rows(text, lines.start, len(lines))
+    return [word for word in words if _bars_before(text, word) == column + 1]
+
+
+def _bars_before(text: Words, word: int) -> int:
+    return text.line(text.line_of[word]).count("|", 0, text.column_of[word])
 
 
 def _cells(text: Words, line: int) -> list[list[str]]:
