@@ -42,6 +42,7 @@ POINTS = """- {name: flow, at: 0010h, range: 0..900, line: 3}
 - {name: kind, at: 0012h, enum: kind}
 """
 
+LAST = "Fixed choice Bit 2"
 CHANGES = {
     # what is changed: who is told first, and whether it is explained
     "a label of an enum elsewhere": ("free", "Boosted", "frame write_flow", False),
@@ -75,6 +76,23 @@ def test_a_new_section_tells_which_sections_it_counts_anew(tmp_path: Path) -> No
     [finding] = _findings(described, "\n".join(old), "\n".join(new))
     reasons = [reason.text for reason in finding.reasons if reason.kind == "missing"]
     assert (finding.kind, reasons) == ("added", ["speed: section 1.2 is not there", "level: section 1.3 is not there"])
+
+
+def test_labels_that_swapped_their_bits_are_told_whatever_words_they_share(tmp_path: Path) -> None:
+    """All words are still there, and a piece of a row seems to have moved to another row."""
+    flags = "".join(
+        f"    {bit}: {{name: choice_{bit}, title: {{en: {label}}}}}\n"
+        for bit, label in enumerate(("Fixed frequency selection Bit 0", "Fixed frequency selection Bit 1", LAST))
+    )
+    points = f"- name: control\n  at: 0020h\n  line: 1\n  flags:\n{flags}  lines: {{flags: 3..7}}\n"
+    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    rows = ["Control word 0020h", "", "Bit 0 Fixed frequency selection Bit 0", ""]
+    old = [*rows, "Bit 1 Fixed frequency selection Bit 1", "", f"Bit 2 {LAST}"]
+    new = [*rows, f"Bit 1 {LAST}", "", "Bit 2 Fixed frequency selection Bit 1"]
+    assert described is not None
+    for text, explained in ((old, True), (new, False)):
+        outcome, _ = compare(described, Edition("old", "\n".join(old), None), Edition("new", "\n".join(text), None))
+        assert outcome.explained == explained
 
 
 def test_rows_that_change_alike_are_no_feet_of_pages(tmp_path: Path) -> None:

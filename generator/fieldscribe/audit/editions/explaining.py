@@ -107,7 +107,7 @@ class Explaining:
         return touched | {number for line in lines for number in self._of_new.get(line, ())}
 
     def fails(self, pair: Pair) -> bool:
-        """Whether a claim does not hold in the new edition: a fact whose words are all still there does."""
+        """Whether a claim does not hold in the new edition: a fact whose words are all still there, in order, does."""
         if self._lost_access(pair) or self._is_parted(pair) or self._lost_list(pair) or self._is_counted_anew(pair):
             return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
@@ -116,7 +116,8 @@ class Explaining:
             return True
         borne = self.old.borne.get(pair.old, set())
         if borne:
-            return any(map(self.editions.is_gone, borne))
+            there = [self.editions.there(word) for word in sorted(borne)]
+            return min(there) < 0 or there != sorted(there)  # a label that stands behind its number now is another's
         return bool(self._touched(pair)) or pair.new is None
 
     def _is_counted_anew(self, pair: Pair) -> bool:
