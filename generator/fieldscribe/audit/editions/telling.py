@@ -23,6 +23,7 @@ _MEANINGS = {
     "first": "erste[nrs]?|first|zuerst",
     "third": "dritte[nrs]?|third",
     "not": "nicht|kein\\w*|not|never|nie|niemals|cannot|ohne|without",
+    "only": "nur|only|lediglich|ausschlie\u00dflich|solely|exclusively",
     "even": "gerade[nrs]?|even",
     "odd": "ungerade[nrs]?|odd",
     "high": "high|h\u00f6her\\w*|h\u00f6chst\\w*|highest|higher",
