@@ -232,6 +232,32 @@ def test_numbers_of_pages_and_chapters(before: str, fits: bool) -> None:
     assert is_reference(f"{before}44.", len(before) + 1) == fits
 
 
+@pytest.mark.parametrize(
+    ("printed", "taken", "row", "fixed"),
+    [
+        ("0.00 %", "0.01 %", "| H01 | Rate, 0.00 to 9 | 0010h | 0-900 | {} |", True),  # stands beside, too
+        ("0.1 Hz", "0.1 kHz", "| H01 | Rate, 2 to 90 kHz | 0010h | 0-900 | {} |", True),  # only the unit
+        ("0.1 Hz", "0.1 kHz", "| H01 | Rate, 2 to 90 kHz | 0011h | 0-900 | 0.1 Hz |", False),
+    ],
+)
+def test_an_erratum_that_was_mended_can_go(tmp_path: Path, printed: str, taken: str, row: str, fixed: bool) -> None:
+    documents = "{manual: {title: Manual, language: en, file: old}}"
+    step = f'printed: {{resolution: "{printed}"}}'
+    points = f"- {{code: H01, name: rate, at: 0010h, range: 0..900, line: 3, {step}}}\n"
+    facts = f'{step}, taken: {{resolution: "{taken}"}}'
+    erratum = f"- {{id: rate_step, point: H01, line: 3, {facts}, why: It says so., certainty: likely}}\n"
+    text = together(head(documents=documents), group(points, access="rw") + f"errata:\n{erratum}")
+    report = Report()
+    subject = load_subject(write(tmp_path / "plant", text), report)
+    assert subject is not None, report.findings
+    head_of_table = "| Code | Title | Register | Range | Step |\n|---|---|---|---|---|\n"
+    old, new = (head_of_table + row.format(step) + "\n" for step in (printed, taken))
+    if not fixed:
+        old = old.replace("0011h", "0010h")
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert [void.is_corrected for finding in outcome.findings for void in finding.void] == [True] * fixed
+
+
 def test_a_removed_row_is_told_once(subject: Subject) -> None:
     [finding] = _compared(subject, _with("| H04 | Delay | 0013h | 0-30 | - |\n", "")).findings
     assert [(reason.kind, reason.subjects) for reason in finding.reasons] == [("gone", ("delay",))]
@@ -264,6 +290,7 @@ def test_spellings_of_a_text(old: str, new: str, same: bool) -> None:
         ("drei Codes", "three codes", []),
         ("Run right", "Rechtslauf", []),
         ("even", "ungerade", ["ungerade", "even"]),
+        ("auch im Lauf", "nur im Halt", ["nur"]),
         ("wird gelesen", "wird nicht gelesen", ["nicht"]),
         ("eine Anlage", "die Anlage", []),
     ],

@@ -264,7 +264,9 @@ class _Comparing:
             return False
         editions = self.editions
         lines = [range(extent.first, extent.last + 1) for extent in self.old.extents_of(in_old.cited)]
-        gone = {word for span in lines for line in span for word in editions.old.of_line(line) if editions.is_gone(word)}
+        gone = {
+            word for span in lines for line in span for word in editions.old.of_line(line) if editions.is_gone(word)
+        }
         lines = [range(extent.first, extent.last + 1) for extent in self.new.extents_of(in_new.cited)]
         new = {word for span in lines for line in span for word in editions.new.of_line(line) if editions.is_new(word)}
         return went <= Counter(editions.old.texts[word] for word in gone) and came <= Counter(

@@ -219,7 +219,7 @@ def is_spelling(finding: Finding) -> bool:
 
 
 def _points_elsewhere(finding: Finding) -> bool:
-    """Whether only numbers of pages, chapters, pictures are others: what no fact says is explained, so they are those."""
+    """Whether only numbers of pages, chapters, pictures are others: the finding is explained, so they are those."""
     return all(
         number and re.search(f"{REFERENCE}{re.escape(number)}(?!\\w)", " ".join(lines), re.IGNORECASE)
         for words in finding.words

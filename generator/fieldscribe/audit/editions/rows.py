@@ -38,7 +38,7 @@ def broken_otherwise(matching: Matching) -> Iterator[tuple[list[int], list[int],
 
 
 def cut_otherwise(matching: Matching) -> Iterator[tuple[list[int], list[int], Pairs]]:
-    """The same for rows with a cell that is whole above empty ones in the one text, and cut between them in the other."""
+    """The same for rows with a cell that is whole above empty ones in one text, and cut between them in the other."""
     done: set[int] = set()
     for line, now in dict.fromkeys(_heads(matching)):
         was, has = _cells(matching.old, line), _cells(matching.new, now)

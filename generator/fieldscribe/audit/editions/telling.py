@@ -69,7 +69,7 @@ REFERENCE = (
     r"\b(?:Seiten?|S\.|pages?|p\.|Kapitel|Kap\.|Abschnitt|chapter|section|Abbildung|Abb\.|Bild|figure|fig\.)\s*"
     r"(?:\w{1,2}[-\u2010-\u2013.])?"
 )
-"""What stands before a number that is no fact: that of a page, a chapter, a picture; `3-` if the chapter counts them."""
+"""What stands before a number that is no fact: of a page, a chapter, a picture; `3-` where chapters count them."""
 _REFERENCE = re.compile(f"{REFERENCE}$", re.IGNORECASE)
 _TITLE = re.compile(r"[0-9]+[^\W\d_]{4,}")
 _CODE = re.compile(r"\w*[0-9]\w*|[A-Z]{2,5}")
