@@ -18,6 +18,10 @@ SAME = {
     "numbers of entries": ("Text.\n\n- one\n- two\n\nText", "Text.\n\n1. one\n2. two\n\nText"),
     "an entry without its number": ("1. one\n2. two", "- one\n- two"),
     "bold": ("**Request:**\n\n| 1 |", "#### Request:\n\n| **1** |"),
+    "marks below a mark": ("- one\n  - o two 1\n\nText", "- one\n  - two 1\n\nText"),
+    "hexadecimal numbers without digits": ("| 0xFC | 0xC4 |", "| FCh | C4h |"),
+    "a first cell for both rows": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n0\t1\ton\n1\t0\tslow"),
+    "one for three, with lines": ("| 7 | a |\n| | c |\n| | e |", "| 7 | a |\n| 7 | c |\n| 7 | e |"),
     "italics by tags": ("The <i>ramp</i> is free", "The ramp is free"),
 }  # fmt: skip
 
@@ -40,6 +44,10 @@ CHANGES = {
         "| 05 .. 96 bps<br>06 .. 192 bps<br>07 .. 9 bps |",
         ("", "07 .. 9 bps"),
     ),
+    "a hexadecimal number without digits": ("| of 0xFC |", "| of FDh |", ("0xFC", "FDh")),
+    "the first cell of another row": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n1\t1\ton\n1\t0\tslow", ("", "1")),
+    "a first cell in a row that had one": ("0\t0\toff\n1\t1\ton", "0\t0\toff\n0\t1\ton", ("1", "0")),
+    "an entry with a letter": ("- one\n- p two", "- one\n- two", ("p", "")),
     "what is no tag": ("<STX> and <LGE>", "<STX> and", ("<LGE>", "")),
 }
 

@@ -88,6 +88,15 @@ def _with_feet(foot: str) -> str:
     return pieces[0] + "".join(f"{foot.format(page + 7)}\n\nChapter d{piece}" for page, piece in enumerate(pieces[1:]))
 
 
+HEAD = "# Heat pump: **Modbus**\n\nOf: controllers of 2020\n\n"
+PAGES = OLD.replace("Chapter g", f"{HEAD}Chapter g").replace("Chapter m", f"{HEAD}Chapter m")
+BITS = OLD.replace("4\tready\t\n\t1\tready", "4\tset, low\t00 = one 01 = two 10 = three\n5\tset, high\t")
+
+
+def _in_both_rows(old: str) -> str:
+    return old.replace(" 10 = three\n5\tset, high\t", "\n5\tset, high\t10 = three")
+
+
 REMARKS = {
     # what holds no fact, as text: its kind
     "feet that count": (_with_feet("Heat pump B-{}"), "heads_and_feet"),
@@ -123,6 +132,47 @@ def test_what_holds_no_fact_is_one_remark(subject: Subject, new: str, kind: str)
     assert ([remark.kind for remark in outcome.remarks], outcome.findings) == ([kind], [])
     assert outcome.explained
     assert "remark" in _told(outcome)[0]
+
+
+SET_AGAIN = {
+    # layout of an old text: the kind of the remark
+    "the head of a page more": (PAGES, PAGES.replace("The plant", f"{HEAD}The plant", 1), "heads_and_feet"),
+    "the head of a page more, set otherwise": (
+        PAGES,
+        PAGES.replace("The plant", "## Heat pump: Modbus\n\n\nOf: controllers of 2020\n\nThe plant", 1),
+        "heads_and_feet",
+    ),
+    "a cell over two rows": (BITS, _in_both_rows(BITS), "moved"),
+    "the same cell in one": (_in_both_rows(BITS), BITS, "moved"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "kind"), SET_AGAIN.values(), ids=SET_AGAIN)
+def test_what_is_set_again_is_one_remark(subject: Subject, old: str, new: str, kind: str) -> None:
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert ([remark.kind for remark in outcome.remarks], outcome.findings) == ([kind], [])
+
+
+NOT_SET_AGAIN = {
+    # what only looks like it
+    "a head with another number": (PAGES, PAGES.replace("The plant", f"{HEAD.replace('2020', '2021')}The plant", 1)),
+    "one of its lines": (PAGES, PAGES.replace("The plant", "Of: controllers of 2020\n\nThe plant", 1)),
+    "an entry that is another": (BITS, _in_both_rows(BITS).replace("10 = three", "10 = two")),
+    "all entries of a cell": (
+        BITS.replace(" 01 = two 10 = three", ""),
+        BITS.replace("00 = one 01 = two 10 = three\n5\tset, high\t", "\n5\tset, high\t00 = one"),
+    ),
+    "a sentence in another row": (
+        BITS.replace("00 = one 01 = two 10 = three", "Is set. Only with 2."),
+        BITS.replace("00 = one 01 = two 10 = three\n5\tset, high\t", "Is set.\n5\tset, high\tOnly with 2."),
+    ),
+    "an abbreviation": (OLD.replace("the ramp", "the ramp OFF"), OLD.replace("the ramp", "the ramp ON")),
+}
+
+
+@pytest.mark.parametrize(("old", "new"), NOT_SET_AGAIN.values(), ids=NOT_SET_AGAIN)
+def test_what_only_looks_like_it_is_a_finding(subject: Subject, old: str, new: str) -> None:
+    assert compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
 
 
 FINDINGS = {
@@ -243,7 +293,9 @@ def test_numbers_of_pages_and_chapters(before: str, fits: bool) -> None:
 def test_an_erratum_that_was_mended_can_go(tmp_path: Path, printed: str, taken: str, row: str, fixed: bool) -> None:
     documents = "{manual: {title: Manual, language: en, file: old}}"
     step = f'printed: {{resolution: "{printed}"}}'
-    points = f"- {{code: H01, name: rate, at: 0010h, range: 0..900, line: 3, {step}}}\n"
+    scale, unit = taken.split()
+    rate = f'range: 0..900, scale: value = raw * {scale}, unit: "{unit}"'
+    points = f"- {{code: H01, name: rate, at: 0010h, {rate}, line: 3, {step}}}\n"
     facts = f'{step}, taken: {{resolution: "{taken}"}}'
     erratum = f"- {{id: rate_step, point: H01, line: 3, {facts}, why: It says so., certainty: likely}}\n"
     text = together(head(documents=documents), group(points, access="rw") + f"errata:\n{erratum}")
@@ -368,3 +420,21 @@ def test_a_row_that_prints_an_access_where_it_had_none_is_a_finding(tmp_path: Pa
     (finding,) = compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
     assert (finding.kind, finding.words) == ("changed", (("-", "R/W"),))
     assert ": access none is not there" in [reason.said for reason in finding.reasons]
+
+
+@pytest.mark.parametrize(("mark", "doubts"), [("- ", []), ("", ["setting"])])
+def test_an_erratum_of_an_entry_does_not_speak_of_a_new_one_below_it(
+    tmp_path: Path, mark: str, doubts: list[str]
+) -> None:
+    errata = (
+        "\n- {id: setting, point: P01, line: 3, printed: P01 has no unit., taken: None., why: x, certainty: likely}"
+    )
+    points = "- {code: P01, name: delay, at: 0010h, default: 4, line: 3}\n"
+    subject = load_subject(
+        write(tmp_path / "plant", together(head(errata=errata), group(points, access="rw"))), Report()
+    )
+    assert subject is not None
+    old = f"Settings:\n\n{mark}P01 at 0010h to 4\n{mark}Then start\n"
+    new = old.replace("0010h to 4\n", f"0010h to 4\n{mark}P07 at 0017h to 9\n")
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert ([doubt.erratum for doubt in outcome.doubts], len(outcome.findings)) == (doubts, 1)

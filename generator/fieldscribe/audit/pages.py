@@ -67,13 +67,14 @@ def repeated(lines: Sequence[str], numbers: Iterable[int]) -> Iterator[int]:
     for number in sorted(numbers):
         groups.setdefault(pattern(lines[number - 1]), []).append(number)
     for group in groups.values():
-        if _are_far_apart(group) and (_counted(lines, group) or _are_in_blocks(lines, group)):
+        if are_far_apart(group) and (_counted(lines, group) or _are_in_blocks(lines, group)):
             yield from group
         else:
             yield from (number for number in group if _NAMES_PAGE.fullmatch(lines[number - 1].strip()))
 
 
-def _are_far_apart(group: list[int]) -> bool:
+def are_far_apart(group: list[int]) -> bool:
+    """Whether lines stand at several pages, each by itself."""
     return len(group) >= _PAGES and median(below - above for above, below in pairwise(group)) >= _APART
 
 
@@ -95,7 +96,7 @@ def _without_text(lines: Sequence[str], pages: frozenset[int], text: Counter[str
 
 def _counted(lines: Sequence[str], group: list[int]) -> dict[int, int]:
     """The page that each of these lines counts; none if one of their numbers does not count up."""
-    if not _are_far_apart(group):
+    if not are_far_apart(group):
         return {}
     columns = list(zip(*(map(int, _DIGITS.findall(lines[number - 1])) for number in group), strict=True))
     changing = [column for column in columns if len(set(column)) > 1]

@@ -15,6 +15,7 @@ drafts.py       what new rows seem to be: likeness.py (as the rows beside them a
                 (the group of a new table), titles.py (English where it is known)
 joining.py      what is one change for a reader: equal ones, swaps, several lines of one fact
 remarks.py      what holds no fact: heads and feet of pages, words of running text, and so on
+                (set_again.py: heads of new pages, entries in a cell of two rows)
 comparing.py    all of it together; findings.py: as plain data; report.py: as lines
 places.py       where the files cite lines; renumbering.py: writing them anew; accepting.py: recording the new edition
 """

@@ -110,7 +110,7 @@ class Editions:
         above, below = self.old.beside(range(first, last))
         was = pressed([*above, *unspaced(self.old.texts[first:last]), *below])
         now = pressed([*above, *unspaced(self.new.texts[start:end]), *below])
-        if was != now and not self._is_mark(gap):
+        if was != now and not self._is_mark(gap) and not self._is_repeated_cell(gap):
             return False
         olds = range(first, last) or [min(first, len(self._there) - 1)]
         news = range(start, end) or [min(start, len(self._back) - 1)]
@@ -123,6 +123,23 @@ class Editions:
         if first == last:
             return self.new.is_numbering(start, end) and self.old.is_entry(self._back, end)
         return start == end and self.old.is_numbering(first, last) and self.new.is_entry(self._there, last)
+
+    def _is_repeated_cell(self, gap: Gap) -> bool:
+        """Whether the first cell of a row got, or lost, what the one above it has in both texts: it holds for both."""
+        first, last, start, end = gap
+        if first == last:
+            return self._repeats_cell(self.new, self._back, range(start, end), self.old)
+        return start == end and self._repeats_cell(self.old, self._there, range(first, last), self.new)
+
+    @staticmethod
+    def _repeats_cell(text: Words, other: list[int], words: range, bare: Words) -> bool:
+        """Whether words of one text are such a cell, and their row begins with an empty cell in the `bare` one."""
+        line = text.line_of[words.start]
+        above, rest = text.first_cell(line - 1), range(words.stop, text.of_line(line).stop)
+        if text.first_cell(line) != words or [text.texts[at] for at in above] != [text.texts[at] for at in words]:
+            return False
+        lines = {bare.line_of[other[word]] for word in rest if other[word] >= 0}
+        return all(other[word] >= 0 for word in above) and len(lines) == 1 and bare.goes_on(lines.pop())
 
     def _take_equal_ends(self, gap: Gap) -> None:
         """What only blanks and hyphens set otherwise at an end of a gap is the same: something came beside it."""

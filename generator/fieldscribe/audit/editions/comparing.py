@@ -105,7 +105,8 @@ class _Comparing:
         elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
         findings, outcome.void = with_void(findings, self._void())
-        outcome.findings, outcome.remarks = Remarks(editions, self.new.manual).sort(findings)
+        bearing = set().union(*self.new.borne.values())
+        outcome.findings, outcome.remarks = Remarks(editions, self.new.manual, bearing).sort(findings)
         passed_over = {place for remark in outcome.remarks if remark.kind != "wording" for place in remark.places}
         outcome.notes = self.notes.stale((change, one) for change, one in told if one.places[0] not in passed_over)
         outcome.doubts = list(self._doubts(held))
@@ -203,27 +204,23 @@ class _Comparing:
 
     @staticmethod
     def _paragraph(trace: Trace, first: int, last: int) -> Extent:
-        """What an erratum speaks of: a section if it cites the heading, else the lines up to a blank one."""
+        """What an erratum speaks of: a section by its heading, an entry of a list, else the lines up to a blank one."""
         extent = trace.extent(first, last)
         if last or extent.kind == "section":
             return extent
-        lines = range(extent.first, extent.last + 1)
-        blank = next((line for line in lines if not trace.manual.line(line).strip()), extent.last + 1)
-        return replace(extent, last=max(extent.first, blank - 1))
+        lines = range(extent.first + 1, extent.last + 1)
+        entries = trace.text.entries if extent.first in trace.text.entries else ()
+        end = next((line for line in lines if line in entries or not trace.manual.line(line).strip()), lines.stop)
+        return replace(extent, last=end - 1)
 
     def _is_of(self, extent: Extent, change: Change) -> bool:
         """Whether a change is in these lines: what was added is if some of them stand below it, too."""
-        if change.kind == "added" and change.new[0] - 1 in extent and self._goes_on(change.new[0]):
+        if change.kind == "added" and change.new[0] - 1 in extent and self.editions.new.goes_on(change.new[0]):
             return True
         if not any(line in extent for line in change.new):
             return False
         below = range(change.new[-1] + 1, extent.last + 1)
         return change.kind != "added" or any(self._was_there(line) for line in below)
-
-    def _goes_on(self, line: int) -> bool:
-        """Whether a row goes on in a line: its first cell is empty."""
-        text = self.editions.new.line(line)
-        return text.startswith("\t") or (text.startswith("|") and not text.split("|")[1].strip())
 
     def _was_there(self, line: int) -> bool:
         return any(not self.editions.is_new(word) for word in self.editions.new.of_line(line))

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.parting import is_row
+from fieldscribe.audit.editions.set_again import in_shared_cells, is_head_of_page
 from fieldscribe.audit.editions.telling import DATE, REFERENCE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.pages import pattern, repeated
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 
     from fieldscribe.audit.editions.changes import Editions
     from fieldscribe.audit.manual import Manual
@@ -48,10 +49,12 @@ _SENTENCE = re.compile(r"(?:[^.!?;]|\.(?=[0-9]))*[.!]?\s*")
 class Remarks:
     """Sorts findings into those that may hold facts and remarks about those that do not."""
 
-    def __init__(self, editions: Editions, manual: Manual) -> None:
+    def __init__(self, editions: Editions, manual: Manual, bearing: Container[int]) -> None:
+        """Facts stand on the words `bearing` of the new edition."""
         self.editions, self.manual = editions, manual
         self._below_title = self._second_line()
         self._kinds: tuple[tuple[str, Callable[[Finding], bool]], ...] = (
+            ("heads_and_feet", lambda finding: is_head_of_page(finding, editions.new, bearing)),
             ("front_matter", self._is_front_matter),
             ("contents", self._is_contents),
             ("list_of_editions", self._is_list_of_editions),
@@ -65,6 +68,7 @@ class Remarks:
     def sort(self, findings: Sequence[Finding]) -> tuple[list[Finding], list[Remark]]:
         """What may hold facts, in its order, and what does not, by kinds."""
         kind_of = {id(finding): "heads_and_feet" for finding in self._of_pages(findings)}
+        kind_of.update((id(finding), "moved") for finding in in_shared_cells(findings, self.editions))
         for finding in findings:
             if id(finding) not in kind_of and (kind := self._kind(finding)):
                 kind_of[id(finding)] = kind

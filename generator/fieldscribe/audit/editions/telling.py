@@ -72,6 +72,7 @@ REFERENCE = (
 """What stands before a number that is no fact: of a page, a chapter, a picture; `3-` where chapters count them."""
 _REFERENCE = re.compile(f"{REFERENCE}$", re.IGNORECASE)
 _TITLE = re.compile(r"[0-9]+[^\W\d_]{4,}")
+_ABBREVIATION = re.compile(r"[A-Z]{2,5}")
 _CODE = re.compile(r"\w*[0-9]\w*|[A-Z]{2,5}")
 
 
@@ -83,6 +84,7 @@ def turned(gaps: Iterable[tuple[list[str], list[str]]]) -> list[str]:
             gone, come = Counter(map(meaning, was)), Counter(map(meaning, now))
             told += [word for word in now if meaning(word) and come[meaning(word)] > gone[meaning(word)]]
             told += [word for word in was if meaning(word) and gone[meaning(word)] > come[meaning(word)]]
+            told += now if was != now and all(map(_ABBREVIATION.fullmatch, (*was, *now))) else ()
     return list(dict.fromkeys(told))
 
 

@@ -37,9 +37,9 @@ _TAG = re.compile(
     r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
 )
 _PARTS_CELLS = re.compile(r"\||<br|<li", re.IGNORECASE)
-_MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013])(?=\s)")
+_MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013](?: +o)?|o(?= ))(?=\s)")
 """What makes a line a heading, or an entry of a list."""
-_HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH])\b")
+_HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH]|([0-9A-F]{2,})[hH])\b")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
 _SPACED = 4
@@ -100,6 +100,17 @@ class Words:
         if not 1 <= line <= len(self.lines):
             return range(len(self), len(self))
         return range(self._first[line - 1], self._first[line])
+
+    def first_cell(self, line: int) -> range:
+        """The words in the first cell of a row; none of a line that has no cells."""
+        words, text = self.of_line(line), self.line(line)
+        end = text.find("|", 1) if text.startswith("|") else text.find("\t")
+        return range(words.start, self.at(line, end + 1)) if end >= 0 else range(words.start, words.start)
+
+    def goes_on(self, line: int) -> bool:
+        """Whether a row goes on in a line: its first cell is empty."""
+        text = self.line(line)
+        return text.startswith("\t") or (text.startswith("|") and not text.split("|")[1].strip())
 
     def opens_line(self, word: int) -> bool:
         """Whether a word is the first of its line; what stands behind the last word is."""
@@ -190,7 +201,7 @@ def _as_word(written: str) -> str:
 
 def pressed(texts: list[str]) -> str:
     """Words without what only sets them: blanks, hyphens, marks of hexadecimal numbers; thousands are one number."""
-    written = _HEXADECIMAL.sub(lambda number: f"0x{(number[1] or number[2]).upper()}", " ".join(texts))
+    written = _HEXADECIMAL.sub(lambda number: f"0x{number[number.lastindex or 0].upper()}", " ".join(texts))
     joined = _THOUSANDS.sub(lambda number: number[0].replace(" ", ""), written)
     return _BLANK.sub("", _DASH_IN_WORD.sub("", joined))
 
