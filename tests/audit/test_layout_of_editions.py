@@ -22,6 +22,8 @@ SAME = {
     "hexadecimal numbers without digits": ("| 0xFC | 0xC4 |", "| FCh | C4h |"),
     "a first cell for both rows": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n0\t1\ton\n1\t0\tslow"),
     "one for three, with lines": ("| 7 | a |\n| | c |\n| | e |", "| 7 | a |\n| 7 | c |\n| 7 | e |"),
+    "blanks in a list of numbers": ("one of 0,3,4 and 127", "one of 0, 3, 4 and 127"),
+    "a row over two pages": ("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 3\n\n\tor a stop\tor 11"),
     "italics by tags": ("The <i>ramp</i> is free", "The ramp is free"),
 }  # fmt: skip
 
@@ -48,6 +50,12 @@ CHANGES = {
     "the first cell of another row": ("0\t0\toff\n\t1\ton\n1\t0\tslow", "0\t0\toff\n1\t1\ton\n1\t0\tslow", ("", "1")),
     "a first cell in a row that had one": ("0\t0\toff\n1\t1\ton", "0\t0\toff\n0\t1\ton", ("1", "0")),
     "an entry with a letter": ("- one\n- p two", "- one\n- two", ("p", "")),
+    "a number that is none of a list": ("one of 0,3 or 4", "one of 0, 3 or 4", ("0,3", ",")),
+    "a misspelt row below a cell over two lines": (
+        "Bits\tone value = two values for others\twhere the value of P13 is 3, for words\n\tthre numbers\tif 127",
+        "Bits\tone value\twhere the value of P13 is 3, for words\n\t= two values for others\n\tthree numbers\tif 127",
+        ("thre", "three"),
+    ),
     "what is no tag": ("<STX> and <LGE>", "<STX> and", ("<LGE>", "")),
 }
 
@@ -71,3 +79,8 @@ def test_a_row_that_a_page_break_passed_has_moved() -> None:
     old, new = (TABLE + "".join(rows[:cut]) + head + "".join(rows[cut:]) for cut in (5, 4))
     editions = Editions(old, new)
     assert (editions.changes, [(move.first, move.now) for move in editions.moves]) == ((), [(7, 11)])
+
+
+def test_a_cell_that_changed_beside_a_row_over_two_pages_is_told() -> None:
+    editions = Editions("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 4\n\n\tor a stop\tor 11")
+    assert [change.kind for change in editions.changes] == ["changed"]

@@ -224,6 +224,26 @@ def test_what_may_hold_a_fact_is_one_finding(
     assert all(".yaml:" in line for line in _told(outcome) if line.split(": ")[1:2] == [findings[0][0]])
 
 
+COLUMNS = "# Heat pump\n\nDirection\t1\t2\t3\t4\nto it\tSTW\tHSW\tHSW2\tSTW2\nfrom it\tZSW\tHIW\tZSW2\tHIW2\n"
+OF_COLUMNS = """- {code: ZSW2, name: status, at: 3, line: 5, lines: {address: 3}}
+- {code: HIW2, name: actual, at: 4, line: 5, lines: {address: 3}}
+"""
+
+
+FOLLOWED = OF_COLUMNS.replace("at: 3", "at: 5").replace("at: 4", "at: 3").replace("at: 5", "at: 4")
+
+
+@pytest.mark.parametrize(("points", "missing"), [(OF_COLUMNS, 2), (FOLLOWED, 0)], ids=["as it was", "followed"])
+def test_cells_that_changed_places_stand_below_other_numbers(tmp_path: Path, points: str, missing: int) -> None:
+    subject = load_subject(write(tmp_path / "plant", together(head(), group(points, access="r"))), Report())
+    assert subject is not None
+    new = COLUMNS.replace("ZSW2\tHIW2", "HIW2\tZSW2")
+    outcome = compare(subject, Edition("old", COLUMNS, None), Edition("new", new, None))[0]
+    [finding] = outcome.findings
+    assert (finding.kind, finding.words, finding.explained) == ("swapped", (("ZSW2", "HIW2"),), missing == 0)
+    assert sum("address" in reason.said for reason in finding.reasons) == missing
+
+
 def test_equal_lines_name_all_their_places(subject: Subject) -> None:
     outcome = _compared(subject, FINDINGS["an equal line at two places"][0])
     assert [place.new for place in outcome.findings[0].places] == [(12, 12), (56, 56)]

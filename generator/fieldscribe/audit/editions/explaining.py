@@ -59,6 +59,7 @@ class Explaining:
         self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
         self.headings, self._old_headings = frozenset(self.new.manual.headings), frozenset(self.old.manual.headings)
         self.place_of: dict[str, str] = {}
+        self._code_of = {pair.claim.subject: pair for pair in pairs if pair.claim.fact == "code"}
         self.failing_at: dict[int, list[Pair]] = {}
         self.elsewhere: list[Pair] = []
         for pair in pairs:
@@ -75,7 +76,10 @@ class Explaining:
 
     def _note_failing(self, pair: Pair, touched: set[int]) -> None:
         """A claim that does not hold belongs to the change of its words, else to all that touch its lines."""
-        gone = {word for word in _borne(self.old, pair.old) if self.editions.is_gone(word)}
+        of_code = self._code_of[pair.claim.subject] if self._left_column(pair) else pair
+        touched = touched | self._touched(of_code)
+        bearing = _borne(self.old, pair.old) | _borne(self.old, of_code.old)
+        gone = set(filter(self.editions.is_gone, bearing))
         own = {number for number in touched for old, _ in self.editions.changes[number].gaps if gone.intersection(old)}
         own = own or self._counted_anew_by(pair) or touched
         for number in own:
@@ -108,7 +112,8 @@ class Explaining:
 
     def fails(self, pair: Pair) -> bool:
         """Whether a claim does not hold in the new edition: a fact whose words are all still there, in order, does."""
-        if self._lost_access(pair) or self._is_parted(pair) or self._lost_list(pair) or self._is_counted_anew(pair):
+        lost = self._lost_access, self._is_parted, self._lost_list, self._is_counted_anew, self._left_column
+        if any(has_lost(pair) for has_lost in lost):
             return True
         if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
             return False
@@ -141,6 +146,17 @@ class Explaining:
             return False
         borne = self.old.borne.get(pair.old, set())
         return any(map(self.editions.is_gone, borne)) and not self.new.borne.get(pair.new)
+
+    def _left_column(self, pair: Pair) -> bool:
+        """Whether a code that stood in a table below the number of its place stands below another."""
+        code = self._code_of.get(pair.claim.subject)
+        if code is None or not pair.claim.is_address or pair.claim.cited == code.claim.cited:
+            return False
+        was, now = (
+            _columns(trace, side) & _columns(trace, of_code)
+            for trace, side, of_code in ((self.old, pair.old, code.old), (self.new, pair.new, code.new))
+        )
+        return bool(was) and not now
 
     def _is_parted(self, pair: Pair) -> bool:
         """Whether a label that stood right beside its number does not any more."""
@@ -474,6 +490,13 @@ def _of_claim(kind: str, claim: Claim, said: str) -> Reason:
 
 def _borne(trace: Trace, claim: Claim | None) -> set[int]:
     return trace.borne.get(claim, set()) if claim is not None else set()
+
+
+def _columns(trace: Trace, claim: Claim | None) -> set[int]:
+    """In which columns of tables a claim stands."""
+    text = trace.text
+    columns = (trace.manual.column(text.line_of[word], text.column_of[word] - 1) for word in _borne(trace, claim))
+    return {column for column in columns if column is not None}
 
 
 def _by_line(changes: Iterable[tuple[tuple[int, ...], int]]) -> dict[int, list[int]]:

@@ -12,7 +12,7 @@ from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.rows import broken_otherwise, cut_otherwise
-from fieldscribe.audit.editions.swaps import exchanged
+from fieldscribe.audit.editions.swaps import exchanged, exchanged_cells
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -61,6 +61,8 @@ class Matching:
         self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self.put_in_their_places(olds, news)
+        for words in list(exchanged_cells(self)):
+            self.forget(words)
 
     def gaps(self) -> Iterator[Gap]:
         """What has no counterpart, as pairs that stand between the same neighbours; a side of a pair may be empty."""

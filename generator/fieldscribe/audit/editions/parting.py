@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.words import Words
 
 _COLUMNS = re.compile(r"\S(?: {3,}|\t)\S")
-_CONTINUES = re.compile(r"[\t ]|\|\s*\|")
 _ENTRY = re.compile(r"\s*\W?\w*[0-9]\w*\S*(?:\s\S+){0,5}\s*")
 _UNLIKE = 3
 """Two rows that share fewer than one word of so many are not the same row."""
@@ -48,7 +47,23 @@ def parted(old: Words, new: Words, gap: Gap) -> Iterator[Gap]:
         yield from ((*row, start, start) for row in _whole_lines(old, was))
         yield from ((last, last, *row) for row in _whole_lines(new, now))
     else:
-        yield gap
+        yield from _cell_by_cell(old, new, gap)
+
+
+def _cell_by_cell(old: Words, new: Words, gap: Gap) -> Iterator[Gap]:
+    """Words of a row in place of others, each cell by itself."""
+    first, last, start, end = gap
+    olds, news = _cells(old, first, last), _cells(new, start, end)
+    if len(olds) != len(news):
+        olds, news = [(first, last)], [(start, end)]
+    yield from ((*here, *there) for here, there in zip(olds, news, strict=True))
+
+
+def _cells(text: Words, first: int, last: int) -> list[tuple[int, int]]:
+    """The words of each cell in one line; all of them where they are of several."""
+    one_line = first < last and text.is_in_one_line(first, last)
+    opening = [word for word in range(first + 1, last) if one_line and text.opens_cell(word)]
+    return list(zip([first, *opening], [*opening, last], strict=True))
 
 
 def _apart(text: Words, side: _Side, other: _Side) -> list[tuple[int, int]]:
@@ -108,7 +123,7 @@ def _whole_lines(text: Words, side: _Side) -> list[tuple[int, int]]:
 def _rows_below(text: Words, line: int, tail: int) -> Iterator[int]:
     """The first words of the rows from a line on, and of what stands behind them."""
     while (word := text.of_line(line).start) < tail and is_row(text.line(line)):
-        if text.of_line(line) and _CONTINUES.match(text.line(line)) is None:
+        if text.of_line(line) and not text.continues(line):
             yield word
         line += 1
     if word < tail:

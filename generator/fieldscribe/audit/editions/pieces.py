@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.editions.words import pressed, unspaced
@@ -20,12 +20,16 @@ MOST = 4
 
 
 class Piece(NamedTuple):
-    """Words without a counterpart: whole lines, or one end of a line; `key` is what they say without blanks."""
+    """Words without a counterpart: whole lines, or one end of a line or cell; `key` is what they say without blanks."""
 
     words: range
     line: int
     key: str
     is_whole: bool
+    is_cell: bool
+    """Whether it is a cell of a line that goes on with the row above."""
+    is_inner: bool
+    """Whether it is a cell, or an end of one, amidst a line."""
 
 
 class Side:
@@ -51,15 +55,32 @@ class Side:
     def pieces(self) -> list[Piece]:
         """Each line, or end of a line, without a counterpart, and up to some of those in a row."""
         ends = list(self._ends())
+        inner = [self._piece([cell], is_inner=True) for cell in self._cells()]
         runs = (ends[at:last] for at in range(len(ends)) for last in range(at + 1, min(at + MOST, len(ends)) + 1))
-        return [self._piece(run) for run in runs if all(above.stop == below.start for above, below in pairwise(run))]
+        whole = [run for run in runs if all(above.stop == below.start for above, below in pairwise(run))]
+        return [*map(self._piece, whole), *inner]
 
-    def _piece(self, run: list[range]) -> Piece:
+    def _piece(self, run: list[range], *, is_inner: bool = False) -> Piece:
         words = range(run[0].start, run[-1].stop)
         key = pressed(unspaced([self.text.texts[word] for word in words])).removesuffix("-")
         opens = self.text.opens_line(words.start) or words.start - 1 in self.halves
         is_whole = opens and self.text.opens_line(words.stop)
-        return Piece(words, self.text.line_of[words.start], key, is_whole)
+        line = self.text.line_of[words.start]
+        is_cell = self.text.continues(line) and all(map(self._parts, (words.start, words.stop)))
+        return Piece(words, line, key, is_whole, is_cell, is_inner)
+
+    def _parts(self, word: int) -> bool:
+        """Whether a line or cell begins at a word."""
+        return self.text.opens_line(word) or self.text.opens_cell(word)
+
+    def _cells(self) -> Iterator[range]:
+        """The cells, and ends of cells, without a counterpart that stand between others of their line."""
+        for is_free, run in groupby(range(len(self.there)), key=lambda word: self.there[word] < 0):
+            words = list(run)
+            inside = range(words[0], words[-1] + 1)
+            amidst = not self.text.opens_line(inside.start) and not self.text.opens_line(inside.stop)
+            if is_free and amidst and (self._parts(inside.start) or self._parts(inside.stop)):
+                yield inside
 
     def _ends(self) -> Iterator[range]:
         for line in range(1, len(self.text.lines) + 1):

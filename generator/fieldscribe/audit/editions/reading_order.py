@@ -20,6 +20,8 @@ _LABEL = re.compile(r"(?!(?:0x)?[0-9a-f]*[0-9][0-9a-f]*h?$)(?:[^\W\d_]|.*[^\W\d_
 """What says something wherever it stands: it has letters, and is no number with other digits."""
 _NUMBER = re.compile(r"[0-9]+")
 _NAME = re.compile(r"[^\W\d_]{3}")
+_BESIDE = 2
+"""What was one cell stands within so many lines."""
 _WITHIN = 60
 """Two pieces enclose a number if at most so many words lie between."""
 
@@ -83,18 +85,23 @@ class ReadingOrder:
         places = self._places[id(self._old)]
         for piece in sorted(self._old.pieces(), key=lambda piece: -len(piece.key)):
             others = places.near(piece.words[0], by_key.get(piece.key, ()))
-            near = [other for other in others if self._may_be_one(piece, other)]
+            near = [other for other in others if self._may_be_one(piece, other, places)]
             if near and piece.key and self._old.is_free(piece.words):
                 best = min(near, key=lambda other: places.apart(piece.words[0], other.line))
                 self._take(self._old, piece.words, best.words)
 
-    def _may_be_one(self, old: Piece, new: Piece) -> bool:
+    def _may_be_one(self, old: Piece, new: Piece, places: Places) -> bool:
         if not self._new.is_free(new.words):
             return False
+        is_label = _LABEL.fullmatch(old.key) is not None
+        is_line = old.is_whole or new.is_whole
+        if old.is_inner or new.is_inner or not is_line:
+            is_near = places.apart(old.words[0], new.line) <= _BESIDE
+            return is_label and is_near and (is_line or old.is_cell or new.is_cell)
         if old.is_whole and new.is_whole:
-            return _LABEL.fullmatch(old.key) is not None
+            return is_label
         pieces = (self._new, new, self._old) if old.is_whole else (self._old, old, self._new)
-        return (old.is_whole or new.is_whole) and not self._stands_instead(*pieces)
+        return not self._stands_instead(*pieces)
 
     @staticmethod
     def _stands_instead(here: Side, piece: Piece, other: Side) -> bool:

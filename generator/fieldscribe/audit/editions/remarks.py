@@ -233,8 +233,7 @@ def _points_elsewhere(finding: Finding) -> bool:
 
 def _has_same_words(finding: Finding) -> bool:
     """Whether only cells and signs stand otherwise."""
-    was, now = (sorted(_ALNUM.findall(" ".join(pair[at] for pair in finding.words))) for at in (0, 1))
-    return was == now
+    return _ALNUM.findall(" ".join(finding.was)) == _ALNUM.findall(" ".join(finding.now))
 
 
 def _letters(text: str) -> str:

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     Pairs = list[tuple[int, int]]
 
-_CONTINUES = re.compile(r"[\t ]|\|\s*\|")
 _TEXT = re.compile(r"[^\W\d_]{2}")
 _TOGETHER = 4
 """A cell belongs to at most so many rows."""
@@ -146,18 +145,23 @@ def _cells(text: Words, line: int) -> list[list[str]]:
 def _head(text: Words, line: int) -> int:
     """The first word of the row that has a line."""
     first = line
-    while first > max(1, line - _LONGEST) and _CONTINUES.match(text.line(first)):
-        first -= 1
+    while first > max(1, line - _LONGEST) and text.continues(first):
+        first = _next(text, first, -1)
     words = text.of_line(first) or text.of_line(line)
     return words.start
 
 
 def _row(text: Words, line: int) -> range:
-    """The lines of a row: those below that have nothing in the first cell go on with it."""
-    last = line
-    while last - line < _LONGEST and _CONTINUES.match(text.line(last + 1)):
-        last += 1
+    """The lines of a row: those below that have nothing in the first cell go on with it, on the next page, too."""
+    last, below = line, _next(text, line, 1)
+    while below - line <= _LONGEST and text.continues(below):
+        last, below = below, _next(text, below, 1)
     return range(line, last + 1)
+
+
+def _next(text: Words, line: int, step: int) -> int:
+    """The line below (or above), on the next page where an empty one parts them."""
+    return line + step if text.line(line + step).strip() else line + 2 * step
 
 
 def _by_cells(text: Words, lines: range) -> list[int]:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 _FAR = 6
 """So many lines stay between two that are exchanged, at most."""
 _OWN_NUMBER = re.compile(r"\|?\s*\W{0,2}(\w*[0-9]\w*)\b")
-_CONTINUES = re.compile(r"[\t ]|\|\s*\|")
 
 
 def exchanged(matching: Matching) -> Iterator[Window]:
@@ -57,14 +56,46 @@ def _is_exchange(matching: Matching, olds: list[int], news: list[int]) -> bool:
     now = [_texts(matching.new, line) for line in news]
     if len(was) != len(now) or sorted(was) != sorted(now):
         return False
-    numbered = [_has_own_number(matching.old.lines[line - 1]) for line in olds]
+    numbered = [_has_own_number(matching.old, line) for line in olds]
     stays = [before == after for before, after in zip(was, now, strict=True)]
     kinds = set(zip(stays, numbered, strict=True))
     return (True, True) in kinds and (False, True) not in kinds
 
 
-def _has_own_number(line: str) -> bool:
-    return _CONTINUES.match(line) is None and _OWN_NUMBER.match(line) is not None
+def _has_own_number(text: Words, line: int) -> bool:
+    return not text.continues(line) and _OWN_NUMBER.match(text.line(line)) is not None
+
+
+def exchanged_cells(matching: Matching) -> Iterator[range]:
+    """The cell that stayed where two neighbours in a row changed places: the other seems to have gone and come."""
+    old, new = matching.old, matching.new
+    come = {
+        (new.line_of[start], *new.texts[start:end]): (start, end) for _, _, start, end in matching.gaps() if start < end
+    }
+    for first, last, *_ in matching.gaps():
+        for stayed in _cells_beside(old, first, last):
+            there = new.line_of[matching.there[stayed.start]]
+            start, end = come.get((there, *old.texts[first:last]), (0, 0))
+            beside = range(end, end + len(stayed)) if stayed.stop == first else range(start - len(stayed), start)
+            if start < end and [matching.there[word] for word in stayed] == list(beside):
+                yield stayed
+
+
+def _cells_beside(text: Words, first: int, last: int) -> Iterator[range]:
+    """The cells before and behind words that are a cell."""
+    if first == last or not _is_cell(text, first, last):
+        return
+    words = text.of_line(text.line_of[first])
+    parts = [word for word in words if text.opens_line(word) or text.opens_cell(word)]
+    if last in words:
+        yield range(last, next((word for word in parts if word > last), words.stop))
+    if first > words.start:
+        yield range(max(word for word in parts if word < first), first)
+
+
+def _is_cell(text: Words, first: int, last: int) -> bool:
+    parts = [word for word in range(first, last + 1) if text.opens_line(word) or text.opens_cell(word)]
+    return parts == [first, last]
 
 
 def _is_free_old(matching: Matching, line: int) -> bool:

@@ -36,12 +36,15 @@ _RULE = re.compile(rf"[|\s:+=*_{_DASHES}-]*([-=_*{_DASHES}]{{3}}|\|)[|\s:+=*_{_D
 _TAG = re.compile(
     r"</?(?:br|b|i|u|em|strong|sub|sup|p|ul|ol|li|div|span|font|small|center)(?:\s[^<>|]*)?/?>|\*\*", re.IGNORECASE
 )
-_PARTS_CELLS = re.compile(r"\||<br|<li", re.IGNORECASE)
+_PARTS_CELLS = re.compile(r"\||\t|<br|<li", re.IGNORECASE)
+_CONTINUES = re.compile(r"[\t ]|\|\s*\|")
 _MARKS = re.compile(r"\s*(?:#{1,6}|[-*+\u2022\u2013](?: +o)?|o(?= ))(?=\s)")
 """What makes a line a heading, or an entry of a list."""
 _HEXADECIMAL = re.compile(r"\b(?:0[xX]([0-9A-Fa-f]+)|([0-9][0-9A-Fa-f]*) ?[hH]|([0-9A-F]{2,})[hH])\b")
 _DASH_IN_WORD = re.compile(r"(?<=[^\W\d_]) ?- ?(?=[^\W\d_])")
 _PARTED_NUMBER = re.compile("[0-9]+[.,][0-9]+")
+_LIST = re.compile(r"(?<![0-9.,])(?![0-9]{1,3}(?:,[0-9]{3})+(?![0-9]))[0-9]+(?:,[0-9]+){2,}(?![0-9.,]*[0-9])")
+"""Numbers with nothing but commas between, but for those that part thousands."""
 _SPACED = 4
 """A word with blanks between its letters has so many: `C R C 1 6`."""
 _THOUSANDS = re.compile(r"(?<![0-9.,])(?<![0-9] )[1-9][0-9]{0,2}(?: [0-9]{3})+(?![0-9]| [0-9])")
@@ -84,9 +87,11 @@ class Words:
 
     @staticmethod
     def _is_decimal(line: str, sign: re.Match[str]) -> bool:
-        """Whether a sign is the comma of a number."""
+        """Whether a sign is the comma of a number, and parts no list of them: `0,3,4`."""
         start, end = sign.span()
-        return sign[0] == "," and line[start - 1 : start].isdigit() and line[end : end + 1].isdigit()
+        if sign[0] != "," or not line[start - 1 : start].isdigit() or not line[end : end + 1].isdigit():
+            return False
+        return not any(first < end <= last for first, last in map(re.Match.span, _LIST.finditer(line)))
 
     def __len__(self) -> int:
         return len(self.texts)
@@ -119,6 +124,10 @@ class Words:
     def opens_cell(self, word: int) -> bool:
         """Whether a word is the first of its cell, or of a line in it."""
         return word in self._opening
+
+    def continues(self, line: int) -> bool:
+        """Whether a line goes on with the row above: it has nothing in the first cell."""
+        return _CONTINUES.match(self.line(line)) is not None
 
     def beside(self, words: range) -> tuple[list[str], list[str]]:
         """The word before these and the one behind, where they are in the same cell."""
