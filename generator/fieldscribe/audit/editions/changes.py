@@ -283,10 +283,11 @@ def _there(line: int, here: Words, other: Words, counterparts: list[int]) -> Lin
         return place, place
     if not there:
         return None
-    lines = sorted(other.line_of[word] for word in there)
+    lines = sorted(head := [other.line_of[word] for word in there])
     middle = lines[len(lines) // 2]
     near = [place for place in lines if abs(place - middle) <= _NEAR]
-    return near[0], near[-1]
+    is_row = here.line(line).startswith("|") and head[0] in near  # a cell of it may be one with the one above
+    return head[0] if is_row else near[0], near[-1]
 
 
 _Placed = tuple["Gap", set[int], set[int]]
