@@ -8,7 +8,7 @@ import pytest
 from fieldscribe.audit.editions import Edition, compare
 from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.report import as_lines
-from fieldscribe.audit.editions.telling import is_prose, turned
+from fieldscribe.audit.editions.telling import is_prose, is_reference, turned
 from fieldscribe.audit.editions.vocabulary import is_one_spelling, is_respelled
 from fieldscribe.audit.pages import page_lines
 from fieldscribe.diagnostics import Report
@@ -48,7 +48,7 @@ Status word at 0020h
 4\tready\t
 \t1\tready
 
-The plant frees the ramp. See page 12.
+The plant frees the ramp. See page 3-12.
 
 {FILLING}"""
 POINTS = """- {code: H01, name: flow, at: 0010h, range: 0..900, scale: value = raw * 0.1, unit: K, line: 43}
@@ -116,7 +116,7 @@ REMARKS = {
         _with("The plant frees", "Terminals are described in the appendix.\n\nThe plant frees"),
         "references",
     ),
-    "another page": (_with("See page 12", "See page 14"), "wording"),
+    "another page": (_with("See page 3-12", "See page 3-14"), "references"),
     "a table over two pages": (
         _with("| H03", "\n| Code | Title | Register | Range | Step |\n|---|---|---|---|---|\n| H03"),
         "repeated_heads",
@@ -286,6 +286,65 @@ def test_equal_lines_that_changed_alike_are_told_once_however_they_break(subject
     assert [len(finding.places) for finding in outcome.findings] == [3]
 
 
+def test_a_section_behind_a_row_that_both_are_new_is_another_finding(subject: Subject) -> None:
+    last = "| H04 | Delay | 0013h | 0-30 | - |\n"
+    row, section = "| H05 | Pause | 0014h | 0-30 | - |\n", "\n## Pauses\n\nA pause of 20 s ends so.\n"
+    told = [finding.now for finding in _compared(subject, _with(last, last + row + section)).findings]
+    assert [lines[0] for lines in told] == [row.strip(), "## Pauses"]
+
+
+def test_lines_that_end_alike_keep_their_ends_where_a_section_moved_behind_them() -> None:
+    part = ["## Answers", "", "An answer has four fields, and each of them holds one word of the request", ""]
+    other = ["## Saving", "", "Words that were written are kept until the plant is switched off.", ""]
+    behind = ["New words follow here.", "", "## Lists"]
+    editions = Editions("\n".join([*part, *other, behind[-1]]), "\n".join([*other, *part, *behind]))
+    assert [(change.kind, change.new) for change in editions.changes] == [("added", (9,))]
+
+
+@pytest.mark.parametrize(
+    ("before", "fits"),
+    [
+        ("siehe Seite 3-", True),
+        ("siehe Seite 3\u2013", True),
+        ("auf S. ", True),
+        ("Kapitel A-", True),
+        ("Seiten 1 bis 3-", False),
+        ("von 3-", False),
+        ("page 12 - ", False),
+    ],
+)
+def test_numbers_of_pages_and_chapters(before: str, fits: bool) -> None:
+    assert is_reference(f"{before}44.", len(before) + 1) == fits
+
+
+@pytest.mark.parametrize(
+    ("printed", "taken", "row", "fixed"),
+    [
+        ("0.00 %", "0.01 %", "| H01 | Rate, 0.00 to 9 | 0010h | 0-900 | {} |", True),  # stands beside, too
+        ("0.1 Hz", "0.1 kHz", "| H01 | Rate, 2 to 90 kHz | 0010h | 0-900 | {} |", True),  # only the unit
+        ("0.1 Hz", "0.1 kHz", "| H01 | Rate, 2 to 90 kHz | 0011h | 0-900 | 0.1 Hz |", False),
+    ],
+)
+def test_an_erratum_that_was_mended_can_go(tmp_path: Path, printed: str, taken: str, row: str, fixed: bool) -> None:
+    documents = "{manual: {title: Manual, language: en, file: old}}"
+    step = f'printed: {{resolution: "{printed}"}}'
+    scale, unit = taken.split()
+    rate = f'range: 0..900, scale: value = raw * {scale}, unit: "{unit}"'
+    points = f"- {{code: H01, name: rate, at: 0010h, {rate}, line: 3, {step}}}\n"
+    facts = f'{step}, taken: {{resolution: "{taken}"}}'
+    erratum = f"- {{id: rate_step, point: H01, line: 3, {facts}, why: It says so., certainty: likely}}\n"
+    text = together(head(documents=documents), group(points, access="rw") + f"errata:\n{erratum}")
+    report = Report()
+    subject = load_subject(write(tmp_path / "plant", text), report)
+    assert subject is not None, report.findings
+    head_of_table = "| Code | Title | Register | Range | Step |\n|---|---|---|---|---|\n"
+    old, new = (head_of_table + row.format(step) + "\n" for step in (printed, taken))
+    if not fixed:
+        old = old.replace("0011h", "0010h")
+    outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
+    assert [void.is_corrected for finding in outcome.findings for void in finding.void] == [True] * fixed
+
+
 def test_a_removed_row_is_told_once(subject: Subject) -> None:
     [finding] = _compared(subject, _with("| H04 | Delay | 0013h | 0-30 | - |\n", "")).findings
     assert [(reason.kind, reason.subjects) for reason in finding.reasons] == [("gone", ("delay",))]
@@ -318,6 +377,7 @@ def test_spellings_of_a_text(old: str, new: str, same: bool) -> None:
         ("drei Codes", "three codes", []),
         ("Run right", "Rechtslauf", []),
         ("even", "ungerade", ["ungerade", "even"]),
+        ("auch im Lauf", "nur im Halt", ["nur"]),
         ("wird gelesen", "wird nicht gelesen", ["nicht"]),
         ("eine Anlage", "die Anlage", []),
     ],

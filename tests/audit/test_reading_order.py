@@ -126,6 +126,14 @@ def test_labels_and_numbers_that_were_exchanged_are_told(old: str, new: str) -> 
     assert _told(ENTRIES, text)
 
 
+@pytest.mark.parametrize(("end", "cell"), [("127", "500"), ("127h", "500"), ("1.27", "500"), ("slow", "fast")])
+def test_the_end_of_a_line_and_the_cell_below_that_were_exchanged_are_told(end: str, cell: str) -> None:
+    was = PAGE.replace("max. 127", f"max. {end}\n{cell}")
+    now = PAGE.replace("max. 127", f"max. {cell}\n{end}")
+    assert _told(was, now)
+    assert _told(now, was)
+
+
 def test_rows_that_differ_in_numbers_stay_in_their_places() -> None:
     was = "Inputs\nBit 5R/WInput 8 (=0x0040)\nBit 5R/WInput 7 (=0x0080)\nThe end of it."
     now = "Inputs\nBit 6R/WInput 7 (=0x0040)\nBit 7R/WInput 8 (=0x0080)\nThe end of it."
@@ -164,3 +172,42 @@ def test_a_hyphen_that_parts_a_word_is_not_that_of_another() -> None:
     was = "First line.\nOf all datawords the one at 755 (ASCII-code of it) is sent.\nA second line.\nAnd the last."
     now = "First line.\nOf all data-\nA second line.\nwords the one at 755 (ASCII-code of it) is sent.\nAnd the last."
     assert _told(was, now) == _told(now, was) == []
+
+
+CUT = """| Code | Title | Meaning | Register | Range |
+|------|-------|---------|----------|-------|
+| A001 | Source of frequency | Choices:<br>00 .. dial<br>01 .. input | 1019h/1018h | 0-3 |
+| A201 | Source of frequency (set 2) | 02 .. panel<br>03 .. bus | 150Ah/1509h | 0-3 |
+| A002 | Start and stop | Choices: | 101Ah/1019h | 1-3 |
+"""
+WHOLE = CUT.replace("02 .. panel<br>03 .. bus", "").replace("01 .. input", "01 .. input<br>02 .. panel<br>03 .. bus")
+
+
+def test_a_cell_of_two_rows_may_be_cut_between_them() -> None:
+    assert _told(CUT, WHOLE) == _told(WHOLE, CUT) == []
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "words"),
+    [
+        ("panel", "remote", [("panel", "remote")]),
+        ("02 ..", "04 ..", [("02", "04")]),
+        ("<br>02 .. panel", "", [("02 .. panel", "")]),
+        ("1509h", "150Bh", [("1509h", "150Bh")]),
+    ],
+)
+def test_a_change_in_rows_whose_cell_is_whole_now_is_told(was: str, now: str, words: list[tuple[str, str]]) -> None:
+    told = _told(CUT, WHOLE.replace(was, now))
+    assert [pair for _, gaps in told for pair in gaps] == words
+
+
+@pytest.mark.parametrize(
+    ("was", "now"),
+    [
+        (("0-3 |\n| A201", "1-2 |\n| A201"), ("-", "-")),  # a range
+        (("0-3 |\n| A201", "|\n| A201"), ("-", "-")),
+        (("01 .. input", "01 .. input<br>02 .. panel"), ("02 .. panel<br>", "")),  # a label of the other row
+    ],
+)
+def test_cells_of_their_own_rows_are_no_cut_ones(was: tuple[str, str], now: tuple[str, str]) -> None:
+    assert _told(CUT, CUT.replace(*now).replace(*was))

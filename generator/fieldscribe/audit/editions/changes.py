@@ -188,6 +188,9 @@ class Editions:
                 self._matching.forget_new(self.new.of_line(new))
 
     def _are_unlike(self, old: int, new: int) -> bool:
+        first = self._there[self.old.of_line(old).start]
+        if first >= 0 and self.new.line_of[first] != new:
+            return False  # the row stands elsewhere: what is here is a cell of it
         here = [word for word in self.old.of_line(old) if self.old.texts[word].isalnum()]
         there = {word: self.new.texts[word] for word in self.new.of_line(new) if self.new.texts[word].isalnum()}
         shared = sum(self._there[word] in there for word in here)
@@ -280,10 +283,11 @@ def _there(line: int, here: Words, other: Words, counterparts: list[int]) -> Lin
         return place, place
     if not there:
         return None
-    lines = sorted(other.line_of[word] for word in there)
+    lines = sorted(head := [other.line_of[word] for word in there])
     middle = lines[len(lines) // 2]
     near = [place for place in lines if abs(place - middle) <= _NEAR]
-    return near[0], near[-1]
+    is_row = here.line(line).startswith("|") and head[0] in near  # a cell of it may be one with the one above
+    return head[0] if is_row else near[0], near[-1]
 
 
 _Placed = tuple["Gap", set[int], set[int]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections import Counter
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere
 from fieldscribe.audit.editions.notes import Notes
 from fieldscribe.audit.editions.remarks import Remarks, is_reworded
 from fieldscribe.audit.editions.vocabulary import Vocabulary
-from fieldscribe.audit.editions.words import LINE_BREAK
+from fieldscribe.audit.editions.words import LINE_BREAK, Words
 from fieldscribe.audit.manual import Manual
 from fieldscribe.audit.wordings import Wordings
 from fieldscribe.records import dataclass, replace
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.editions.changes import Change, Move
     from fieldscribe.audit.editions.tracing import Trace
-    from fieldscribe.audit.editions.words import Words
     from fieldscribe.audit.manual import Extent
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
@@ -245,10 +245,31 @@ class _Comparing:
     def _void(self) -> Iterator[Void]:
         """Errata that were printed in the old edition and are not in the new one."""
         for erratum, in_old, in_new in self.errata:
-            if in_new is None or erratum.id not in self.new.void:
+            if in_new is None:
+                continue
+            if in_old is not None and self._is_mended(in_old, in_new):
+                yield Void(erratum.id, self._named(erratum)[1], True, in_new.cited[0][0])
+                continue
+            if erratum.id not in self.new.void:
                 continue
             if in_old is None or not (erratum.id in self.old.void or self._survives(in_old)):
                 yield Void(erratum.id, self._named(erratum)[1], self._is_corrected(in_new), in_new.cited[0][0])
+
+    def _is_mended(self, in_old: PrintedErratum, in_new: PrintedErratum) -> bool:
+        """Whether what an erratum took came in its lines, and what only the manual printed went."""
+        printed, taken = (Counter(Words(text).texts) for text in (in_old.shown, in_old.taken_text))
+        if in_old.is_sentence or not (came := taken - printed) or not (went := printed - taken):
+            return False
+        editions = self.editions
+        lines = [range(extent.first, extent.last + 1) for extent in self.old.extents_of(in_old.cited)]
+        gone = {
+            word for span in lines for line in span for word in editions.old.of_line(line) if editions.is_gone(word)
+        }
+        lines = [range(extent.first, extent.last + 1) for extent in self.new.extents_of(in_new.cited)]
+        new = {word for span in lines for line in span for word in editions.new.of_line(line) if editions.is_new(word)}
+        return went <= Counter(editions.old.texts[word] for word in gone) and came <= Counter(
+            editions.new.texts[word] for word in new
+        )
 
     def _survives(self, in_old: PrintedErratum) -> bool:
         """Whether all that an erratum names is printed as it was, if in another layout."""

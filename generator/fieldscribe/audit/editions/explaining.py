@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.claims_of_flags import LIST_OF_BITS
 from fieldscribe.audit.editions.findings import Cite, Reason
-from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_title, turned
+from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_reference, is_title, turned
 from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.records import replace
@@ -26,11 +26,6 @@ if TYPE_CHECKING:
     from fieldscribe.audit.manual import Token
 
 _PARTS = re.compile(r"[.,]")
-_REFERENCE = re.compile(
-    r"\b(?:Seiten?|S\.|pages?|p\.|Kapitel|Kap\.|Abschnitt|chapter|section|Abbildung|Abb\.|Bild|figure|fig\.)\s*$",
-    re.IGNORECASE,
-)
-"""What stands before a number that is no fact: that of a page, a chapter, a picture."""
 _MOST = 8
 """A reason names at most so many numbers or words."""
 _MOST_WEAKENED = 4
@@ -350,7 +345,7 @@ class Explaining:
 
     def _is_known(self, token: Token, words: range) -> bool:
         line = self.editions.new.line(token.line)
-        if _REFERENCE.search(line, 0, token.column - 1) or self._opens_section(token):
+        if is_reference(line, token.column) or self._opens_section(token):
             return True
         return self._is_passed_over(words) or (self.new.is_used(token) and self._fits(token, words))
 
@@ -414,7 +409,7 @@ class Explaining:
         """Whether numbers came with the words: each may be one of a fact by chance."""
         tokens = (token for token, _ in self._new_tokens(line, change))
         before = self.editions.new.line(line)
-        return any(not _REFERENCE.search(before, 0, token.column - 1) for token in tokens)
+        return any(not is_reference(before, token.column) for token in tokens)
 
     def _took_words(self, change: Change) -> bool:
         """Whether words went that a title, a label or another text of the description stood on."""

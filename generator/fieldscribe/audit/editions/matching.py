@@ -11,7 +11,7 @@ from collections import Counter
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.editions.rows import broken_otherwise
+from fieldscribe.audit.editions.rows import broken_otherwise, cut_otherwise
 from fieldscribe.audit.editions.swaps import exchanged, exchanged_cells
 
 if TYPE_CHECKING:
@@ -55,8 +55,9 @@ class Matching:
         self._mend_torn_lines(1)
         self._mend_torn_lines(-1)
         self._slide()
-        for here, others, pairs in list(broken_otherwise(self)):
-            self._put_into_cells(here, others, pairs)
+        for of_cells in (broken_otherwise, cut_otherwise):
+            for here, others, pairs in list(of_cells(self)):
+                self._put_into_cells(here, others, pairs)
         self._match_moved(_LENGTHS[:2])
         for olds, news in list(exchanged(self)):
             self.put_in_their_places(olds, news)
@@ -163,9 +164,16 @@ class Matching:
         """The part of a run that is whole lines of both texts."""
         while first < last and not (self.old.opens_line(first) and self.new.opens_line(first + shift)):
             first += 1
-        while first < last and not (self.old.opens_line(last) and self.new.opens_line(last + shift)):
+        while first < last and not self._end_lines(last, last + shift):
             last -= 1
         return first, last
+
+    def _end_lines(self, at: int, there: int) -> bool:
+        """Whether lines end before these words, or behind them where they are a sign: it may be taken for another."""
+        if self.old.opens_line(at) or self.new.opens_line(there):
+            return self.old.opens_line(at) and self.new.opens_line(there)
+        ends = self.old.opens_line(at + 1) and self.new.opens_line(there + 1)
+        return ends and self._a[at] == self._b[there] and not self.old.texts[at].isalnum()
 
     def _fits(self, at: int, there: int) -> bool:
         return self.there[at] < 0 and self.back[there] < 0 and self._a[at] == self._b[there]
@@ -193,7 +201,7 @@ class Matching:
                 continue
             olds, news = self.old.up_to_end(at, -step), self.new.up_to_end(there, -step)
             same = [self._a[word] for word in olds] == [self._b[word] for word in news]
-            if same and self.old.line_of[at] == self.old.line_of[beside] and all(self.back[word] >= 0 for word in news):
+            if same and self.old.line_of[at] == self.old.line_of[beside]:
                 self._exchange(olds, news, step)
 
     def _exchange(self, olds: range, news: range, step: int) -> None:
@@ -201,11 +209,13 @@ class Matching:
         for at, there in zip(olds, news, strict=True):
             other, left = self.back[there], self.there[at]
             self._match(at, there)
-            if left >= 0:
+            if other >= 0 and left >= 0:
                 self._match(other, left)
-            else:
+            elif other >= 0:
                 self.there[other] = -1
-            for word in (at, other):
+            elif left >= 0:
+                self.back[left] = -1
+            for word in (at, other) if other >= 0 else (at,):
                 (self.moved.add if word + step in self.moved else self.moved.discard)(word)
 
     def _beside(self, at: int, step: int) -> int | None:
@@ -214,7 +224,7 @@ class Matching:
         there = self.there[beside] + step if 0 <= beside < len(self.there) and self.there[beside] >= 0 else -1
         return there if 0 <= there < len(self.back) else None
 
-    def _put_into_cells(self, olds: range, news: range, pairs: list[tuple[int, int]]) -> None:
+    def _put_into_cells(self, olds: list[int], news: list[int], pairs: list[tuple[int, int]]) -> None:
         """Take the words of a row for those of another, pair by pair."""
         self.forget(olds)
         self.forget_new(news)
@@ -229,7 +239,7 @@ class Matching:
             here, there = self.old.of_line(old), self.new.of_line(new)
             self._match_word_by_word(here.start, here.stop, there.start, there.stop)
 
-    def forget(self, words: range) -> None:
+    def forget(self, words: Sequence[int]) -> None:
         """Let words of the old text have no counterpart."""
         for word in words:
             if self.there[word] >= 0:
@@ -254,7 +264,7 @@ class Matching:
             if self.back[word] < 0:
                 self.back[word] = olds[place * len(olds) // len(news)]
 
-    def forget_new(self, words: range) -> None:
+    def forget_new(self, words: Sequence[int]) -> None:
         """Let words of the new text have none."""
         for there in (self.back[word] for word in words if self.back[word] >= 0):
             self.forget(range(there, there + 1))

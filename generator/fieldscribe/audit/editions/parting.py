@@ -115,14 +115,19 @@ def _whole_lines(text: Words, side: _Side) -> list[tuple[int, int]]:
     line = text.line_of[side.head]
     if side.has_ends and not (_is_apart(text, line) or _are_rows(text, side)):
         return []
-    if not (is_row(text.line(line)) and is_row(text.line(line - 1)) and _are_rows(text, side)):
-        return [(side.head, side.tail)]
-    starts = [word for word in range(side.head, side.tail) if _opens_row(text, word)]
-    return list(zip([side.head, *starts[1:]], [*starts[1:], side.tail], strict=True))
+    rows = list(_rows_below(text, line, side.tail)) if is_row(text.line(line - 1)) else []
+    starts = [side.head, *(row for row in rows if row > side.head)]
+    return list(zip(starts, [*starts[1:], side.tail], strict=True))
 
 
-def _opens_row(text: Words, word: int) -> bool:
-    return text.opens_line(word) and not text.continues(text.line_of[word])
+def _rows_below(text: Words, line: int, tail: int) -> Iterator[int]:
+    """The first words of the rows from a line on, and of what stands behind them."""
+    while (word := text.of_line(line).start) < tail and is_row(text.line(line)):
+        if text.of_line(line) and not text.continues(line):
+            yield word
+        line += 1
+    if word < tail:
+        yield word
 
 
 def _are_whole_rows(text: Words, side: _Side) -> bool:

@@ -98,7 +98,19 @@ class ReadingOrder:
         if old.is_inner or new.is_inner or not is_line:
             is_near = places.apart(old.words[0], new.line) <= _BESIDE
             return is_label and is_near and (is_line or old.is_cell or new.is_cell)
-        return is_label or old.is_whole != new.is_whole
+        if old.is_whole and new.is_whole:
+            return is_label
+        pieces = (self._new, new, self._old) if old.is_whole else (self._old, old, self._new)
+        return not self._stands_instead(*pieces)
+
+    @staticmethod
+    def _stands_instead(here: Side, piece: Piece, other: Side) -> bool:
+        """Whether an end of a line stands where the same line of the other text has something else."""
+        for beside, step in ((piece.words.start - 1, 1), (piece.words.stop, -1)):
+            if 0 <= beside < len(here.there) and here.text.line_of[beside] == piece.line and here.there[beside] >= 0:
+                there = other.text.up_to_end(here.there[beside], step)
+                return any(other.text.texts[word].isalnum() for word in there[1:])
+        return False
 
     def _match_composed(self, here: Side, other: Side) -> None:
         """A line that was put together of pieces that stood apart."""

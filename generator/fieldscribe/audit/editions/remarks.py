@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.editions.findings import Finding, Place, Remark
 from fieldscribe.audit.editions.parting import is_row
 from fieldscribe.audit.editions.set_again import Heads, in_shared_cells, is_head_of_page
-from fieldscribe.audit.editions.telling import DATE, is_code, is_prose
+from fieldscribe.audit.editions.telling import DATE, REFERENCE, is_code, is_prose
 from fieldscribe.audit.editions.vocabulary import are_respelled, is_name, is_one_spelling
 from fieldscribe.audit.editions.words import Words
 from fieldscribe.audit.pages import pattern, repeated
@@ -128,6 +128,8 @@ class Remarks:
             return ""
         if finding.explained and finding.kind == "changed" and (is_spelling(finding) or _has_same_words(finding)):
             return "wording"
+        if finding.explained and finding.kind == "changed" and _points_elsewhere(finding):
+            return "references"
         if any(cite.fact for cite in finding.cited_by):
             return ""
         if any(reason.kind not in ("number", "word") for reason in finding.reasons):
@@ -230,6 +232,15 @@ def _is_reworded(old: str, new: str) -> bool:
     if are_respelled(old, new) or _letters(old) == _letters(new):
         return False
     return all(any(map(is_name, _ALNUM.findall(text))) for text in (old, new))
+
+
+def _points_elsewhere(finding: Finding) -> bool:
+    """Whether only numbers of pages, chapters, pictures are others: the finding is explained, so they are those."""
+    return all(
+        number and re.search(f"{REFERENCE}{re.escape(number)}(?!\\w)", " ".join(lines), re.IGNORECASE)
+        for words in finding.words
+        for number, lines in zip(words, (finding.was, finding.now), strict=True)
+    )
 
 
 def _has_same_words(finding: Finding) -> bool:

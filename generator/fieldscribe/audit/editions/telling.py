@@ -23,6 +23,7 @@ _MEANINGS = {
     "first": "erste[nrs]?|first|zuerst",
     "third": "dritte[nrs]?|third",
     "not": "nicht|kein\\w*|not|never|nie|niemals|cannot|ohne|without",
+    "only": "nur|only|lediglich|ausschlie\u00dflich|solely|exclusively",
     "even": "gerade[nrs]?|even",
     "odd": "ungerade[nrs]?|odd",
     "high": "high|h\u00f6her\\w*|h\u00f6chst\\w*|highest|higher",
@@ -64,6 +65,12 @@ DATE = re.compile(
     re.IGNORECASE,
 )
 _EDITION = re.compile(r"\b(?:Edition|Ausgabe|Auflage|Stand|issue|revision)\b[^.;:,]{0,12}$|\u00a9[^.]*$", re.IGNORECASE)
+REFERENCE = (
+    r"\b(?:Seiten?|S\.|pages?|p\.|Kapitel|Kap\.|Abschnitt|chapter|section|Abbildung|Abb\.|Bild|figure|fig\.)\s*"
+    r"(?:\w{1,2}[-\u2010-\u2013.])?"
+)
+"""What stands before a number that is no fact: of a page, a chapter, a picture; `3-` where chapters count them."""
+_REFERENCE = re.compile(f"{REFERENCE}$", re.IGNORECASE)
 _TITLE = re.compile(r"[0-9]+[^\W\d_]{4,}")
 _ABBREVIATION = re.compile(r"[A-Z]{2,5}")
 _CODE = re.compile(r"\w*[0-9]\w*|[A-Z]{2,5}")
@@ -94,6 +101,11 @@ def is_of_edition(line: str, column: int) -> bool:
     """Whether a number is part of a date, or tells the edition."""
     dates = (match.span() for match in DATE.finditer(line))
     return _EDITION.search(line, 0, column - 1) is not None or any(first < column <= last for first, last in dates)
+
+
+def is_reference(line: str, column: int) -> bool:
+    """Whether a number is that of a page, a chapter, a picture."""
+    return _REFERENCE.search(line, 0, column - 1) is not None
 
 
 def is_title(word: str) -> bool:
