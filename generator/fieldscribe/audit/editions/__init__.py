@@ -8,6 +8,7 @@ matching.py     which words of the old text are which of the new one (swaps.py: 
 changes.py      lines that were changed, added, removed, moved (parting.py: rows that went or came, each by itself)
 citations.py    what the description cites, in the lines of both editions
 tracing.py      which words bear each fact
+holding.py      which claims hold in the new edition, and which change keeps the others from it
 explaining.py   what keeps a changed line from being explained (vocabulary.py: the description's own words;
                 telling.py: what running text tells)
 notes.py        which sentences of the description say what changed

@@ -11,8 +11,9 @@ from fieldscribe.audit.citing import Claim
 from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.editions.citations import Citations
 from fieldscribe.audit.editions.drafts import Drafts
-from fieldscribe.audit.editions.explaining import Explaining, Pair, failing
+from fieldscribe.audit.editions.explaining import Explaining, failing
 from fieldscribe.audit.editions.findings import Cite, Comparison, Doubt, Finding, Place, Reason, Void
+from fieldscribe.audit.editions.holding import Pair
 from fieldscribe.audit.editions.joining import joined, said_once, with_elsewhere, with_void
 from fieldscribe.audit.editions.notes import Notes
 from fieldscribe.audit.editions.remarks import Remarks, is_reworded
@@ -102,7 +103,7 @@ class _Comparing:
         told = list(zip(editions.changes, findings, strict=True))
         findings = joined(sorted((*findings, *map(self._of_move, editions.moves)), key=self._order))
         findings = list(map(self.explaining.swapped, findings))
-        elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.elsewhere)]
+        elsewhere = [*reasons.get(-1, ()), *(failing(pair.claim) for pair in self.explaining.holding.elsewhere)]
         findings, outcome.elsewhere = with_elsewhere(findings, elsewhere)
         findings, outcome.void = with_void(findings, self._void())
         bearing = set().union(*self.old.borne.values()), set().union(*self.new.borne.values())

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.audit.editions.changes import Editions
-    from fieldscribe.audit.editions.explaining import Pair
+    from fieldscribe.audit.editions.holding import Pair
     from fieldscribe.importing import Seen
     from fieldscribe.importing.drafts import DraftPoint
     from fieldscribe.resolve.points import Resolved

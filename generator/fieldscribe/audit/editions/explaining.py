@@ -6,10 +6,10 @@ import re
 from collections import Counter
 from fractions import Fraction
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims_of_flags import LIST_OF_BITS
 from fieldscribe.audit.editions.findings import Cite, Reason
+from fieldscribe.audit.editions.holding import Holding, borne_by
 from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_reference, is_title, turned
 from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
 from fieldscribe.audit.editions.words import Words
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.editions.changes import Change, Editions
     from fieldscribe.audit.editions.findings import Finding
+    from fieldscribe.audit.editions.holding import Pair
     from fieldscribe.audit.editions.tracing import Trace
     from fieldscribe.audit.editions.vocabulary import Vocabulary
     from fieldscribe.audit.manual import Token
@@ -30,14 +31,6 @@ _MOST = 8
 """A reason names at most so many numbers or words."""
 _MOST_WEAKENED = 4
 """So many facts are told that were printed otherwise in one place: the first of them show what it is."""
-
-
-class Pair(NamedTuple):
-    """A claim as it is written, and with the lines of each edition; None where the edition has none of them."""
-
-    claim: Claim
-    old: Claim | None
-    new: Claim | None
 
 
 class Explaining:
@@ -54,126 +47,22 @@ class Explaining:
         self.old, self.new = traces
         self.editions, self.words = editions, words
         self.passed_over = passed_over
-        self.pairs_of: dict[int, list[Pair]] = {}
-        self._of_old = _by_line((change.old, number) for number, change in enumerate(editions.changes))
-        self._of_new = _by_line((change.new, number) for number, change in enumerate(editions.changes))
-        self.headings, self._old_headings = frozenset(self.new.manual.headings), frozenset(self.old.manual.headings)
-        self.place_of: dict[str, str] = {}
-        self._code_of = {pair.claim.subject: pair for pair in pairs if pair.claim.fact == "code"}
-        self.failing_at: dict[int, list[Pair]] = {}
-        self.elsewhere: list[Pair] = []
-        for pair in pairs:
-            self.place_of.setdefault(pair.claim.subject, pair.claim.where)
-            touched = self._touched(pair)
-            for number in touched:
-                self.pairs_of.setdefault(number, []).append(pair)
-            if self.fails(pair):
-                self._note_failing(pair, touched)
+        self.holding = Holding(editions, traces, pairs)
+        self.headings = frozenset(self.new.manual.headings)
+        self.place_of = {pair.claim.subject: pair.claim.where for pair in reversed(pairs)}
         self.subjects_at: dict[int, dict[str, None]] = {}
         for extent, subjects in sorted(self.new.subjects.items(), key=lambda item: item[0].kind == "section"):
             for line in range(extent.first, extent.last + 1):
                 self.subjects_at.setdefault(line, {}).update(dict.fromkeys(subjects))
-
-    def _note_failing(self, pair: Pair, touched: set[int]) -> None:
-        """A claim that does not hold belongs to the change of its words, else to all that touch its lines."""
-        of_code = self._code_of[pair.claim.subject] if self._left_column(pair) else pair
-        touched = touched | self._touched(of_code)
-        bearing = _borne(self.old, pair.old) | _borne(self.old, of_code.old)
-        gone = set(filter(self.editions.is_gone, bearing))
-        own = {number for number in touched for old, _ in self.editions.changes[number].gaps if gone.intersection(old)}
-        own = own or self._counted_anew_by(pair) or touched
-        for number in own:
-            self.failing_at.setdefault(number, []).append(pair)
-        failed_before = pair.old is not None and pair.old in self.old.missed
-        if not own and not failed_before:
-            self.elsewhere.append(pair)
-
-    def _counted_anew_by(self, pair: Pair) -> set[int]:
-        """The nearest change above a section that has another number now which brought a heading, or took one."""
-        if not self._is_counted_anew(pair) or pair.old is None or pair.new is None:
-            return set()
-        was, now = pair.old.cited[0][0], pair.new.cited[0][0]
-        above = [
-            number
-            for number, change in enumerate(self.editions.changes)
-            if (change.kind == "added" and any(line < now for line in self.headings.intersection(change.new)))
-            or (change.kind == "removed" and any(line < was for line in self._old_headings.intersection(change.old)))
-        ]
-        return set(above[-1:])
-
-    def _touched(self, pair: Pair) -> set[int]:
-        """The changes in the lines that a claim takes its fact from."""
-        olds = self.old.extents_of(pair.old.cited) if pair.old else ()
-        news = self.new.extents_of(pair.new.cited) if pair.new else ()
-        lines = {line for extent in olds for line in range(extent.first, extent.last + 1)}
-        touched = {number for line in lines for number in self._of_old.get(line, ())}
-        lines = {line for extent in news for line in range(extent.first, extent.last + 1)}
-        return touched | {number for line in lines for number in self._of_new.get(line, ())}
-
-    def fails(self, pair: Pair) -> bool:
-        """Whether a claim does not hold in the new edition: a fact whose words are all still there, in order, does."""
-        lost = self._lost_access, self._is_parted, self._lost_list, self._is_counted_anew, self._left_column
-        if any(has_lost(pair) for has_lost in lost):
-            return True
-        if pair.claim.optional or (pair.new is not None and pair.new not in self.new.missed):
-            return False
-        if pair.old is None or pair.old in self.old.missed:
-            return True
-        borne = self.old.borne.get(pair.old, set())
-        if borne:
-            there = [self.editions.there(word) for word in sorted(borne)]
-            return min(there) < 0 or there != sorted(there)  # a label that stands behind its number now is another's
-        return bool(self._touched(pair)) or pair.new is None
-
-    def _is_counted_anew(self, pair: Pair) -> bool:
-        """Whether the number of a section is another now: its heading is known by its title."""
-        if pair.claim.fact != "section" or pair.old is None or pair.new not in self.new.missed:
-            return False
-        olds, news = self.editions.old.texts, self.editions.new.texts
-        places = ((word, self.editions.there(word)) for word in self.old.named.get(pair.old, ()))
-        return any(there >= 0 and olds[word] != news[there] for word, there in places)
-
-    def _lost_access(self, pair: Pair) -> bool:
-        """Whether a row that printed an access does not print it any more."""
-        if pair.claim.fact != "access":
-            return False
-        was = self.old.named.get(pair.old, ()) if pair.old else ()
-        return any(map(self.editions.is_gone, was)) and not (pair.new and self.new.named.get(pair.new))
-
-    def _lost_list(self, pair: Pair) -> bool:
-        """Whether a row that listed the bits of all flags lists others now."""
-        if pair.claim.fact != LIST_OF_BITS or pair.old is None or pair.new is None:
-            return False
-        borne = self.old.borne.get(pair.old, set())
-        return any(map(self.editions.is_gone, borne)) and not self.new.borne.get(pair.new)
-
-    def _left_column(self, pair: Pair) -> bool:
-        """Whether a code that stood in a table below the number of its place stands below another."""
-        code = self._code_of.get(pair.claim.subject)
-        if code is None or not pair.claim.is_address or pair.claim.cited == code.claim.cited:
-            return False
-        was, now = (
-            _columns(trace, side) & _columns(trace, of_code)
-            for trace, side, of_code in ((self.old, pair.old, code.old), (self.new, pair.new, code.new))
-        )
-        return bool(was) and not now
-
-    def _is_parted(self, pair: Pair) -> bool:
-        """Whether a label that stood right beside its number does not any more."""
-        if not pair.claim.beside or pair.old is None or pair.new is None:
-            return False
-        if not any(map(self.editions.is_gone, self.old.borne[pair.old])):
-            return False
-        return not self.old.sides_of(pair.old) <= self.new.sides_of(pair.new)
 
     def cites(self, number: int, change: Change) -> tuple[Cite, ...]:
         """What cites a changed line: the facts that stood on its words, else the subjects, of its section last."""
         gone = {word for old, _ in change.gaps for word in old}
         come = {word for _, new in change.gaps for word in new}
         exact, whole = dict[Cite, None](), dict[Cite, None]()
-        for pair in self.pairs_of.get(number, ()):
+        for pair in self.holding.pairs(number):
             claim = pair.claim
-            bears = _borne(self.old, pair.old) & gone or _borne(self.new, pair.new) & come
+            bears = borne_by(self.old, pair.old) & gone or borne_by(self.new, pair.new) & come
             if bears and (not claim.beside or self._was_whole(pair, change) or self._is_whole(pair, change)):
                 exact[Cite(claim.subject, claim.fact, claim.shown, claim.where)] = None
             whole[Cite(claim.subject, "", "", self.place_of[claim.subject])] = None
@@ -194,7 +83,7 @@ class Explaining:
         return replace(change, gaps=tuple(gap for gap in change.gaps if not self._is_spelling(*gap)))
 
     def _by_facts(self, number: int, change: Change) -> Iterator[Reason]:
-        yield from (failing(pair.claim) for pair in self.failing_at.get(number, ()))
+        yield from (failing(pair.claim) for pair in self.holding.failing_at.get(number, ()))
         yield from islice(self._weakened(number, change), _MOST_WEAKENED)
         meant = self._without_spellings(change)
         took_words = self._took_words(meant)
@@ -228,7 +117,7 @@ class Explaining:
     def _turned(self, number: int, change: Change) -> Iterator[Reason]:
         """Numbers in words, and words that turn a sentence round, but for those that the description followed."""
         olds, news = self.editions.old, self.editions.new
-        claims = [pair.new for pair in self.pairs_of.get(number, ()) if pair.new and pair.old in self.old.missed]
+        claims = [pair.new for pair in self.holding.pairs(number) if pair.new and pair.old in self.old.missed]
         followed = set().union(*(self.new.named[claim] for claim in claims if claim not in self.new.missed))
         gaps = [(old, new) for old, new in change.gaps if followed.isdisjoint(new)]
         texts = [([olds.texts[word] for word in old], [news.texts[word] for word in new]) for old, new in gaps]
@@ -266,7 +155,7 @@ class Explaining:
 
     def _weakened(self, number: int, change: Change) -> Iterator[Reason]:
         """Facts that were printed twice, and once otherwise now, where the new word is no news to the description."""
-        pairs = self.pairs_of.get(number, ())
+        pairs = self.holding.pairs(number)
         come = {word for _, new in change.gaps for word in new}
         for old, new in change.gaps:
             if not old or not new or self._is_passed_over(new) or not self._is_known_already(new, pairs):
@@ -291,7 +180,7 @@ class Explaining:
 
     def _lost_one(self, pair: Pair, old: range, new: range) -> bool:
         """Whether a fact stood on these words of the old edition, and stands on none of those in their place."""
-        return not _borne(self.old, pair.old).isdisjoint(old) and _borne(self.new, pair.new).isdisjoint(new)
+        return not borne_by(self.old, pair.old).isdisjoint(old) and borne_by(self.new, pair.new).isdisjoint(new)
 
     def _stands_anew(self, pair: Pair, come: set[int]) -> bool:
         """Whether a label stands right beside its number on a word that is new: it changed places with another."""
@@ -320,7 +209,7 @@ class Explaining:
         """Whether one of these words bears only facts that stand elsewhere, too, where nothing changed."""
         for word in words:
             if self.editions.new.texts[word].isalnum():
-                bearing = [pair for pair in pairs if word in _borne(self.new, pair.new) and not pair.claim.optional]
+                bearing = [pair for pair in pairs if word in borne_by(self.new, pair.new) and not pair.claim.optional]
                 if all(self._stood_before(pair) for pair in bearing):
                     return True
         return False
@@ -328,7 +217,7 @@ class Explaining:
     def _stood_before(self, pair: Pair) -> bool:
         if pair.old is None or pair.old in self.old.missed:
             return False
-        return any(not self.editions.is_gone(word) for word in _borne(self.old, pair.old))
+        return any(not self.editions.is_gone(word) for word in borne_by(self.old, pair.old))
 
     def _numbers(self, line: int, change: Change) -> Iterator[Reason]:
         """The new numbers of a line that no fact that cites it has."""
@@ -374,7 +263,7 @@ class Explaining:
             signed = [(word + 1, True) for word in new if news.is_minus(word)]
             signed += [(self.editions.there(word + 1), False) for word in old if olds.is_minus(word)]
             for word, has_sign in signed:
-                bearing = [pair.claim for pair in self.pairs_of.get(number, ()) if word in _borne(self.new, pair.new)]
+                bearing = [pair.claim for pair in self.holding.pairs(number) if word in borne_by(self.new, pair.new)]
                 bearing = [claim for claim in bearing if claim.fact != "number"]  # of a code: [-01] is no minus one
                 if bearing and all(("-" in claim.shown) != has_sign for claim in bearing):
                     with_or_without = "with" if has_sign else "without"
@@ -414,8 +303,8 @@ class Explaining:
     def _took_words(self, change: Change) -> bool:
         """Whether words went that a title, a label or another text of the description stood on."""
         gone = {word for old, _ in change.gaps for word in old}
-        numbers = {number for line in change.old for number in self._of_old.get(line, ())}
-        pairs = (pair for number in numbers for pair in self.pairs_of.get(number, ()))
+        numbers = self.holding.changes_of(change.old)
+        pairs = (pair for number in numbers for pair in self.holding.pairs(number))
         return any(pair.old and not self.old.named.get(pair.old, set()).isdisjoint(gone) for pair in pairs)
 
     def _is_prose_section(self, change: Change) -> bool:
@@ -450,7 +339,7 @@ class Explaining:
         olds, news = self.editions.old, self.editions.new
         gone = {olds.texts[word] for old, _ in change.gaps for word in old}
         stands = {news.texts[word] for line in change.new for word in news.of_line(line)}
-        for subject in dict.fromkeys(pair.claim.subject for pair in self.pairs_of.get(number, ())):
+        for subject in dict.fromkeys(pair.claim.subject for pair in self.holding.pairs(number)):
             unit, place = self.words.unit_of(subject)
             if gone.intersection(set(Words(unit).texts) - stands):
                 yield Reason("unit", f": unit {unit} is not there", place, (subject,), (unit,))
@@ -486,22 +375,3 @@ def failing(claim: Claim) -> Reason:
 
 def _of_claim(kind: str, claim: Claim, said: str) -> Reason:
     return Reason(kind, f": {claim.fact} {claim.shown} {said}", claim.where, (claim.subject,))
-
-
-def _borne(trace: Trace, claim: Claim | None) -> set[int]:
-    return trace.borne.get(claim, set()) if claim is not None else set()
-
-
-def _columns(trace: Trace, claim: Claim | None) -> set[int]:
-    """In which columns of tables a claim stands."""
-    text = trace.text
-    columns = (trace.manual.column(text.line_of[word], text.column_of[word] - 1) for word in _borne(trace, claim))
-    return {column for column in columns if column is not None}
-
-
-def _by_line(changes: Iterable[tuple[tuple[int, ...], int]]) -> dict[int, list[int]]:
-    by_line: dict[int, list[int]] = {}
-    for lines, number in changes:
-        for line in lines:
-            by_line.setdefault(line, []).append(number)
-    return by_line
