@@ -90,7 +90,7 @@ def _with_feet(foot: str) -> str:
 
 HEAD = "# Heat pump: **Modbus**\n\nOf: controllers of 2020\n\n"
 THREE = OLD.replace("Chapter e", f"{HEAD}Chapter e").replace("Chapter l", f"{HEAD}Chapter l")
-PAGES = OLD.replace("Chapter g", f"{HEAD}Chapter g").replace("Chapter m", f"{HEAD}Chapter m")
+HEADED = OLD.replace("Chapter g", f"{HEAD}Chapter g").replace("Chapter m", f"{HEAD}Chapter m")
 BITS = OLD.replace("4\tready\t\n\t1\tready", "4\tset, low\t00 = one 01 = two 10 = three\n5\tset, high\t")
 
 
@@ -137,10 +137,10 @@ def test_what_holds_no_fact_is_one_remark(subject: Subject, new: str, kind: str)
 
 SET_AGAIN = {
     # layout of an old text: the kind of the remark
-    "the head of a page more": (PAGES, PAGES.replace("The plant", f"{HEAD}The plant", 1), "heads_and_feet"),
+    "the head of a page more": (HEADED, HEADED.replace("The plant", f"{HEAD}The plant", 1), "heads_and_feet"),
     "the head of a page more, set otherwise": (
-        PAGES,
-        PAGES.replace("The plant", "## Heat pump: Modbus\n\n\nOf: controllers of 2020\n\nThe plant", 1),
+        HEADED,
+        HEADED.replace("The plant", "## Heat pump: Modbus\n\n\nOf: controllers of 2020\n\nThe plant", 1),
         "heads_and_feet",
     ),
     "heads in one line": (THREE, THREE.replace(HEAD, "Heat pump, Modbus, controllers of 2020\n\n"), "heads_and_feet"),
@@ -157,9 +157,9 @@ def test_what_is_set_again_is_one_remark(subject: Subject, old: str, new: str, k
 
 NOT_SET_AGAIN = {
     # what only looks like it
-    "a head with another number": (PAGES, PAGES.replace("The plant", f"{HEAD.replace('2020', '2021')}The plant", 1)),
+    "a head with another number": (HEADED, HEADED.replace("The plant", f"{HEAD.replace('2020', '2021')}The plant", 1)),
     "heads that say something new": (THREE, THREE.replace(HEAD, "Heat pump, Modbus, controllers of 2021\n\n")),
-    "one of its lines": (PAGES, PAGES.replace("The plant", "Of: controllers of 2020\n\nThe plant", 1)),
+    "one of its lines": (HEADED, HEADED.replace("The plant", "Of: controllers of 2020\n\nThe plant", 1)),
     "an entry that is another": (BITS, _in_both_rows(BITS).replace("10 = three", "10 = two")),
     "all entries of a cell": (
         BITS.replace(" 01 = two 10 = three", ""),
