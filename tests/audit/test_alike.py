@@ -6,7 +6,10 @@ import json
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.audit import audit
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_subject
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
@@ -107,3 +110,22 @@ def test_one_place_among_many(
     report = json.loads(capsys.readouterr().out)
     assert [f"{fact['subject']} {fact['fact']} {fact['wanted']}" for fact in report["missing"]] == missing
     assert report["moved"] == []
+
+
+MASKS = """Inputs 0020h
+Bit 0 Input 1 (=0x0001)
+Bit 1 Input 2 (=0x0002)
+Bit 2 Input 3 (=0x0004)
+"""
+
+
+@pytest.mark.parametrize(("old", "new"), [("", ""), ("=0x0002", "=1"), ("=0x0004", "=3"), ("=0x0001", "=9")])
+def test_the_number_beside_a_label_is_no_mask(old: str, new: str, tmp_path: Path) -> None:
+    flags = "".join(
+        f"    {bit}: {{name: input_{bit}, title: {{en: Input {bit + 1}}}, printed: {{bit: {bit}, mask: {1 << bit}}}}}\n"
+        for bit in range(3)
+    )
+    points = f"- name: inputs\n  at: 0020h\n  line: 1\n  flags:\n{flags}  lines: {{flags: 2..4}}\n"
+    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    assert described is not None
+    assert audit(described, "plant", "manual.txt", MASKS.replace(old, new), same_text=None).clean == (not old)

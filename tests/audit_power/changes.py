@@ -64,7 +64,7 @@ class Changes:
             passage = self.sound.passage(self.sound.extent(*cited))
             if claim.in_order and (runs := list(passage.in_order(claim.in_order))):
                 yield from (token for run in runs for token in run)
-            elif claim.beside:
+            elif claim.beside or (claim.entry is not None and not claim.words):  # others may read so by chance
                 for label in self._labels(claim, cited):
                     yield label.tokens[0]
             else:

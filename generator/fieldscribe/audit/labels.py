@@ -93,6 +93,10 @@ def _best(
     orders = (False, True) if any(claim.beside or not claim.words for claim in claims) else (False,)
     for after, otherwise, tight in ways:
         candidates = {claim: list(_candidates(claim, passage, after, otherwise, tight)) for claim in claims}
+        beside = {label.tokens[0] for labels in candidates.values() for label in labels if label.claim.beside}
+        for claim, labels in candidates.items():
+            if claim.fact == "flags" and not claim.words:  # the number beside a label is no mask
+                labels[:] = [label for label in labels if label.tokens[0] not in beside]
         if columns is not None:
             candidates = {
                 claim: [label for label in labels if not _strays(label, passage, columns)]
