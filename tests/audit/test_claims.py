@@ -42,7 +42,8 @@ def test_a_message_claims_its_numbers_and_both_ends_of_its_bytes() -> None:
         ("layout", "4", ((5, 0),), True),
         ("layout", "6", ((5, 0),), False),
         ("layout", "7", ((5, 0),), False),
-        ("layout", "bytes 0 to 7", ((5, 0),), True),
+        ("layout", "bytes 0 to 7", ((5, 0),), True),  # in the head of a table
+        ("layout", "bytes 0 to 7", ((5, 0),), True),  # in lines that each end with one
     ]
 
 

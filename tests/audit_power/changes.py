@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe.audit.facts import reading, runs_of
 from fieldscribe.audit.instead import printed_access
 from fieldscribe.audit.labels import standing
 from fieldscribe.records import dataclass
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.comparison import Comparison
     from fieldscribe.audit.labels import Standing
     from fieldscribe.audit.manual import Token
+    from fieldscribe.audit.passage import Passage
 
 _CELL = re.compile(r"[^|\t]+")
 _WORDS = ("Sollwert", "gesperrt", "Pumpe", "Notbetrieb", "Wartung", "Vorlauf", "dritte", "umgekehrt")
@@ -62,13 +64,20 @@ class Changes:
     def _tokens(self, claim: Claim) -> Iterator[Token]:
         for cited in claim.cited:
             passage = self.sound.passage(self.sound.extent(*cited))
-            if claim.in_order and (runs := list(passage.in_order(claim.in_order))):
+            if claim.in_order and (runs := list(runs_of(claim, passage))):
                 yield from (token for run in runs for token in run)
             elif claim.beside or (claim.entry is not None and not claim.words):  # others may read so by chance
                 for label in self._labels(claim, cited):
                     yield label.tokens[0]
             else:
-                yield from passage.reading(claim.numbers)
+                hits = reading(claim, passage)
+                listed = self._listed(claim, passage)
+                yield from [token for token in hits if token in listed] or hits
+
+    def _listed(self, claim: Claim, passage: Passage) -> list[Token]:
+        """The list of all numbers of a fact, where it is printed: others read so by chance."""
+        lists = (other for other in self.sound.claims if (other.subject, other.fact) == (claim.subject, claim.fact))
+        return [token for other in lists if other.in_order for run in runs_of(other, passage) for token in run]
 
     def _labels(self, claim: Claim, cited: tuple[int, int]) -> list[Standing]:
         together = self.lists.get((claim.subject, claim.fact, claim.cited), [claim])

@@ -79,6 +79,10 @@ class Claim:
     """Whether the number stands alone in the first cell of its row."""
     behind: tuple[frozenset[Fraction], ...] = ()
     """Numbers that are printed right before it, in their order, if they are printed so at all."""
+    under: frozenset[Fraction] = frozenset()
+    """The number of the byte: where a table counts the bytes in its head, the number stands below that one."""
+    closing: bool = False
+    """Whether each of the numbers in order closes a short line, as in `b.) Byte 1`."""
     rivals: tuple[str, ...] = ()
     """Words that would say another fact in place of this one, such as `R/W` for `R`."""
 
@@ -91,6 +95,11 @@ class Claim:
     def where(self) -> str:
         """Its place in the description, as findings show places: file:line:column."""
         return f"{self.place.file}:{self.place.line}:{self.place.column}"
+
+    @property
+    def kind_of_subject(self) -> str:
+        """What it is a fact of, such as `message`; empty for a point."""
+        return self.subject.rpartition(" ")[0]
 
     @property
     def is_address(self) -> bool:
@@ -132,6 +141,7 @@ class Citing:
         alike: str = "",
         opens: bool = False,
         behind: tuple[frozenset[Fraction], ...] = (),
+        under: frozenset[Fraction] = frozenset(),
         place: Span | None = None,
     ) -> Iterator[Claim]:
         """A fact that one of these numbers states; `kind` is its key in `lines`, where that has another name."""
@@ -160,6 +170,7 @@ class Citing:
                 alike=alike,
                 opens=opens,
                 behind=behind,
+                under=under,
             )
 
     def in_order(  # noqa: PLR0913 - one line of a table of facts
@@ -173,9 +184,11 @@ class Citing:
         tight: bool = False,
         optional: bool = False,
         alike: str = "",
+        words: tuple[str, ...] = (),
+        closing: bool = False,
         place: Span,
     ) -> Iterator[Claim]:
-        """Numbers that are printed one after the other, in one of two ways, or also `apart`."""
+        """Numbers that are printed one after the other, in one of two ways, or also `apart`; `words` in their line."""
         cited = self.lines_of_fact.get(kind or fact, self.own_line)
         wanted = [tuple(frozenset((abs(number),)) for number in way) for way in ways]
         if cited and wanted[0]:
@@ -186,7 +199,7 @@ class Citing:
                 fact,
                 shown,
                 numbers,
-                (),
+                words,
                 cited,
                 place,
                 about=self.about,
@@ -196,6 +209,7 @@ class Citing:
                 tight=tight,
                 optional=optional,
                 alike=alike,
+                closing=closing,
             )
 
     def label(  # noqa: PLR0913 - one line of a table of facts

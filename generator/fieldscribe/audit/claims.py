@@ -24,8 +24,9 @@ _ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams
 def claims_of(subject: Subject) -> Iterator[Claim]:
     """All facts of points, frames, codes of the bus, messages and telegrams that name a line."""
     wordings = Wordings(subject.scope.header["documents"])
+    parts = _parts_of_addresses(subject)
     for resolved in subject.resolved:
-        yield from claims_of_point(resolved.point, resolved.draft, subject.scope.named_enums, wordings)
+        yield from claims_of_point(resolved.point, resolved.draft, subject.scope.named_enums, wordings, parts)
     for name, entries in subject.scope.named_enums.items():
         yield from _claims_of_enum(name, entries, wordings)
     for file in subject.scope.files:
@@ -38,6 +39,16 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
             yield from claims_of_line_settings(bus)
             for kind, section in sections_of_codes().items():
                 yield from claims_of_codes(kind, bus.get(section))
+
+
+def _parts_of_addresses(subject: Subject) -> frozenset[str]:
+    """The numberings of which one number belongs to several addresses, such as `mux` of `Mux 3 Word 2`."""
+    addresses: dict[tuple[str, object], set[int]] = {}
+    for resolved in subject.resolved:
+        for place in resolved.point.places:
+            for name, number in place.references.items():
+                addresses.setdefault((name, number), set()).add(min(place.addresses))
+    return frozenset(name for (name, _), places in addresses.items() if len(places) > 1)
 
 
 def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Claim]:

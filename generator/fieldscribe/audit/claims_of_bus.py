@@ -36,17 +36,22 @@ def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim
         for number in numbers_in(entry.get(key)):
             yield from citing.numbers(key, str(number), (number,), place=entry.span(key))
     layout = entry.get("layout", Map(entry.file, entry.at))
+    names = ("Byte", *wordings.code("byte"))
     for place, carried in layout.items():
-        for number in (*numbers_in(place), *numbers_in(carried)):
-            yield from citing.numbers("layout", str(number), (number,), "bytes", place=layout.key_span(place))
-        first, *last = map(int, numbers_in(place))
+        at, (first, *last) = layout.key_span(place), map(int, numbers_in(place))
+        for number in numbers_in(place):
+            yield from citing.numbers("layout", str(number), (number,), "bytes", names=names, place=at)
+        for number in numbers_in(carried):
+            yield from citing.numbers(
+                "layout", str(number), (number,), "bytes", under=frozenset((Fraction(first),)), place=at
+            )
         for byte in range(first + 1, max(last, default=first)):
-            at = layout.key_span(place)
             yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True, place=at)
     run = [Fraction(byte) for byte in range(max(map(int, numbers_in(list(layout))), default=-1) + 1)]
     if run:
-        shown = f"bytes 0 to {len(run) - 1}"
-        yield from citing.in_order("layout", shown, [run], "bytes", optional=True, place=layout.span())
+        shown, at = f"bytes 0 to {len(run) - 1}", layout.span()
+        yield from citing.in_order("layout", shown, [run], "bytes", optional=True, place=at)
+        yield from citing.in_order("layout", shown, [run], "bytes", optional=True, closing=True, place=at)
     yield from citing.label("title", wordings.label(entry.get("title")), place=entry.span("title"))
 
 

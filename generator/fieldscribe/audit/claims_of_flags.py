@@ -31,7 +31,7 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
     alike = "values" in citing.lines_of_fact  # printed once for all flags
     kind = "values" if alike else "flags"
     for position, flag in enumerate(point.flags):
-        place, node = _node_of_flag(draft, flag)
+        place, node = _node_of_flag(draft, flag, above)
         label = wordings.label(node.get("title")) if isinstance(node, Map) else ()
         values = [_label_of_value(node, entry.raw, wordings) for entry in flag.values]
         by_value = any(values)  # the labels of the values stand beside numbers, the title is one of them or none
@@ -82,11 +82,27 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
             bits = () if alike else beside
             number = Fraction(entry.raw)
             yield from citing.label("flag values", words, kind, beside=(number,), or_beside=bits, entry=at, place=place)
-            if not words and flag.width > 1:
-                yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (number,), "flags", place=place)
         bare = {entry.raw for entry, words in zip(flag.values, values, strict=True) if not words}
         yield from _rows_of(citing, flag, flag.low + above, bare, place)
+        yield from _lines_of_values(citing, flag, flag.low + above, label, values, place)
+        yield from _behind_their_name(citing, flag, above, wordings, place)
     yield from _list_of(citing, point, above, draft.span("flags"))
+
+
+def _behind_their_name(citing: Citing, flag: Flag, above: int, wordings: Wordings, place: Span) -> Iterator[Claim]:
+    """The highest bit behind the word `Bit`, where the manual prints most flags so."""
+    number = Fraction(flag.low + flag.width - 1 + above)
+    yield from citing.numbers(
+        "flags",
+        f"bit {number}",
+        (number,),
+        "flags",
+        optional=True,
+        words=joined("bit", number),
+        names=("Bit", *wordings.code("bits")),
+        alike="bits behind their name",
+        place=place,
+    )
 
 
 def _list_of(citing: Citing, point: Point, above: int, place: Span) -> Iterator[Claim]:
@@ -134,6 +150,27 @@ def _rows_of(citing: Citing, flag: Flag, bit: int, bare: set[int], place: Span) 
         )
 
 
+def _lines_of_values(  # noqa: PLR0913, PLR0917 - what a line prints of a value
+    citing: Citing, flag: Flag, bit: int, titles: tuple[str, ...], values: list[tuple[str, ...]], place: Span
+) -> Iterator[Claim]:
+    """How a table may print a value of a bit: in a line of its own, as `Bit 8 = 0: input 4 not delayed`."""
+    for entry, words in zip(flag.values, values, strict=True) if flag.width == 1 else ():
+        lines = tuple(f"{title} {label}" for title in titles for label in words)
+        if lines:
+            shown, run = f"bit {bit} = {entry.raw}: {lines[0]}", [(Fraction(bit), Fraction(entry.raw))]
+            yield from citing.in_order(
+                "flag values",
+                shown,
+                run,
+                "flags",
+                optional=True,
+                tight=True,
+                alike="lines of values",
+                words=lines,
+                place=place,
+            )
+
+
 def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
     if not isinstance(node, Map):
         return ()
@@ -144,11 +181,11 @@ def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
     return wordings.label(titles) if isinstance(titles, Map) else ()
 
 
-def _node_of_flag(draft: Draft, flag: Flag) -> tuple[Span, Any]:
+def _node_of_flag(draft: Draft, flag: Flag, above: int) -> tuple[Span, Any]:
     """Where the description names the bits of a flag, and what it says of them."""
     flags = draft.get("flags")
     if isinstance(flags, Map):
-        ends = {flag.low, flag.low + flag.width - 1}
+        ends = {flag.low + above, flag.low + above + flag.width - 1}
         key = next((bits for bits in flags if ends == set(numbers_in(bits))), None)
         return (flags.span(), None) if key is None else (flags.key_span(key), flags[key])
     return draft.span("flags"), None

@@ -26,15 +26,20 @@ _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 """The keys of `printed` whose place `lines` names by another key."""
 
 
-def claims_of_point(point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings) -> Iterator[Claim]:
-    """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts."""
+def claims_of_point(
+    point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings, parts: frozenset[str]
+) -> Iterator[Claim]:
+    """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts.
+
+    `parts` are the numberings that tell an address only together with another one.
+    """
     citing = Citing(point.item, draft.span(), point.source.line, draft.get("lines"), point.name)
     code = None if point.code is None else _INDEX_BEHIND_CODE.sub("", point.code).strip()
     if code:
         yield from citing.words("code", *_codes_of(code, wordings), str(point.code), place=draft.span("code"))
     if _says_itself(draft, "section"):
         yield from citing.words("section", str(draft.get("section")), place=draft.span("section"))
-    yield from _address(citing, point, draft, code or "")
+    yield from _address(citing, point, draft, code or "", parts)
     yield from citing.label("title", wordings.label(_titles_of(draft)), place=draft.span("title"))
     yield from _access(citing, draft, wordings)
     yield from _numbers_of(citing, point, draft, wordings)
@@ -69,7 +74,7 @@ def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
     return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in wordings.code(letters)))
 
 
-def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[Claim]:
+def _address(citing: Citing, point: Point, draft: Draft, code: str, parts: frozenset[str]) -> Iterator[Claim]:
     if point.address is None:
         return
     at = draft.get("at")
@@ -88,13 +93,14 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str) -> Iterator[
             )
         return
     for place in point.places:
-        references = [Fraction(number) for number in place.references.values() if isinstance(number, int)]
+        told = {name: number for name, number in place.references.items() if name not in parts}
+        references = [Fraction(number) for number in told.values() if isinstance(number, int)]
         yield from citing.numbers(
             "address",
             f"{min(place.addresses):04X}h",
             (Fraction(min(place.addresses)), *references, *rule),
             anchor=place is point.place,
-            words=tuple(word for name, number in place.references.items() for word in joined(name, number)),
+            words=tuple(word for name, number in told.items() for word in joined(name, number)),
             place=draft.span("at"),
         )
 

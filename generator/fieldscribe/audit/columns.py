@@ -31,15 +31,20 @@ class Columns:
         """Numbers that state a fact."""
         if claim.optional:
             return
-        if extent.kind == "section":
+        if extent.kind == "section" and not claim.names:
             self._note(claim, extent, {self._name_of(token.line) for token in tokens})
-        else:
+        elif extent.kind == "row":
             self.note_columns(claim, extent, {self.manual.column(token.line, token.column - 1) for token in tokens})
 
     def note_columns(self, claim: Claim, extent: Extent, columns: set[int | None]) -> None:
         """The columns in which a fact stands in its row."""
         if extent.kind == "row":
             self._note(claim, extent, {column for column in columns if column is not None})
+
+    def note_heading(self, claim: Claim, extent: Extent, stands: bool) -> None:
+        """Whether a title stands in the heading of its section."""
+        if extent.kind == "section":
+            self._note(claim, extent, {"heading"} if stands else ())
 
     def strays(
         self, is_shared: Callable[[Extent], bool], is_taken: Callable[[Claim, Extent], bool]
@@ -52,7 +57,7 @@ class Columns:
                 if claim.is_address:  # a number that is misprinted in one notation stands right in the other
                     columns = frozenset().union(*(others for other, others in claims if _are_alike(claim, other)))
                 for table in self._tables(extent):
-                    kind = (*table, claim.fact, is_shared(extent))
+                    kind = (*table, claim.fact, claim.kind_of_subject, is_shared(extent))
                     kinds.setdefault(kind, []).append((claim, extent, columns))
         for alike in kinds.values():
             yield from _strays(alike, is_taken)

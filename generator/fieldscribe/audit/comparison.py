@@ -65,7 +65,7 @@ class Comparison(Facts):
         strays = self.columns.strays(
             lambda extent: len(self.subjects[extent]) > 1, lambda claim, extent: self._is_taken(claim, [extent])
         )
-        for claim, extent in (*strays, *self.siblings.lacking()):
+        for claim, extent in (*strays, *self.siblings.lacking(lambda extent: len(self.subjects[extent]))):
             if all(claim is not absent for absent, _ in self.absent):
                 self._misses(claim, [extent])
         for erratum in self.errata:
@@ -86,6 +86,8 @@ class Comparison(Facts):
         for extent, here in places:
             for label in here:
                 self.columns.note_columns(label.claim, extent, self._columns_of(label, extent))
+                if label.claim.fact == "title":
+                    self.columns.note_heading(label.claim, extent, self._stands_in_heading(label.claim, extent))
         labels = [label for _, here in places for label in here]
         self._use(token for label in labels for token in label.tokens)
         self.added += (token for extent, here in places for token in self._added_to(here, extent))
@@ -98,8 +100,17 @@ class Comparison(Facts):
         for passage in (self._own_passage(claims[0], extent) for extent in extents):  # 0x0001 may be any 1 of the list
             self._use(token for mask in masks for token in passage.reading(mask.numbers))
         for claim in claims:
-            if claim not in stands:
+            if claim not in stands and not any(self._stands_in_line(claim, extent) for extent in extents):
                 self._misses(claim, extents)
+
+    def _stands_in_line(self, claim: Claim, extent: Extent) -> bool:
+        """Whether a place prints a flag's value in a line of its own: `Bit 8 = 0: input 4 not delayed`."""
+        return any(
+            self._stands(line, extent)
+            for line in self._claims_in[extent, claim.fact]
+            if line.in_order and line.words and line.place == claim.place
+            if line.in_order[-1] == claim.beside or (not claim.words and line.in_order[0] <= claim.numbers)
+        )
 
     def _added_to(self, labels: list[Standing], extent: Extent) -> Iterator[Token]:
         """The number right behind the last label of an enum, if it is the next one and has a label, too."""
@@ -117,6 +128,12 @@ class Comparison(Facts):
         passage = self._own_passage(label.claim, extent)
         titles = [first for word in label.claim.words for first, _ in passage.places(word)]
         return {passage.column(place) for place in ([label.place] if label.claim.beside else titles or [label.place])}
+
+    def _stands_in_heading(self, claim: Claim, extent: Extent) -> bool:
+        """Whether a title stands in the first line of its place."""
+        passage = self.passage(extent)
+        end = len(self.manual.line(extent.first))
+        return any(place <= end for word in claim.words for _, place in passage.places(word))
 
     def _standing(self, claims: list[Claim], extent: Extent) -> list[Standing]:
         """The labels that stand in a place, or in the claims' own part of it."""

@@ -45,7 +45,7 @@ class Errata(Places):
 
     def _is_of(self, erratum: PrintedErratum, claim: Claim, *, here: bool) -> bool:
         """Whether an erratum took a number for such a fact: addresses for addresses, limits that are not printed."""
-        if claim.optional or claim.row:
+        if (claim.optional and not claim.names) or claim.row:
             return False
         if claim.is_address:
             return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)

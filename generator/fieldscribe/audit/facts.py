@@ -14,7 +14,7 @@ from fieldscribe.audit.manual import Extent, Token, has_word, places_in
 from fieldscribe.audit.places import nearly_all
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.passage import Passage
@@ -23,10 +23,24 @@ _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""
 _BEHIND_THE_FIRST = ("answers", "refusals")
 """Facts of a code that its row prints behind the code itself."""
-_OF_CODES = ("max", "answers", "refusals")
-"""Facts that no manual prints with two or three binary digits."""
+_IN_BINARY = ("enum", "flag values", "special", "fixed bits", "default")
+"""Facts that a manual may print with two or three binary digits."""
 _FAR = 400
 """A section number that is no heading is searched in at most so many lines above."""
+
+
+def runs_of(claim: Claim, passage: Passage) -> Iterator[list[Token]]:
+    """The numbers of a claim wherever they follow each other as it says."""
+    for way in claim.ways:
+        for run in passage.in_order(way):
+            if claim.fact in _IN_BINARY or all(map(Token.is_plainly, run, way)):
+                yield run
+
+
+def reading(claim: Claim, passage: Passage) -> list[Token]:
+    """The numbers that can mean what a claim says."""
+    hits = passage.reading(claim.numbers)
+    return hits if claim.fact in _IN_BINARY else [token for token in hits if token.is_plainly(claim.numbers)]
 
 
 def _are_alike(claim: Claim, other: Claim) -> bool:
@@ -41,9 +55,12 @@ class Facts(Errata):
         for facts, check in self._checks:
             if claim.fact in facts:
                 return check(claim, extent)
+        if claim.in_order:
+            return self._numbers_stand(claim, extent)
         own = self._own_passage(claim, extent).text
         stands = [self._has(word, extent) and has_word(own, word) for word in claim.words]  # each marks what it uses
-        if not any(stands) and claim.names and self.passage(extent).joins(claim.names):
+        is_named = bool(claim.names and claim.words) and not claim.optional
+        if is_named and not any(stands) and self.passage(extent).joins(claim.names):
             return 0  # where the manual prints PZD2, a 2 alone is another fact
         return max(map(int, stands), default=0) or self._numbers_stand(claim, extent)
 
@@ -62,15 +79,18 @@ class Facts(Errata):
         key = (extent, f"{claim.subject} {claim.alike}")
         if claim.alike and key not in self._parted:
             claims = [other for other in self._claims_in[extent, claim.fact] if _are_alike(claim, other)]
-            self._parted[key] = nearly_all([bool(self._numbers_stand(other, extent)) for other in claims])
+            stand = [bool(self._stands(other, extent)) for other in claims]
+            most = bool(claim.words) and 2 * sum(stand) > len(stand)  # numbers with words are no chance
+            self._parted[key] = most or nearly_all(stand)
         return self._parted.get(key, False)
 
     def _lists_another(self, claim: Claim, extent: Extent) -> bool:
         """Whether a place prints the list of a fact with another number in it."""
         if claim.apart:
             return False
-        errata = (erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent]))
-        known = frozenset().union(*(erratum.taken.union(erratum.numbers) for erratum in errata))
+        errata = [erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent])]
+        printed = (number for erratum in errata if not erratum.is_sentence for number in erratum.numbers)
+        known = frozenset(printed).union(*(erratum.taken for erratum in errata))
         passage = self._own_passage(claim, extent)
         others = (other for way in claim.ways for other in passage.nearly_in_order(way, tight=claim.tight))
         return any(not other.readings & known for other in others)
@@ -101,6 +121,8 @@ class Facts(Errata):
         self._use(hits)
         if hits:
             self.columns.note(claim, cited, hits)
+            if cited.kind == "section":
+                self.siblings.note_numbers(claim, cited, len(hits))
         if hits or not claim.between:
             return len(hits)
         readings = {reading for token in passage.tokens for reading in token.readings}
@@ -114,14 +136,15 @@ class Facts(Errata):
 
     def _hits(self, claim: Claim, passage: Passage) -> list[Token]:
         """The numbers of a passage that state a fact: of those that can mean it, those in its row, cell or name."""
-        hits = passage.reading(claim.numbers)
-        if claim.fact in _OF_CODES:
-            hits = [token for token in hits if token.is_plainly(claim.numbers)]
+        hits = reading(claim, passage)
+        if claim.under and (below := passage.under(claim.under)):
+            self._use(hits)  # sentences say them again
+            hits = [token for token in hits if token in below]
         if claim.row and (claim.optional or passage.behind(claim.row)):
             hits = [token for token in hits if token in passage.behind(claim.row)]
         if claim.opens:
             hits = [token for token in hits if token in passage.opening_rows]
-        if claim.names and (named := passage.behind_names(claim.names)):
+        if claim.names and ((named := passage.behind_names(claim.names)) or claim.optional):
             hits = [token for token in hits if token in named]
         if claim.fact in _BEHIND_THE_FIRST and len(passage.in_first_cell) < len(passage.tokens):
             hits = [token for token in hits if token not in passage.in_first_cell]
@@ -135,9 +158,13 @@ class Facts(Errata):
 
     def _stand_in_order(self, claim: Claim, passage: Passage, extent: Extent) -> bool:
         """Whether the numbers stand one after the other, or each somewhere where they may: a range in one line."""
-        runs = [run for way in claim.ways for run in passage.in_order(way)]
+        runs = list(runs_of(claim, passage))
         if claim.tight:
             runs = [run for run in runs if passage.has_signs_alone(run[0], run[-1])]
+        if claim.words:
+            behind = [passage.words_behind(run[-1], claim.words) for run in runs]
+            self._use(token for places in behind for place in places for token in passage.inside(*place))
+            runs = [run for run, places in zip(runs, behind, strict=True) if places]
         self._use(token for run in runs for token in run)
         self.columns.note(claim, extent, (run[0] for run in runs))
         if runs or not claim.apart:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 
+_SHORT_LINE = re.compile(r"(?:\w\W{1,3})?[^\W\d]+ [0-9]+\W*")
 _LISTED = 4
 """So many numbers make a list that is known though another one stands in place of one of them."""
 
@@ -126,6 +127,25 @@ class Passage:
         first = set(map(id, self.in_first_cell))
         return [token for token in self.tokens if opens[0] <= token.line < end and id(token) not in first]
 
+    def under(self, head: frozenset[Fraction]) -> list[Token]:
+        """The numbers in the column of a number that a table's head counts, in the row below the head."""
+        below: list[Token] = []
+        for line in dict.fromkeys(token.line for token in self.tokens):
+            heads = [token for token in self.tokens if token.line == line]
+            counts = len(heads) >= _LISTED and all(at in token.readings for at, token in enumerate(heads))
+            columns = {self._column_of(token) for token in heads if counts and token.is_plainly(head)} - {None}
+            row = [token for token in self.tokens if token.line == line + 1]
+            below += (token for token in row if self._column_of(token) in columns)
+        return below
+
+    def _column_of(self, token: Token) -> int | None:
+        return self.manual.column(token.line, token.column - 1)
+
+    @cached_property
+    def of_short_lines(self) -> Passage:
+        """The lines that are nothing but a name and a number, as `b.) Byte 1`."""
+        return Passage(self.manual, [piece for piece in self.pieces if _SHORT_LINE.fullmatch(piece[2])])
+
     def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
         """What stands behind each number of one's own, up to the next number of others."""
         cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
@@ -214,17 +234,33 @@ class Passage:
         cells = [match.span() for match in re.finditer(r"^\|?[^|\t\n]*(?=[|\t])", self.text, re.MULTILINE)]
         return [token for first, end in cells for token in self.inside(first, end)] if cells else self.tokens
 
+    def words_behind(self, token: Token, words: tuple[str, ...]) -> list[tuple[int, int]]:
+        """Where one of these words stands in the line of a number, behind it: first place and the place behind."""
+        first = self.end_of(token)
+        end = self.text.find("\n", first) % (len(self.text) + 1)
+        return [place for word in words for place in self.places(word) if first <= place[0] < end]
+
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""
         at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
     def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False) -> Iterator[Token]:
-        """Each number that stands in place of one of a list, which are enough to be known without it."""
+        """Each number that stands in place of one of a list, which are enough to be known without it.
+
+        One between the first, or the last, and all others is no such number: the list is whole.
+        """
         for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
-            run = self.tokens[at : at + len(numbers)]
+            end = at + len(numbers)
+            run = self.tokens[at:end]
             others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]
-            if len(others) == 1 and (not tight or self.has_signs_alone(run[0], run[-1])):
+            if len(others) != 1 or (tight and not self.has_signs_alone(run[0], run[-1])):
+                continue
+            before, behind = self.tokens[max(0, at - 1) : at], self.tokens[end : end + 1]
+            put_between = (others[0] is run[0] and any(token.readings & numbers[0] for token in before)) or (
+                others[0] is run[-1] and any(token.readings & numbers[-1] for token in behind)
+            )
+            if not put_between:
                 yield others[0]
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:

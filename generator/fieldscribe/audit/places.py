@@ -116,7 +116,8 @@ class Places:
     def _own_passage(self, claim: Claim, extent: Extent) -> Passage:
         """A place, or the part of it behind the subject's own address where the manual prints such facts so."""
         part = self._part(claim.subject, extent) if claim.fact in _PARTED else None
-        return part if part is not None and self._parts(extent, claim.fact) else self.passage(extent)
+        own = part if part is not None and self._parts(extent, claim.fact) else self.passage(extent)
+        return own.of_short_lines if claim.closing else own
 
     @cached_property
     def _addresses(self) -> dict[Extent, dict[str, frozenset[Fraction]]]:

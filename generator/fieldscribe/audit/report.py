@@ -26,6 +26,9 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
         where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
         subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
         message = f": {subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
+        if fact.nearest is not None and fact.line <= fact.nearest <= fact.last:
+            lacks = "is not everywhere where places like it have it"
+            message = f": {subject}: {fact.fact} {fact.wanted} {lacks}, at {where}; line {fact.nearest} has it"
         if fact.printed is not None:
             says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
             message = f": {subject}: {fact.fact}: {says} at {where}"

@@ -1,0 +1,136 @@
+"""Bits, numbers and titles in the lists of a manual: each changed one is a finding, the text itself has none."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.audit import audit
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_subject
+from support.described import group, head, together, write
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+LINES = """4.1 Inputs
+
+ID\t77
+Range\t11 + 10 + 9 + 8
+Range\tBit 11 = 0 => Input 1 closed
+\tBit 11 = 1 => Input 1 open
+\tBit 10 = 0 => Input 2 closed
+\tBit 10 = 1 => Input 2 open
+\tBit 9 = 0 => Input 3 closed
+\tBit 9 = 1 => Input 3 open
+\tBit 8 = 0 => Input 4 closed
+\tBit 8 = 1 => Input 4 open
+"""
+INPUTS = ", ".join(
+    f"{bit}: {{name: input_{12 - bit}, title: {{en: Input {12 - bit}}}, zero: {{en: closed}}, one: {{en: open}}}}"
+    for bit in (11, 10, 9, 8)
+)
+INPUT_LINES = f'- {{name: inputs, at: 77, bits: 11..8, flags: {{{INPUTS}}}, section: "4.1", line: 1}}\n'
+
+PAIRS = """4.1 Pairs
+
+77\tBit 3 + 2 Pump Bit 1 + 0 Gate
+"""
+PAIRS_OF_BITS = (
+    "- {name: pairs, at: 77, flags: {3..2: {name: pump, title: {en: Pump}}, 1..0: {name: gate, title: {en: Gate}}},"
+    " line: 3}\n"
+)
+
+RELAYS = "\n".join(
+    f"4.{at} Relay\n\nID {at}0 + {at}1 + {at}2\n\nID {at}0 of it.\n\nID {at}1 of it.\n\nID {at}2 of it.\n"
+    for at in range(11, 19)
+)
+RELAY_WORDS = "".join(
+    f'- {{name: relay_{at}{word}, at: {at}{word}, section: "4.{at}", line: {10 * (at - 11) + 1}}}\n'
+    for at in range(11, 19)
+    for word in range(3)
+)
+
+LEVELS = "\n".join(f"4.{at} Level {chr(at + 86)}\n\nID {at}\n\nThe level {chr(at + 86)}.\n" for at in range(11, 21))
+LEVEL_TITLES = "".join(
+    f"- {{name: level_{at}, title: {{en: Level {chr(at + 86)}}}, at: {at},"
+    f' section: "4.{at}", line: {6 * (at - 11) + 1}}}\n'
+    for at in range(11, 21)
+)
+
+
+def found(folder: Path, points: str, text: str) -> list[str]:
+    """The facts that are missing and the numbers that no fact uses."""
+    documents = "{manual: {title: Manual, language: en, writes: {bits: [Bit]}}}"
+    subject = load_subject(write(folder / "plant", together(head(documents=documents), group(points))), Report())
+    assert subject is not None
+    outcome = audit(subject, "plant", "manual.txt", text, same_text=None)
+    return [f"{one.fact} {one.wanted}" for one in outcome.missing] + [f"unused {one.number}" for one in outcome.unused]
+
+
+DEVICES = {
+    "inputs": (INPUT_LINES, LINES),
+    "pairs": (PAIRS_OF_BITS, PAIRS),
+    "relays": (RELAY_WORDS, RELAYS),
+    "levels": (LEVEL_TITLES, LEVELS),
+}
+
+
+@pytest.mark.parametrize(
+    ("device", "old", "new", "expected"),
+    [
+        ("inputs", "", "", []),
+        ("inputs", "Input 2 closed", "Input 3 closed", ["flag values bit 10 = 0: Input 2 closed"]),
+        ("inputs", "Input 4 open", "Input 4 shut", ["flag values bit 8 = 1: Input 4 open"]),
+        ("inputs", "Bit 9 = 0", "Bit 7 = 0", ["flag values bit 9 = 0", "unused 0", "unused 3"]),
+        ("inputs", "10 + 9 + 8", "10 + 9 + 6", ["bits 11 to 8", "list of bits 11, 10, 9, 8"]),
+        ("pairs", "", "", []),
+        ("pairs", "Bit 3 + 2", "Bit 9 + 2", ["flags bits 3 and 2"]),
+        ("pairs", "Bit 3 + 2", "Bit 3 + 9", ["flags bits 3 and 2", "flags 3 = Pump"]),
+        ("relays", "", "", []),
+        ("relays", "150 + 151 + 152", "150 + 150 + 152", ["address 0097h"]),
+        ("levels", "", "", []),
+        ("levels", "4.13 Level c", "4.13 Power c", ["title Level c"]),
+    ],
+)
+def test_a_changed_number_in_a_list(device: str, old: str, new: str, expected: list[str], tmp_path: Path) -> None:
+    points, text = DEVICES[device]
+    assert not old or text.count(old) == 1
+    assert found(tmp_path, points, text.replace(old, new) if old else text) == expected
+
+
+MESSAGE = """4.1 Ask on H'33F
+
+Byte 0\tByte 1\tByte 2\tByte 3\tByte 4\tByte 5\tByte 6\tByte 7
+H'FF\tUnit\tID\tID\t0\t0\tCheck\tCheck
+
+a.) Byte 0
+
+In byte 0 stands FF.
+
+""" + "\n\n".join(f"{letter}.) Byte {byte}" for byte, letter in enumerate("bcdefgh", 1))
+ASK = """messages:
+- {name: ask, direction: request, can_id: 33Fh, layout: {0: FFh, 1: unit, 2..3: address, 4..5: 0, 6..7: xor 0..5},
+   line: 1}
+looked_through: [{lines: 1, numbers: ["4.1"], why: The section.}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", []),
+        ("H'FF", "H'FE", ["layout 255"]),
+        ("ID\t0\t0", "ID\t1\t0", ["layout 0"]),
+        ("d.) Byte 3", "d.) Byte 5", ["layout bytes 0 to 7"]),
+        ("Byte 2\tByte 3", "Byte 3\tByte 3", ["layout bytes 0 to 7"]),
+    ],
+)
+def test_a_changed_byte_of_a_message(old: str, new: str, expected: list[str], tmp_path: Path) -> None:
+    assert not old or MESSAGE.count(old) == 1
+    bus = "{bitrate: 125000, identifier_bits: 11, units: 1..30}"
+    subject = load_subject(write(tmp_path / "plant", head(family="can", bus=bus) + ASK), Report())
+    assert subject is not None
+    text = MESSAGE.replace(old, new) if old else MESSAGE
+    outcome = audit(subject, "plant", "manual.txt", text, same_text=None)
+    assert [f"{one.fact} {one.wanted}" for one in outcome.missing] == expected
