@@ -7,6 +7,7 @@ with as few changes of the shift as possible.
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from typing import TYPE_CHECKING
@@ -14,13 +15,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.manual import Manual
 
-_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 24.0
+_LOST, _NOT_FIRST, _BELOW, _CHANGE, _BACK = 10.0, 1.0, 0.5, 6.0, 10.0
 """Costs of a place: no anchor stands in it; none stands on its first line; that line is not its section's heading;
 it is shifted otherwise than the place above; it stands above that place, and not where rows between may be gone.
 
@@ -39,10 +40,17 @@ _MERGED = 10
 """The text of a merged cell stands at most so many rows above."""
 _GONE = 10
 """At most so many rows are gone together."""
+_BLANK_CELL = re.compile(r"\|\s*\|")
+_FITS, _FITS_NEARLY = 1.0, 7.0
+"""A place that costs less fits: nothing is lost, and it begins with one of its anchors; or nothing of weight is lost."""
 _HOPELESS = 3 * _CHANGE
 """A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
 _COMMON, _NEAREST = 12, 3
 """How many of the most frequent shifts are tried for every line, and how many of its own for each anchor."""
+_RARE = 3
+"""A fact that stands in at most so many lines tells by itself where its line is."""
+_NEIGHBOURS, _FEW = 6, 3
+"""Then each line tries the shifts of so many lines above and below, and those that differ by so little."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +83,15 @@ def placement(
     ]
     states = [dict.fromkeys((0, *common, *shifts_of_line)) for shifts_of_line in own_shifts]
     shifts = search.cheapest(states)
-    return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
+    nearby = [shifts[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS + 1] for at in range(len(lines))]
+    shifts = search.cheapest([dict.fromkeys(_around(shifts_nearby)) for shifts_nearby in nearby])
+    return dict(zip(lines, search.snapped(shifts), strict=True))
+
+
+def _around(shifts: Iterable[int]) -> Iterator[int]:
+    """Shifts, and those that a few lines more or fewer between two places make of them."""
+    for shift in dict.fromkeys(shifts):
+        yield from range(shift - _FEW, shift + _FEW + 1)
 
 
 def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
@@ -112,10 +128,10 @@ def _places(manual: Manual, claim: Claim) -> list[int]:
 
 
 def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
-    """The shifts that bring a line to the nearest places of each of its strong anchors."""
+    """The shifts that bring a line to the nearest places of each of its strong anchors, and of what is rare."""
     shifts: dict[int, None] = {}
     for anchor in anchors:
-        if anchor.weight < _STRONG:
+        if anchor.weight < _STRONG and len(anchor.places) > _RARE:
             continue
         at = bisect_left(anchor.places, line)
         around = anchor.places[max(0, at - _NEAREST) : at + _NEAREST]  # places are sorted
@@ -130,6 +146,9 @@ class _Search:
     def __init__(self, manual: Manual, cited: Sequence[int], lengths: list[int], anchors: list[list[_Anchor]]) -> None:
         self.manual, self.cited, self.lengths, self.anchors = manual, cited, lengths, anchors
         self.headings = frozenset(manual.headings)
+        self.with_blank_cells = {number for number, line in enumerate(manual.lines, 1) if _BLANK_CELL.search(line)}
+        strong = ([anchor.places for anchor in of_line if anchor.weight == _STRONG] for of_line in anchors)
+        self.opening = [min(places, key=len, default=[]) for places in strong]
 
     @property
     def cost_of_staying(self) -> float:
@@ -161,6 +180,26 @@ class _Search:
             shift = step[shift]
         return result[::-1]
 
+    def snapped(self, shifts: list[int]) -> list[int]:
+        """Where each line stands: one that does not fit where its run leads stands where it fits, between its like."""
+        places = [line + shift for line, shift in zip(self.cited, shifts, strict=True)]
+        costs = [self._cost(index, shift) for index, shift in enumerate(shifts)]
+        above = 0
+        for index, line in enumerate(self.cited):
+            if costs[index] >= _BELOW:
+                following = (at for at in range(index + 1, len(places)) if costs[at] < _FITS)
+                below = next((places[at] for at in following), len(self.manual) + 1)
+                own = self.anchors[index]
+                between = {place for anchor in own for place in anchor.places if above < place < below}
+                tried = [(self._cost(index, place - line), abs(place - places[index]), place) for place in between]
+                cost, _, place = min(tried, default=(_LOST, 0, 0))
+                enough = _FITS_NEARLY if any(anchor.weight == _STRONG for anchor in own) else _FITS
+                if cost < enough and cost <= costs[index] - _BELOW:
+                    places[index], costs[index] = place, cost
+            if costs[index] < _FITS:
+                above = places[index]
+        return places
+
     def _cost(self, index: int, shift: int) -> float:
         """How badly a place fits: the share of the line's anchors that do not stand in it, and how it begins."""
         anchors, line = self.anchors[index], self.cited[index]
@@ -169,22 +208,22 @@ class _Search:
         start, end = line + shift, line + shift + self.lengths[index]
         if start in self.headings:
             end = max(end, self.manual.section_of(start).last + 1)
-        start_of_cells = start - _MERGED if self.manual.is_merged(start) else start
+        above = start - _MERGED if start in self.with_blank_cells else start
+        start_of_cells = above if self.manual.is_merged(start) else start
         strong, weak = [0, 0], [0, 0]  # how many are lost, and how many there are
-        opens = opens_weakly = False
+        opens_weakly = False
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
-            at = bisect_left(anchor.places, start_of_cells)
+            at = bisect_left(anchor.places, start_of_cells if anchor.weight == _STRONG else above)
             stands = at < len(anchor.places) and anchor.places[at] < stop
             lost = not stands and not any(low <= start <= high for low, high in anchor.spans)
             count = strong if anchor.weight == _STRONG else weak
             count[0] += lost
             count[1] += 1
-            opens = opens or (anchor.weight == _STRONG and start in anchor.places)
             opens_weakly = opens_weakly or start in anchor.places
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
         whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
         share = (_STRONG * strong[0] + _WEAK * weak[0] / max(1, weak[1])) / max(whole, _STRONG)
         cost = _LOST * share * min(_MOST, max(1, strong[1]))
-        first = opens if strong[1] else opens_weakly
+        first = start in self.opening[index] if strong[1] else opens_weakly
         return cost + (0.0 if first else _NOT_FIRST) + (_BELOW if below else 0.0)

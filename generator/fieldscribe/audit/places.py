@@ -61,9 +61,12 @@ class Places:
         self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
         self.cited = sorted(self.now)
         self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
-        places = [(place, numbers) for line, numbers in looked_through.items() for place in self._may_be(line)]
-        self.empty = {place for place, numbers in places if not numbers}
-        self.no_facts = {place: _with_parts(numbers) for place, numbers in places if numbers}
+        self.empty = {place for line, numbers in looked_through.items() if not numbers for place in self._may_be(line)}
+        self.no_facts: dict[int, frozenset[str]] = {}
+        for line, numbers in looked_through.items():
+            ends = self._may_be(line)
+            for place in range(min(ends), max(ends) + 1) if numbers else ():
+                self.no_facts[place] = self.no_facts.get(place, frozenset()) | _with_parts(numbers)
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
