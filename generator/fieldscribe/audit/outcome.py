@@ -24,6 +24,8 @@ class Missing:
     printed: str | None
     also: list[str] = field(default_factory=list)
     """Other subjects of the rows below that miss the same fact."""
+    lost: int = 1
+    """How many facts of the subject are missing there, where nearly all are: its place is gone, or elsewhere."""
 
     def spread(self, other: Missing) -> None:
         """Takes in the same fact of a row below."""

@@ -29,7 +29,11 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
         if fact.nearest is not None and fact.line <= fact.nearest <= fact.last:
             lacks = "is not everywhere where places like it have it"
             message = f": {subject}: {fact.fact} {fact.wanted} {lacks}, at {where}; line {fact.nearest} has it"
-        if fact.printed is not None:
+        if fact.lost > 1:
+            message = (
+                f": {subject}: {fact.lost} facts are not at {where}; {fact.fact} {fact.wanted}: {_near(fact.nearest)}"
+            )
+        elif fact.printed is not None:
             says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
             message = f": {subject}: {fact.fact}: {says} at {where}"
         yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(message))]
