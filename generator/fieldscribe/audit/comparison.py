@@ -171,6 +171,7 @@ class Comparison(Facts):
         told: set[Unused] = set()
         nearby: dict[tuple[str, str, str | None], Missing] = {}
         lost = self._lost_places()
+        subjects = {subject for subject, _ in lost}
         for claim, extents in self._without_repetition():
             gone = lost.get((claim.subject, claim.cited), [claim])
             if claim is not gone[0]:
@@ -182,6 +183,8 @@ class Comparison(Facts):
             nearest = None if printed else self._nearest(claim, first)
             missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
             missing.lost = len(gone)
+            if len(gone) > 1:  # what stands there now is not of this subject
+                told.update(number for number in there if subjects.issuperset(number.subjects))
             same = (claim.fact, claim.shown, printed)
             if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
                 nearby[same].spread(missing)
@@ -261,11 +264,24 @@ class Comparison(Facts):
         for line in manual.headings:
             section = manual.section_of(line)
             if not any(number in covered for number in range(section.first, section.last + 1)):
-                self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
-        for line in (line for line in range(1, len(manual) + 1) if line not in manual.page_lines):
-            if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
-                section = manual.section_of(line)
-                among_cited = any(number in covered for number in range(section.first, section.last + 1))
-                shown = manual.line(line).strip()[:_SHORT]
-                self.outcome.uncited.append(Uncited(line, "row", shown, among_cited=among_cited))
+                self.outcome.uncited.append(Uncited(line, line, "section", manual.line(line).strip()[:_SHORT]))
+        rows = (line for line in range(1, len(manual) + 1) if line not in manual.page_lines and line not in covered)
+        for first, last in _runs(line for line in rows if manual.is_row(line) and manual.tokens[line - 1]):
+            section = manual.section_of(first)
+            among_cited = any(number in covered for number in range(section.first, section.last + 1))
+            shown = manual.line(first).strip()[:_SHORT]
+            self.outcome.uncited.append(Uncited(first, last, "row", shown, among_cited=among_cited))
         self.outcome.uncited.sort(key=lambda uncited: uncited.line)
+
+
+def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """The first and last of lines that follow each other."""
+    first = last = 0
+    for line in lines:
+        if line != last + 1:
+            if first:
+                yield first, last
+            first = line
+        last = line
+    if first:
+        yield first, last

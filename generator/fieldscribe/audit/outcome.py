@@ -56,9 +56,10 @@ class Unused:
 
 @dataclass(frozen=True, slots=True)
 class Uncited:
-    """A section, or a row of a table, that nothing cites; `among_cited` if others of its section are cited."""
+    """A section, or rows of a table up to `last`, that nothing cites; `among_cited` if others of its section are."""
 
     line: int
+    last: int
     kind: str
     text: str
     among_cited: bool = False
@@ -112,7 +113,7 @@ class Audit:
             "errata_not_printed": len(self.unprinted),
             "errata_uncheckable": self.uncheckable,
             "unused_numbers": len(self.unused),
-            "uncited": len(self.uncited),
+            "uncited": sum(place.last - place.line + 1 for place in self.uncited),
         }
 
     def shifts(self) -> list[tuple[int, int, int, int]]:

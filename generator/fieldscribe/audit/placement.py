@@ -40,7 +40,7 @@ _LONGEST = 40
 _GONE = 10
 """At most so many rows are gone together."""
 _BLANK_CELL = re.compile(r"\|\s*\|")
-_CLOSE = 4
+_CLOSE, _SOME = 8, 0.6
 """A heading so close to where a line was placed is its own."""
 _FITS, _FITS_NEARLY = 1.0, 7.0
 """A place that costs less fits: nothing is lost, and it begins as it should; or nothing of weight is lost."""
@@ -48,6 +48,8 @@ _HOPELESS = 3 * _CHANGE
 """A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
 _IN_SECTIONS = ("", "message", "telegram")
 """Of points, messages and telegrams a manual has sections, whose headings may be their titles."""
+_BESIDE, _TORN = 2, 0.6
+"""What came between lines that stood beside each other costs so much more."""
 _NEAR = 0.01
 """Of shifts that fit alike the nearest is taken."""
 _COMMON, _NEAREST = 12, 3
@@ -209,12 +211,13 @@ class _Search:
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
             above = best + self.cited[max(0, index - 1)] - self.cited[index] - _GONE
+            torn = _TORN if self.cited[index] - self.cited[max(0, index - 1)] <= _BESIDE else 0.0
             now: dict[int, float] = {}
             step: dict[int, int] = {}
             for shift in dict.fromkeys((*states[index], *costs)):
                 stays = costs.get(shift)
                 near = _NEAR * min(abs(shift - best), _LONGEST)
-                changed = costs[best] + near + (_CHANGE if shift > above else _BACK)
+                changed = costs[best] + near + torn + (_CHANGE if shift > above else _BACK)
                 step[shift] = shift if stays is not None and stays <= changed else best
                 now[shift] = (changed if step[shift] != shift else costs[shift]) + self._cost(index, shift)
             bound = min(worst, min(now.values()) + _HOPELESS)
@@ -238,11 +241,13 @@ class _Search:
                 following = (at for at in range(index + 1, len(places)) if costs[at] < _FITS)
                 below = next((places[at] for at in following), len(self.manual) + 1)
                 own = self.anchors[index]
-                between = {place for anchor in own for place in anchor.places if above < place < below}
+                between = {place for anchor in own for place in anchor.places if above < place < below}.difference(
+                    places
+                )
                 tried = [(self._cost(index, place - line), abs(place - places[index]), place) for place in between]
                 cost, _, place = min(tried, default=(_LOST, 0, 0))
                 enough = _FITS_NEARLY if named else _FITS
-                gain = _BELOW if abs(place - places[index]) <= _CLOSE else _NOT_FIRST
+                gain = _SOME if abs(place - places[index]) <= _CLOSE else _NOT_FIRST
                 if cost < enough and cost <= costs[index] - gain:
                     places[index], costs[index] = place, cost
             places[index] = self._below_heading(index, places[index])
@@ -282,7 +287,7 @@ class _Search:
             end = max(end, self.manual.section_of(start).last + 1)
         merged, is_merged = self._merged_from(start), self.manual.is_merged(start)
         strong, weak = [0.0, 0.0], [0.0, 0.0]  # how much is lost, and how much there is
-        opens = False
+        opens, beside = False, 0.0
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
             stands = _has(anchor.places, start, stop) or any(_has(anchor.places, line, line + 1) for line in merged)
@@ -290,9 +295,12 @@ class _Search:
             count, worth = (strong, 1.0) if anchor.weight == _STRONG else (weak, anchor.worth)
             count[0] += worth if lost else 0.0
             count[1] += worth
+            beside += 0.0 if count is strong or _has(anchor.places, start, start + 1) else worth
             opens = opens or (start in anchor.places and (anchor.opens or (anchor.weight == _STRONG and is_merged)))
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
         whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
         share = (_STRONG * strong[0] + (_WEAK * weak[0] / weak[1] if weak[1] else 0.0)) / max(whole, _STRONG)
         cost = _LOST * share * min(_MOST, max(1, strong[1]))
+        if is_merged and weak[1]:  # rows that have their name in common differ by what stands in them
+            cost += _NOT_FIRST * beside / weak[1]
         return cost + (0.0 if opens else _NOT_FIRST) + (_BELOW if below else 0.0)
