@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,10 @@ _SHORT = 100
 """Findings show at most so many characters of a line."""
 _LISTED = 4
 """So many labels are a list: where nearly all of them stand, all have to."""
+_COMPOUND = re.compile(r"-[^\W\d]{2,}")
+"""What makes a number part of a word: `16-bit`."""
+_FEWEST_LOST, _LOST = 4, 0.5
+"""A place is lost where so many facts of a subject are missing, such a share of all, and nearly all its names."""
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 
@@ -165,13 +170,21 @@ class Comparison(Facts):
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
         nearby: dict[tuple[str, str, str | None], Missing] = {}
+        lost = self._lost_places()
+        subjects = {subject for subject, _ in lost}
         for claim, extents in self._without_repetition():
+            gone = lost.get((claim.subject, claim.cited), [claim])
+            if claim is not gone[0]:
+                continue
             there = [number for extent in extents for number in unused[extent]]
             printed = instead(claim, [self.passage(extent) for extent in extents], there)
             told.update(number for number in there if number.number == printed)
             first, last = extents[0].first, extents[0].last
             nearest = None if printed else self._nearest(claim, first)
             missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
+            missing.lost = len(gone)
+            if len(gone) > 1:  # what stands there now is not of this subject
+                told.update(number for number in there if subjects.issuperset(number.subjects))
             same = (claim.fact, claim.shown, printed)
             if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
                 nearby[same].spread(missing)
@@ -179,6 +192,22 @@ class Comparison(Facts):
                 nearby[same] = missing
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
+
+    def _lost_places(self) -> dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]]:
+        """The facts of each subject that is not where it is cited, with next to nothing of it: its name comes first."""
+        absent: dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]] = {}
+        for claim, _ in self.absent:
+            if not claim.optional:
+                absent.setdefault((claim.subject, claim.cited), []).append(claim)
+        stated = Counter((claim.subject, claim.cited) for claim in self.claims if not claim.optional)
+        anchors = Counter((claim.subject, claim.cited) for claim in self.claims if claim.anchor)
+        lost = {
+            key: claims
+            for key, claims in absent.items()
+            if _FEWEST_LOST <= len(claims) >= _LOST * stated[key]
+            and sum(claim.anchor for claim in claims) >= anchors[key] - (anchors[key] > 1)
+        }
+        return {key: sorted(claims, key=lambda claim: not claim.anchor) for key, claims in lost.items()}
 
     def _without_repetition(self) -> Iterator[tuple[Claim, list[Extent]]]:
         """What is absent, without what only tells the same of a thing in another way."""
@@ -211,8 +240,9 @@ class Comparison(Facts):
     def _without_fact(self, line: int) -> Iterator[tuple[int, str]]:
         """The numbers of a line, and the words that look like codes but are none of the description."""
         passed_over = self.codes | self.no_facts.get(line, frozenset())
+        text = self.manual.line(line)
         for token in self._of_line(line):
-            if token.text not in passed_over:
+            if token.text not in passed_over and not _COMPOUND.match(text, token.column - 1 + len(token.text)):
                 yield token.column, token.text
         for match in self._code_forms.finditer(self.manual.line(line)):
             if match[0] not in passed_over and (line, match.start() + 1) not in self.used:
@@ -234,11 +264,24 @@ class Comparison(Facts):
         for line in manual.headings:
             section = manual.section_of(line)
             if not any(number in covered for number in range(section.first, section.last + 1)):
-                self.outcome.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
-        for line in (line for line in range(1, len(manual) + 1) if line not in manual.page_lines):
-            if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
-                section = manual.section_of(line)
-                among_cited = any(number in covered for number in range(section.first, section.last + 1))
-                shown = manual.line(line).strip()[:_SHORT]
-                self.outcome.uncited.append(Uncited(line, "row", shown, among_cited=among_cited))
+                self.outcome.uncited.append(Uncited(line, line, "section", manual.line(line).strip()[:_SHORT]))
+        rows = (line for line in range(1, len(manual) + 1) if line not in manual.page_lines and line not in covered)
+        for first, last in _runs(line for line in rows if manual.is_row(line) and manual.tokens[line - 1]):
+            section = manual.section_of(first)
+            among_cited = any(number in covered for number in range(section.first, section.last + 1))
+            shown = manual.line(first).strip()[:_SHORT]
+            self.outcome.uncited.append(Uncited(first, last, "row", shown, among_cited=among_cited))
         self.outcome.uncited.sort(key=lambda uncited: uncited.line)
+
+
+def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """The first and last of lines that follow each other."""
+    first = last = 0
+    for line in lines:
+        if line != last + 1:
+            if first:
+                yield first, last
+            first = line
+        last = line
+    if first:
+        yield first, last

@@ -24,6 +24,8 @@ class Missing:
     printed: str | None
     also: list[str] = field(default_factory=list)
     """Other subjects of the rows below that miss the same fact."""
+    lost: int = 1
+    """How many facts of the subject are missing there, where nearly all are: its place is gone, or elsewhere."""
 
     def spread(self, other: Missing) -> None:
         """Takes in the same fact of a row below."""
@@ -54,9 +56,10 @@ class Unused:
 
 @dataclass(frozen=True, slots=True)
 class Uncited:
-    """A section, or a row of a table, that nothing cites; `among_cited` if others of its section are cited."""
+    """A section, or rows of a table up to `last`, that nothing cites; `among_cited` if others of its section are."""
 
     line: int
+    last: int
     kind: str
     text: str
     among_cited: bool = False
@@ -110,7 +113,7 @@ class Audit:
             "errata_not_printed": len(self.unprinted),
             "errata_uncheckable": self.uncheckable,
             "unused_numbers": len(self.unused),
-            "uncited": len(self.uncited),
+            "uncited": sum(place.last - place.line + 1 for place in self.uncited),
         }
 
     def shifts(self) -> list[tuple[int, int, int, int]]:

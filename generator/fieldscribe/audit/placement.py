@@ -10,9 +10,10 @@ from __future__ import annotations
 import re
 from bisect import bisect_left, bisect_right
 from collections import Counter
+from math import log2
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
+from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -36,17 +37,25 @@ _BYTES = 8
 """A frame is searched by so many of its first digits."""
 _LONGEST = 40
 """A place ends after at most so many lines, where the next cited line is farther away."""
-_MERGED = 10
-"""The text of a merged cell stands at most so many rows above."""
 _GONE = 10
 """At most so many rows are gone together."""
 _BLANK_CELL = re.compile(r"\|\s*\|")
+_CLOSE, _SOME = 8, 0.6
+"""A heading so close to where a line was placed is its own."""
 _FITS, _FITS_NEARLY = 1.0, 7.0
-"""A place that costs less fits: nothing is lost, and it begins with one of its anchors; or nothing of weight is lost."""
+"""A place that costs less fits: nothing is lost, and it begins as it should; or nothing of weight is lost."""
 _HOPELESS = 3 * _CHANGE
 """A sequence of shifts that costs so much more than the best is given up: with one change the best is cheaper."""
+_IN_SECTIONS = ("", "message", "telegram")
+"""Of points, messages and telegrams a manual has sections, whose headings may be their titles."""
+_BESIDE, _TORN = 2, 0.6
+"""What came between lines that stood beside each other costs so much more."""
+_NEAR = 0.01
+"""Of shifts that fit alike the nearest is taken."""
 _COMMON, _NEAREST = 12, 3
 """How many of the most frequent shifts are tried for every line, and how many of its own for each anchor."""
+_SEVERAL = 32
+"""A fact that stands in more lines says nothing of where a place begins."""
 _RARE = 3
 """A fact that stands in at most so many lines tells by itself where its line is."""
 _NEIGHBOURS, _FEW = 6, 3
@@ -62,6 +71,12 @@ class _Anchor:
     weight: int = 1
     length: int | None = None
     """How many lines the fact may take from the cited line on; None: as long as the place is."""
+    worth: float = 1.0
+    """How much one of little weight tells: the more, the fewer lines have it."""
+    opens: bool = False
+    """Whether the place begins with it: with a code, a section, an address without a code, or else anything."""
+    is_address: bool = False
+    is_title: bool = False
 
 
 def placement(
@@ -101,21 +116,49 @@ def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
 
 
 def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
-    anchors = [_anchor(manual, claim, line) for claim in claims]
-    anchors += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
-    return [anchor for anchor in anchors if anchor is not None and anchor.places]
+    of_line, headings = list(claims), frozenset(manual.headings)
+    hidden = {claim.fact for claim in of_line if claim.fact == "code" or not _has_heading(manual, claim)}
+    anchors = [_anchor(manual, claim, line) for claim in of_line if claim.fact not in hidden - {"code"}]
+    if hidden:  # an address opens the place of a point that has no other name
+        titles = hidden == {"section"}
+        anchors = [
+            replace(anchor, opens=titles and anchor.is_title) if anchor.is_address or anchor.is_title else anchor
+            for anchor in anchors
+        ]
+    of_errata = (manual.lines_of.get(abs(number), []) for number in numbers)
+    anchors += [_Anchor(places, worth=_worth(places)) for places in of_errata]
+    anchors = [anchor for anchor in anchors if anchor.places]
+    if all(anchor.weight < _STRONG for anchor in anchors):
+        titled = [anchor for anchor in anchors if anchor.is_title and not headings.isdisjoint(anchor.places)]
+        anchors = [replace(anchor, opens=not titled or anchor in titled) for anchor in anchors]
+    return anchors
 
 
-def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
-    """The anchor of a claim; None for a section that has no numbered heading."""
+def _has_heading(manual: Manual, claim: Claim) -> bool:
+    return claim.fact != "section" or claim.words[0] in manual.numbered
+
+
+def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor:
+    """The anchor of a claim."""
     if claim.fact == "section":
-        heading = manual.numbered.get(claim.words[0])
-        if heading is None:
-            return None
-        return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
+        heading = manual.numbered[claim.words[0]]
+        return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG, opens=True)
     places = _places(manual, claim)
     last = next((last - first for first, last in claim.cited if first == line and last), None)
-    return _Anchor(places, (), _STRONG if claim.anchor else 1, None if last is None else last + 1)
+    return _Anchor(
+        places,
+        (),
+        _STRONG if claim.anchor else 1,
+        None if last is None else last + 1,
+        _worth(places),
+        claim.anchor,
+        claim.is_address,
+        claim.fact == "title" and claim.kind_of_subject in _IN_SECTIONS,
+    )
+
+
+def _worth(places: Sequence[int]) -> float:
+    return 1 / (1 + log2(len(places))) if places else 1.0
 
 
 def _places(manual: Manual, claim: Claim) -> list[int]:
@@ -140,15 +183,20 @@ def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
     return shifts
 
 
+def _has(places: Sequence[int], first: int, stop: int) -> bool:
+    """Whether one of sorted places lies from a line up to another."""
+    at = bisect_left(places, first)
+    return at < len(places) and places[at] < stop
+
+
 class _Search:
     """Finds the cheapest sequence of shifts, line by line, keeping the best way to each shift."""
 
     def __init__(self, manual: Manual, cited: Sequence[int], lengths: list[int], anchors: list[list[_Anchor]]) -> None:
         self.manual, self.cited, self.lengths, self.anchors = manual, cited, lengths, anchors
         self.headings = frozenset(manual.headings)
+        self._merged: dict[int, set[int]] = {}
         self.with_blank_cells = {number for number, line in enumerate(manual.lines, 1) if _BLANK_CELL.search(line)}
-        strong = ([anchor.places for anchor in of_line if anchor.weight == _STRONG] for of_line in anchors)
-        self.opening = [min(places, key=len, default=[]) for places in strong]
 
     @property
     def cost_of_staying(self) -> float:
@@ -163,11 +211,13 @@ class _Search:
         for index in range(len(self.cited)):
             best = min(costs, key=lambda shift: (costs[shift], abs(shift), shift))
             above = best + self.cited[max(0, index - 1)] - self.cited[index] - _GONE
+            torn = _TORN if self.cited[index] - self.cited[max(0, index - 1)] <= _BESIDE else 0.0
             now: dict[int, float] = {}
             step: dict[int, int] = {}
             for shift in dict.fromkeys((*states[index], *costs)):
                 stays = costs.get(shift)
-                changed = costs[best] + (_CHANGE if shift > above else _BACK)
+                near = _NEAR * min(abs(shift - best), _LONGEST)
+                changed = costs[best] + near + torn + (_CHANGE if shift > above else _BACK)
                 step[shift] = shift if stays is not None and stays <= changed else best
                 now[shift] = (changed if step[shift] != shift else costs[shift]) + self._cost(index, shift)
             bound = min(worst, min(now.values()) + _HOPELESS)
@@ -186,19 +236,46 @@ class _Search:
         costs = [self._cost(index, shift) for index, shift in enumerate(shifts)]
         above = 0
         for index, line in enumerate(self.cited):
-            if costs[index] >= _BELOW:
+            named = any(anchor.weight == _STRONG for anchor in self.anchors[index])
+            if costs[index] > (0.0 if named else _NOT_FIRST):
                 following = (at for at in range(index + 1, len(places)) if costs[at] < _FITS)
                 below = next((places[at] for at in following), len(self.manual) + 1)
                 own = self.anchors[index]
-                between = {place for anchor in own for place in anchor.places if above < place < below}
+                between = {place for anchor in own for place in anchor.places if above < place < below}.difference(
+                    places
+                )
                 tried = [(self._cost(index, place - line), abs(place - places[index]), place) for place in between]
                 cost, _, place = min(tried, default=(_LOST, 0, 0))
-                enough = _FITS_NEARLY if any(anchor.weight == _STRONG for anchor in own) else _FITS
-                if cost < enough and cost <= costs[index] - _BELOW:
+                enough = _FITS_NEARLY if named else _FITS
+                gain = _SOME if abs(place - places[index]) <= _CLOSE else _NOT_FIRST
+                if cost < enough and cost <= costs[index] - gain:
                     places[index], costs[index] = place, cost
+            places[index] = self._below_heading(index, places[index])
             if costs[index] < _FITS:
                 above = places[index]
         return places
+
+    def _below_heading(self, index: int, place: int) -> int:
+        """The heading below which all facts stand that few lines have, of a place without a name; else its place."""
+        anchors = self.anchors[index]
+        if any(anchor.weight == _STRONG for anchor in anchors):
+            return place
+        end = place + self.lengths[index]
+        firsts = [
+            next((at for at in anchor.places if place <= at < end), None)
+            for anchor in anchors
+            if len(anchor.places) <= _SEVERAL
+        ]
+        first = min((at for at in firsts if at is not None), default=place)
+        return max((line for line in self.manual.headings if place < line <= first), default=place)
+
+    def _merged_from(self, start: int) -> set[int]:
+        """The rows above from which a row has cells."""
+        if start not in self.with_blank_cells:
+            return set()
+        if start not in self._merged:
+            self._merged[start] = {line for line, _, _ in self.manual.merged_cells(start)}
+        return self._merged[start]
 
     def _cost(self, index: int, shift: int) -> float:
         """How badly a place fits: the share of the line's anchors that do not stand in it, and how it begins."""
@@ -208,22 +285,22 @@ class _Search:
         start, end = line + shift, line + shift + self.lengths[index]
         if start in self.headings:
             end = max(end, self.manual.section_of(start).last + 1)
-        above = start - _MERGED if start in self.with_blank_cells else start
-        start_of_cells = above if self.manual.is_merged(start) else start
-        strong, weak = [0, 0], [0, 0]  # how many are lost, and how many there are
-        opens_weakly = False
+        merged, is_merged = self._merged_from(start), self.manual.is_merged(start)
+        strong, weak = [0.0, 0.0], [0.0, 0.0]  # how much is lost, and how much there is
+        opens, beside = False, 0.0
         for anchor in anchors:
             stop = end if anchor.length is None else start + anchor.length
-            at = bisect_left(anchor.places, start_of_cells if anchor.weight == _STRONG else above)
-            stands = at < len(anchor.places) and anchor.places[at] < stop
+            stands = _has(anchor.places, start, stop) or any(_has(anchor.places, line, line + 1) for line in merged)
             lost = not stands and not any(low <= start <= high for low, high in anchor.spans)
-            count = strong if anchor.weight == _STRONG else weak
-            count[0] += lost
-            count[1] += 1
-            opens_weakly = opens_weakly or start in anchor.places
+            count, worth = (strong, 1.0) if anchor.weight == _STRONG else (weak, anchor.worth)
+            count[0] += worth if lost else 0.0
+            count[1] += worth
+            beside += 0.0 if count is strong or _has(anchor.places, start, start + 1) else worth
+            opens = opens or (start in anchor.places and (anchor.opens or (anchor.weight == _STRONG and is_merged)))
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
         whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
-        share = (_STRONG * strong[0] + _WEAK * weak[0] / max(1, weak[1])) / max(whole, _STRONG)
+        share = (_STRONG * strong[0] + (_WEAK * weak[0] / weak[1] if weak[1] else 0.0)) / max(whole, _STRONG)
         cost = _LOST * share * min(_MOST, max(1, strong[1]))
-        first = start in self.opening[index] if strong[1] else opens_weakly
-        return cost + (0.0 if first else _NOT_FIRST) + (_BELOW if below else 0.0)
+        if is_merged and weak[1]:  # rows that have their name in common differ by what stands in them
+            cost += _NOT_FIRST * beside / weak[1]
+        return cost + (0.0 if opens else _NOT_FIRST) + (_BELOW if below else 0.0)

@@ -88,14 +88,19 @@ class Places:
         """The lines that a citation means in this text."""
         key = (first, last)
         if key not in self._extents:
-            start = self._now(first)
-            if last:
-                extent = Extent(start, start + last - first, "lines")
-            else:
-                place = bisect_right(self.starts, start)
-                extent = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
-            self._extents[key] = extent
+            self._extents[key] = self._extent_at(self._now(first), last - first if last else 0, whole=bool(last))
         return self._extents[key]
+
+    def _extent_at(self, start: int, length: int, *, whole: bool) -> Extent:
+        if whole:
+            return Extent(start, start + length, "lines")
+        place = bisect_right(self.starts, start)
+        return self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
+
+    def may_be(self, first: int, last: int) -> list[Extent]:
+        """Where the lines of a citation may stand that no fact helps to find."""
+        length = last - first if last else 0
+        return [self._extent_at(start, length, whole=bool(last)) for start in sorted(self._may_be(first))]
 
     def passage(self, extent: Extent) -> Passage:
         """Their text, with the cells that are merged from above."""

@@ -10,7 +10,7 @@ from fieldscribe.report import visible
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.audit.outcome import Audit
+    from fieldscribe.audit.outcome import Audit, Missing
     from fieldscribe.report import Line
 
 _TEXTS = {
@@ -23,21 +23,12 @@ _TEXTS = {
 def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
     """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
     for fact in outcome.missing:
-        where = f"line {fact.line}" if fact.last in (0, fact.line) else f"lines {fact.line} to {fact.last}"
-        subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
-        message = f": {subject}: {fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
-        if fact.nearest is not None and fact.line <= fact.nearest <= fact.last:
-            lacks = "is not everywhere where places like it have it"
-            message = f": {subject}: {fact.fact} {fact.wanted} {lacks}, at {where}; line {fact.nearest} has it"
-        if fact.printed is not None:
-            says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
-            message = f": {subject}: {fact.fact}: {says} at {where}"
-        yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(message))]
+        yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(_missing(fact)))]
     for erratum in outcome.unprinted:
         message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
         yield [("error", "erratum"), ("", visible(message))]
     for first, last, by, count in outcome.shifts():
-        lines = f"line {first}" if first == last else f"lines {first} to {last}"
+        lines = _lines(first, last)
         places = f"{count} cited place{'' if count == 1 else 's'}"
         side = "below" if by > 0 else "above"
         yield [("warning", "moved"), ("", f": {places} of {lines} stand {abs(by)} lines {side}")]
@@ -48,8 +39,28 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
     for place in outcome.uncited:
         kind = "error" if place.among_cited else "hint"
         if place.among_cited or everything:
-            yield [(kind, "uncited"), ("", visible(f": line {place.line}: {place.kind}: {place.text}"))]
+            rows = f"{place.last - place.line + 1} rows" if place.last > place.line else place.kind
+            yield [(kind, "uncited"), ("", visible(f": {_lines(place.line, place.last)}: {rows}: {place.text}"))]
     yield from _figures(outcome, everything)
+
+
+def _missing(fact: Missing) -> str:
+    where = _lines(fact.line, fact.last)
+    subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
+    told = f"{fact.fact} {fact.wanted}"
+    if fact.lost > 1:
+        return f": {subject}: {fact.lost} facts are not at {where}; {told}: {_near(fact.nearest)}"
+    if fact.printed is not None:
+        says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
+        return f": {subject}: {fact.fact}: {says} at {where}"
+    if fact.nearest is not None and fact.line <= fact.nearest <= fact.last:
+        lacks = "is not everywhere where places like it have it"
+        return f": {subject}: {told} {lacks}, at {where}; line {fact.nearest} has it"
+    return f": {subject}: {told} is not at {where}; {_near(fact.nearest)}"
+
+
+def _lines(first: int, last: int) -> str:
+    return f"line {first}" if last in (0, first) else f"lines {first} to {last}"
 
 
 def _near(line: int | None) -> str:
@@ -119,8 +130,8 @@ def as_html(outcome: Audit) -> str:
         ),
         _Table(
             "Sections and rows that nothing cites",
-            ("Line", "Kind", "Text"),
-            [(place.line, place.kind, place.text) for place in outcome.uncited],
+            ("Line", "Last", "Kind", "Text"),
+            [(place.line, place.last, place.kind, place.text) for place in outcome.uncited],
         ),
     ]
     seen = [_Table(table.title, table.heads, [tuple(map(_shown, row)) for row in table.rows]) for table in tables]
