@@ -33,6 +33,18 @@ FRAMES = """frames:
 - {name: answer, line: 3, answers: ask, bytes: 08 03 04 2B 37 09 C4 DC DA}
 """
 
+WORDS = """4.1 Jog
+
+To change from left to right: 067E 0000 to 057E 0000 does it.
+"""
+USS = """{units: 0..31, pkw: [0, 4], pzd: 0..2,
+  functions: {0: {name: no_task, answers: [0]}, 1: {name: read, answers: [1]}},
+  responses: {0: {name: none, answers: [0]}, 1: {name: word, answers: [1]}}}"""
+JOG = """frames:
+- {name: left, line: 3, framing: pzd, direction: request, bytes: 067E 0000}
+- {name: right, line: 3, framing: pzd, direction: request, bytes: 057E 0000}
+"""
+
 SETTINGS = """4.1 Line
 
 Rate: 9600 Baud
@@ -67,6 +79,7 @@ DEFAULT_POINT = '- {name: unit, at: 512, default: 0, section: "4.1", line: 3, li
 
 DEVICES = {
     "frames": (head(documents=DOCUMENTS) + FRAMES, TABLE),
+    "words": (head(documents=DOCUMENTS, family="uss", bus=USS) + JOG, WORDS),
     "settings": (head(documents=DOCUMENTS, bus=FORMAT), SETTINGS),
     "flags": (together(head(documents=DOCUMENTS), group(FLAG_POINT)), FLAGS),
     "default": (together(head(documents=DOCUMENTS), group(DEFAULT_POINT)), DEFAULT),
@@ -80,6 +93,8 @@ DEVICES = {
         ("frames", "Start High\t0x0C", "Start High\t0x03", ["bytes 08030C100002C607"]),
         ("frames", "Address\t0x08\t", "Address\t0x03\t", ["bytes 08030C100002C607"]),
         ("frames", "2 High\t0x09", "2 High\t0x08", ["bytes 0803042B3709C4DCDA"]),
+        ("words", "", "", []),
+        ("words", "067E 0000", "067E 0008", ["bytes 067E0000"]),  # 0000 stands in the other frame, too
         ("settings", "", "", []),
         ("settings", "2 stop bits, no", "2 stop bits, odd", ["format 3: 8 bits, 2 stop bits, no parity"]),
         ("settings", "2 stop", "1 stop", ["format 3: 8 bits, 2 stop bits, no parity"]),

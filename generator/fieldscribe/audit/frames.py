@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 _Run: TypeAlias = "tuple[frozenset[Fraction], ...]"
 
+_LONG, _SHORTEST = 4, 2
+"""So many numbers of a frame are no chance; so many need to stand right behind each other."""
+
 
 def ways_of_bytes(digits: str) -> tuple[_Run, _Run]:
     """The numbers of a frame, byte by byte and word by word."""
@@ -31,7 +34,10 @@ def runs_of_bytes(digits: str, passage: Passage) -> Iterator[list[Token]]:
 
 
 def other_bytes(digits: str, passage: Passage) -> Iterator[Token]:
-    """Each number that stands in place of one byte or word of a frame, all others of which stand in their order."""
+    """Each number that stands in place of one byte or word of a frame, all others of which stand in their order.
+
+    A frame of a few words has nothing but signs between them: `067E 0000`.
+    """
     for part in (passage, *passage.columns):
         for way in ways_of_bytes(digits):
-            yield from part.nearly_in_order(way)
+            yield from part.nearly_in_order(way, tight=len(way) < _LONG, least=_SHORTEST)

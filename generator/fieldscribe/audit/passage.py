@@ -256,12 +256,14 @@ class Passage:
         at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
-    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False) -> Iterator[Token]:
-        """Each number that stands in place of one of a list, which are enough to be known without it.
+    def nearly_in_order(
+        self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False, least: int = _LISTED
+    ) -> Iterator[Token]:
+        """Each number that stands in place of one of a list, which are enough (`least`) to be known without it.
 
         One between the first, or the last, and all others is no such number: the list is whole.
         """
-        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
+        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= least else 0):
             end = at + len(numbers)
             run = self.tokens[at:end]
             others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]
