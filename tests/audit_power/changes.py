@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.facts import reading, runs_of
+from fieldscribe.audit.frames import runs_of_bytes
 from fieldscribe.audit.instead import printed_access
 from fieldscribe.audit.labels import standing
 from fieldscribe.records import dataclass
@@ -70,7 +71,7 @@ class Changes:
                 for label in self._labels(claim, cited):
                     yield label.tokens[0]
             else:
-                hits = reading(claim, passage)
+                hits = self.sound.hits(claim, passage) or reading(claim, passage)
                 listed = self._listed(claim, passage)
                 yield from [token for token in hits if token in listed] or hits
 
@@ -190,13 +191,12 @@ class Changes:
     def _bytes(self, claim: Claim) -> Change | None:
         if claim.fact != "bytes":
             return None
-        wanted = [claim.shown[at : at + 2] for at in range(0, len(claim.shown), 2)]
-        rows = [line for cited in claim.cited for line in self._lines_of(cited) if line not in self.sound.empty]
         spots = [
-            (number, match.start(), match[0])
-            for number in rows
-            for match in re.finditer(r"(?<![0-9A-Fa-f])(?:0x)?(?:[0-9A-F]{2})+(?![0-9A-Za-z])", self.lines[number - 1])
-            if match[0][-2:] in wanted
+            (number, column + match.start(), match[0])
+            for cited in claim.cited
+            for number, column, text in self._of_frame(claim.shown, self.sound.passage(self.sound.extent(*cited)))
+            for match in re.finditer(r"(?<![0-9A-Fa-f])(?:0x)?(?:[0-9A-F]{2})+(?![0-9A-Za-z])", text)
+            if number not in self.sound.empty
         ]
         if not spots:
             return None
@@ -205,9 +205,14 @@ class Changes:
         line = self.lines[number - 1]
         return self._line("bytes", claim, number, line[:at] + new + line[at + len(old) :], old, new)
 
-    def _lines_of(self, cited: tuple[int, int]) -> range:
-        extent = self.sound.extent(*cited)
-        return range(extent.first, extent.last + 1)
+    def _of_frame(self, digits: str, passage: Passage) -> Iterator[tuple[int, int, str]]:
+        """What is printed of a frame: line, column from 0, text. Other numbers may read like its bytes by chance."""
+        pieces = list(passage.pieces_of_bytes(digits))
+        for first, end in pieces:
+            for line, column, width in passage.parts(first, end):
+                yield line, column - 1, self.lines[line - 1][column - 1 : column - 1 + width]
+        for run in runs_of_bytes(digits, passage) if not pieces else ():
+            yield from ((token.line, token.column - 1, token.text) for token in run)
 
     def _row(self, claim: Claim) -> Change | None:
         number = self.sound.extent(*claim.cited[0]).first

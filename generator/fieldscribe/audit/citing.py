@@ -61,6 +61,8 @@ class Claim:
     """The numbers of which one is printed beside `words`."""
     or_beside: frozenset[Fraction] = frozenset()
     """Other numbers that all labels of a list may stand beside in place of those, such as the bit of a flag's value."""
+    bit: frozenset[Fraction] = frozenset()
+    """Of the label of a flag: its bit among the numbers `beside`, of which others are its mask."""
     entry: tuple[int, int] | None = None
     """Of a label: which entry it belongs to, counted as the description lists them, and which label of it it is."""
     times: int = 1
@@ -220,6 +222,7 @@ class Citing:
         *,
         beside: Iterable[Fraction] = (),
         or_beside: Iterable[Fraction] = (),
+        bit: Iterable[Fraction] = (),
         entry: tuple[int, int] | None = None,
         place: Span,
     ) -> Iterator[Claim]:
@@ -239,6 +242,7 @@ class Citing:
                 about=self.about,
                 beside=frozenset(numbers),
                 or_beside=frozenset(map(abs, or_beside)),
+                bit=frozenset(bit),
                 entry=entry,
             )
 

@@ -76,6 +76,9 @@ def _claims_of_setting(citing: Citing, key: str, value: Any, place: Span) -> Ite
             words = parity_words(meaning)
             if len(run) > 1:
                 yield from citing.in_order(key, shown, [run], place=at)
+            if words and len(run) > 1:
+                alike = "codes with their parity"
+                yield from citing.in_order(key, shown, [run], optional=True, words=words, alike=alike, place=at)
             if words:
                 yield from citing.label(key, words, beside=run if len(run) == 1 else (), place=at)
     else:
@@ -120,7 +123,8 @@ def claims_of_frames(file: Map) -> Iterator[Claim]:
         digits = "".join(str(frame["bytes"]).split()).upper()
         if citing.own_line:
             cited = citing.lines_of_fact.get("bytes", citing.own_line)
-            yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, frame.span("bytes"))
+            place = frame.span("bytes")
+            yield Claim(citing.subject, "bytes", digits, frozenset(), (), cited, place, about=about)
             for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
                 yield from citing.numbers(
                     "place of a byte", str(byte), (Fraction(byte),), "bytes", optional=True, first=True

@@ -63,7 +63,9 @@ def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordin
                 )
         at_bit = () if named or (by_value and not alike) else beside
         if not any(set(label) <= set(words) or (label and words and label[0] in words[0]) for words in values):
-            yield from citing.label("flags", label, beside=at_bit, entry=(position, 0), place=place)
+            ends = numbers_in(printed.get("bit")) or (flag.low + above, flag.low + flag.width - 1 + above)
+            own = map(Fraction, ends) if at_bit else ()
+            yield from citing.label("flags", label, beside=at_bit, bit=own, entry=(position, 0), place=place)
         if label and flag.width > 1 and not named:
             yield from _ends_of(citing, flag, above, place)
         for key in ("mask", "active"):

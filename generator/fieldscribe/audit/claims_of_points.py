@@ -45,7 +45,7 @@ def claims_of_point(
     yield from _numbers_of(citing, point, draft, wordings)
     yield from _enum_of(citing, point, draft, enums, wordings)
     yield from _special_codes(citing, draft, wordings)
-    yield from _default(citing, point, draft)
+    yield from _default(citing, point, draft, wordings)
     yield from claims_of_flags(citing, point, draft, wordings)
     yield from _printed(citing, draft, wordings)
 
@@ -238,12 +238,13 @@ def _special_codes(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator
         yield from citing.label("special", label, beside=numbers, entry=(position, 0), place=place)
 
 
-def _default(citing: Citing, point: Point, draft: Draft) -> Iterator[Claim]:
-    """The factory setting, where `lines` says that the manual prints it."""
+def _default(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+    """The factory setting, where `lines` says that the manual prints it: behind its name, if it writes one."""
     if "default" in citing.lines_of_fact and point.default_raw is not None:
         numbers = [Fraction(point.default_raw), *([] if point.default is None else [point.default])]
         span = draft.span("default" if draft.layer("default") is not None else "default_in_units")
-        yield from citing.numbers("default", str(draft.get("default")), numbers, place=span)
+        names = tuple(wordings.code("default"))
+        yield from citing.numbers("default", str(draft.get("default")), numbers, names=names, place=span)
 
 
 def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.errata import Errata
+from fieldscribe.audit.frames import other_bytes, runs_of_bytes, ways_of_bytes
 from fieldscribe.audit.instead import printed_access
 from fieldscribe.audit.manual import Extent, Token, has_word, places_in
 from fieldscribe.audit.places import nearly_all
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.passage import Passage
@@ -69,7 +70,7 @@ class Facts(Errata):
         """What is looked for in its own way."""
         return (
             (("access",), self._access_agrees),
-            (("bytes",), lambda claim, extent: self._has_bytes(claim.shown, extent)),
+            (("bytes",), self._has_bytes),
             (("section",), lambda claim, extent: self._has(claim.words[0], extent) or self._lies_in(claim, extent)),
             (("code",), self._code_stands),
         )
@@ -88,12 +89,16 @@ class Facts(Errata):
         """Whether a place prints the list of a fact with another number in it."""
         if claim.apart:
             return False
+        passage = self._own_passage(claim, extent)
+        others = (other for way in claim.ways for other in passage.nearly_in_order(way, tight=claim.tight))
+        return self._are_others(others, claim, extent)
+
+    def _are_others(self, tokens: Iterable[Token], claim: Claim, extent: Extent) -> bool:
+        """Whether one of these numbers is none that an erratum of the place prints or took."""
         errata = [erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent])]
         printed = (number for erratum in errata if not erratum.is_sentence for number in erratum.numbers)
         known = frozenset(printed).union(*(erratum.taken for erratum in errata))
-        passage = self._own_passage(claim, extent)
-        others = (other for way in claim.ways for other in passage.nearly_in_order(way, tight=claim.tight))
-        return any(not other.readings & known for other in others)
+        return any(not token.readings & known for token in tokens)
 
     def _code_stands(self, claim: Claim, extent: Extent) -> int:
         """Whether a code stands in the place, and no other one names the row in its first cell."""
@@ -115,7 +120,7 @@ class Facts(Errata):
             return self._stand_in_order(claim, passage, cited)
         if claim.behind and (runs := list(passage.in_order(claim.behind))):
             return any(self._stands_behind(claim, run[-1], passage) for run in runs)
-        hits = self._hits(claim, passage)
+        hits = self.hits(claim, passage)
         if claim.optional:
             hits = [token for token in hits if token.line >= extent.first]  # merged cells say more of the row above
         self._use(hits)
@@ -134,7 +139,7 @@ class Facts(Errata):
             return True
         return bool(claim.names) and bool(self.passage(Extent(line, line, "row")).behind_names(claim.names))
 
-    def _hits(self, claim: Claim, passage: Passage) -> list[Token]:
+    def hits(self, claim: Claim, passage: Passage) -> list[Token]:
         """The numbers of a passage that state a fact: of those that can mean it, those in its row, cell or name."""
         hits = reading(claim, passage)
         if claim.under and (below := passage.under(claim.under)):
@@ -202,21 +207,20 @@ class Facts(Errata):
                 )
         return has_word(self._text(extent), word)
 
-    def _has_bytes(self, digits: str, extent: Extent) -> bool:
-        """Whether the bytes stand there in one piece, or each of them as a number of its own, in any notation."""
-        passage = self.passage(extent)
-        pieces = list(passage.pieces_of_bytes(digits))
-        self._use(token for first, end in pieces for token in passage.overlapping(first, end))
-        if pieces:
+    def _has_bytes(self, claim: Claim, extent: Extent) -> bool:
+        """Whether a frame stands there whole, or each of its bytes as a number of its own, in any notation."""
+        passage, digits = self.passage(extent), claim.shown
+        ways = ways_of_bytes(digits)
+        if pieces := list(passage.pieces_of_bytes(digits)):
+            self._use(token for first, end in pieces for token in passage.overlapping(first, end))
             return True
-        wholes = [int(digits[at : at + 2], 16) for at in range(0, len(digits), 2)]
-        words = [int(digits[at : at + 4], 16) for at in range(0, len(digits), 4)]
-        self._use(passage.reading(frozenset(map(Fraction, {*wholes, *words}))))
+        self._use(passage.reading(frozenset().union(*chain(*ways))))  # the names of bytes have them, too: Low byte (1)
+        if any(runs_of_bytes(digits, passage)):
+            return True
+        if self._are_others(other_bytes(digits, passage), claim, extent):
+            return False
         readings = Counter(reading for token in passage.tokens for reading in token.readings)
-        return any(
-            all(readings[Fraction(part)] >= times for part, times in Counter(parts).items())
-            for parts in (wholes, words)
-        )
+        return any(all(readings[part] >= times for (part,), times in Counter(way).items()) for way in ways)
 
     def _lies_in(self, claim: Claim, extent: Extent) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""

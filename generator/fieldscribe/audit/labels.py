@@ -40,7 +40,7 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
     """As many labels as stand beside their numbers, all on the same side of them, in one order and one column."""
     if len(claims) == 1 and not claims[0].beside and claims[0].words:
         return list(islice(_candidates(claims[0], passage, False, False, False), 1))
-    anywhere = _standing(claims, passage)
+    anywhere = _beside_alike(_standing(claims, passage))
     columns = {with_words: _column(anywhere, passage, with_words=with_words) for with_words in (False, True)}
     strays = {label.claim for label in anywhere if _strays(label, passage, columns)}
     alone = Counter(_entry(claim) for claim in strays if claim.words)
@@ -49,6 +49,15 @@ def standing(claims: Sequence[Claim], passage: Passage) -> list[Standing]:
         return anywhere
     in_column = [label for label in _standing(claims, passage, columns) if label.claim in strays]
     return [*(label for label in anywhere if label.claim not in strays), *in_column]
+
+
+def _beside_alike(labels: list[Standing]) -> list[Standing]:
+    """Without the labels beside another kind of number than nearly all others: a 2 is bit 2, or the mask of bit 1."""
+    flags = [label for label in labels if label.claim.bit and label.tokens]
+    at_bits = [label for label in flags if label.tokens[0].is_plainly(label.claim.bit)]
+    if len(flags) < _FEW or len(at_bits) < _NEARLY_ALL * len(flags):
+        return labels
+    return [label for label in labels if label not in flags or label in at_bits]
 
 
 def _entry(claim: Claim) -> int | None:

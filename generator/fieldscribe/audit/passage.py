@@ -146,6 +146,17 @@ class Passage:
         """The lines that are nothing but a name and a number, as `b.) Byte 1`."""
         return Passage(self.manual, [piece for piece in self.pieces if _SHORT_LINE.fullmatch(piece[2])])
 
+    @cached_property
+    def columns(self) -> list[Passage]:
+        """The columns of its tables, each as a passage of its own."""
+        cells: dict[int, list[tuple[int, int, str]]] = {}
+        for line, column, text in self.pieces:
+            for cell in re.finditer(r"[^|]+" if text.startswith("|") else r"[^\t]+", text):
+                place = self.manual.column(line, column + cell.start())
+                if place is not None:
+                    cells.setdefault(place, []).append((line, column + cell.start(), cell[0]))
+        return [Passage(self.manual, cells[place]) for place in sorted(cells)]
+
     def part(self, own: frozenset[Fraction], others: frozenset[Fraction]) -> Passage:
         """What stands behind each number of one's own, up to the next number of others."""
         cuts = [at for at, token in enumerate(self.tokens) if token.readings & others]
@@ -218,8 +229,8 @@ class Passage:
         return [token for token in self.tokens if token.readings & numbers]
 
     def behind_names(self, names: tuple[str, ...]) -> list[Token]:
-        """The numbers that stand right behind one of these names, as in `Mux 3`."""
-        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})\s*(?=[0-9])"
+        """The numbers that stand right behind one of these names, as in `Mux 3` or `Default: 0`."""
+        pattern = rf"(?<!\w)(?:{'|'.join(map(re.escape, names))})(?:\s*[:=])?\s*(?=[0-9])"
         return [
             token for match in re.finditer(pattern, self.text) for token in self.inside(match.end(), match.end() + 1)
         ]
@@ -245,12 +256,14 @@ class Passage:
         at = self.end_of(token)
         return self.text[at : at + len(words) + 2].lstrip().startswith(words)
 
-    def nearly_in_order(self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False) -> Iterator[Token]:
-        """Each number that stands in place of one of a list, which are enough to be known without it.
+    def nearly_in_order(
+        self, numbers: tuple[frozenset[Fraction], ...], *, tight: bool = False, least: int = _LISTED
+    ) -> Iterator[Token]:
+        """Each number that stands in place of one of a list, which are enough (`least`) to be known without it.
 
         One between the first, or the last, and all others is no such number: the list is whole.
         """
-        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= _LISTED else 0):
+        for at in range(len(self.tokens) - len(numbers) + 1 if len(numbers) >= least else 0):
             end = at + len(numbers)
             run = self.tokens[at:end]
             others = [token for token, wanted in zip(run, numbers, strict=True) if not token.readings & wanted]

@@ -129,8 +129,8 @@ SECTIONS = (
     Key(
         "writes",
         _DOCUMENT,
-        "How it writes what a description writes otherwise: letters of codes, bits, numbers, titles. No words: it "
-        "does not print the title. The audit asks.",
+        "How it writes what a description writes otherwise: letters of codes, bits, numbers, titles, the `default`. "
+        "No words: it does not print the title. The audit asks.",
         [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"], "Basisfrequenz": ["Basisfrequ."], "Ausgang 2": []}],
         by(forms.WRITTEN, Shape("Its words.", [["Parameter"]], Items(_WORD))),
     ),
