@@ -39,6 +39,8 @@ class Anchor:
     opens: bool = False
     """Whether the place begins with it."""
     is_title: bool = False
+    of_erratum: bool = False
+    """Whether it is a number that an erratum says is printed there."""
 
     @property
     def worth(self) -> float:
@@ -70,7 +72,7 @@ def anchors_of(
     has_code = any(claim.fact == "code" for claim in claims)
     lacks_heading = len(with_heading) < len(claims)
     anchors = [_anchor(manual, claim, line, has_code, lacks_heading) for claim in with_heading]
-    anchors += [Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
+    anchors += [Anchor(manual.lines_of.get(abs(number), []), of_erratum=True) for number in numbers]
     anchors = [anchor for anchor in anchors if anchor.places]
     if any(anchor.is_name for anchor in anchors):
         return anchors

@@ -83,7 +83,7 @@ class Fitting:
             if costs[index] > (0.0 if self.named[index] else _NOT_FIRST):
                 self._snap(index, places, costs, above, below[index + 1], taken)
             if not self.named[index]:
-                places[index] = self._below_heading(index, places[index])
+                places[index] = self._first_of(index, places[index])
             if costs[index] < _FITS:
                 above = places[index]
         return places
@@ -101,13 +101,18 @@ class Fitting:
         if cost < enough and cost <= costs[index] - (_SOME if away <= _CLOSE else _NOT_FIRST):
             places[index], costs[index] = place, cost
 
-    def _below_heading(self, index: int, place: int) -> int:
-        """The heading below which all facts stand that few lines have, of a place without a name; else its place."""
+    def _first_of(self, index: int, place: int) -> int:
+        """Where the facts begin that few lines have, of a place without a name: at the heading above, or with them."""
+        anchors = self.anchors[index]
+        if place in self._is_heading or any(anchor.of_erratum or anchor.length is not None for anchor in anchors):
+            return place  # who names the last line means the first one, too; and errata are sentences on a passage
         end = place + self.lengths[index]
-        several = (anchor for anchor in self.anchors[index] if len(anchor.places) <= _SEVERAL)
+        several = (anchor for anchor in anchors if len(anchor.places) <= _SEVERAL)
         firsts = [next(at for at in anchor.places if at >= place) for anchor in several if anchor.stands(place, end)]
-        above = bisect_right(self._headings, min(firsts, default=place))
-        return max(place, self._headings[above - 1] if above else place)
+        first = min(firsts, default=place)
+        above = bisect_right(self._headings, first)
+        heading = self._headings[above - 1] if above else 0
+        return heading if heading > place else first
 
     def _merged_from(self, start: int) -> set[int]:
         """The rows above from which a row has cells."""
