@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
+_FAR_APART = 40
+"""So many lines may have come between the two cited lines around one that nothing cites."""
 _NEARLY_ALL = 0.75
 """The share of facts from which on all have to stand alike; of some more one may always be another."""
 
@@ -64,8 +66,7 @@ class Places:
         self.empty = {place for line, numbers in looked_through.items() if not numbers for place in self._may_be(line)}
         self.no_facts: dict[int, frozenset[str]] = {}
         for line, numbers in looked_through.items():
-            ends = self._may_be(line)
-            for place in range(min(ends), max(ends) + 1) if numbers else ():
+            for place in _lines_between(self._may_be(line)) if numbers else ():
                 self.no_facts[place] = self.no_facts.get(place, frozenset()) | _with_parts(numbers)
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
@@ -187,3 +188,9 @@ class Places:
 def _with_parts(numbers: frozenset[str]) -> frozenset[str]:
     """Listed numbers, those of a row that is listed as a whole, too."""
     return numbers.union(*map(str.split, numbers))
+
+
+def _lines_between(ends: set[int]) -> Iterable[int]:
+    """The lines between the two where a line may stand, if they are not far apart."""
+    first, last = min(ends), max(ends)
+    return range(first, last + 1) if last - first <= _FAR_APART else ends
