@@ -10,9 +10,11 @@ from fieldscribe.report import visible
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.audit.outcome import Audit, Missing
+    from fieldscribe.audit.outcome import Audit, Missing, Unused
     from fieldscribe.report import Line
 
+_SHOWN = 8
+"""A finding shows so many of the numbers of one place."""
 _TEXTS = {
     True: "the text that was transcribed",
     False: "not the text that was transcribed",
@@ -32,10 +34,8 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
         places = f"{count} cited place{'' if count == 1 else 's'}"
         side = "below" if by > 0 else "above"
         yield [("warning", "moved"), ("", f": {places} of {lines} stand {abs(by)} lines {side}")]
-    for number in outcome.unused:
-        subjects = ", ".join(number.subjects[:3]) + (", ..." if len(number.subjects) > 3 else "")
-        message = f": {subjects}: no fact uses {number.number} at line {number.line}, column {number.column}"
-        yield [("", visible(number.place) + ": "), ("error", "unused"), ("", visible(message))]
+    for numbers in _together(outcome.unused):
+        yield [("", visible(numbers[0].place) + ": "), ("error", "unused"), ("", visible(_unused(numbers)))]
     for place in outcome.uncited:
         kind = "error" if place.among_cited else "hint"
         if place.among_cited or everything:
@@ -57,6 +57,27 @@ def _missing(fact: Missing) -> str:
         lacks = "is not everywhere where places like it have it"
         return f": {subject}: {told} {lacks}, at {where}; line {fact.nearest} has it"
     return f": {subject}: {told} is not at {where}; {_near(fact.nearest)}"
+
+
+def _together(unused: list[Unused]) -> Iterator[list[Unused]]:
+    """The numbers of one place that stand in lines one below the other."""
+    numbers: list[Unused] = []
+    for number in unused:
+        if numbers and (number.subjects != numbers[-1].subjects or number.line > numbers[-1].line + 1):
+            yield numbers
+            numbers = []
+        numbers.append(number)
+    if numbers:
+        yield numbers
+
+
+def _unused(numbers: list[Unused]) -> str:
+    first = numbers[0]
+    subjects = ", ".join(first.subjects[:3]) + (", ..." if len(first.subjects) > 3 else "")
+    shown = ", ".join(number.number for number in numbers[:_SHOWN])
+    more = f" and {len(numbers) - _SHOWN} more" if len(numbers) > _SHOWN else ""
+    column = f", column {first.column}" if len(numbers) == 1 else ""
+    return f": {subjects}: no fact uses {shown}{more} at {_lines(first.line, numbers[-1].line)}{column}"
 
 
 def _lines(first: int, last: int) -> str:
