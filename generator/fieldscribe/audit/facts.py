@@ -167,7 +167,7 @@ class Facts(Errata):
         if claim.tight:
             runs = [run for run in runs if passage.has_signs_alone(run[0], run[-1])]
         if claim.words:
-            behind = [passage.words_behind(run[-1], claim.words) for run in runs]
+            behind = passage.words_behind((run[-1] for run in runs), claim.words)
             self._use(token for places in behind for place in places for token in passage.inside(*place))
             runs = [run for run, places in zip(runs, behind, strict=True) if places]
         self._use(token for run in runs for token in run)

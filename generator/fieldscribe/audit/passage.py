@@ -129,13 +129,14 @@ class Passage:
 
     def under(self, head: frozenset[Fraction]) -> list[Token]:
         """The numbers in the column of a number that a table's head counts, in the row below the head."""
+        rows: dict[int, list[Token]] = {}
+        for token in self.tokens:
+            rows.setdefault(token.line, []).append(token)
         below: list[Token] = []
-        for line in dict.fromkeys(token.line for token in self.tokens):
-            heads = [token for token in self.tokens if token.line == line]
+        for line, heads in rows.items():
             counts = len(heads) >= _LISTED and all(at in token.readings for at, token in enumerate(heads))
             columns = {self._column_of(token) for token in heads if counts and token.is_plainly(head)} - {None}
-            row = [token for token in self.tokens if token.line == line + 1]
-            below += (token for token in row if self._column_of(token) in columns)
+            below += (token for token in rows.get(line + 1, ()) if self._column_of(token) in columns)
         return below
 
     def _column_of(self, token: Token) -> int | None:
@@ -245,11 +246,14 @@ class Passage:
         cells = [match.span() for match in re.finditer(r"^\|?[^|\t\n]*(?=[|\t])", self.text, re.MULTILINE)]
         return [token for first, end in cells for token in self.inside(first, end)] if cells else self.tokens
 
-    def words_behind(self, token: Token, words: tuple[str, ...]) -> list[tuple[int, int]]:
-        """Where one of these words stands in the line of a number, behind it: first place and the place behind."""
-        first = self.end_of(token)
-        end = self.text.find("\n", first) % (len(self.text) + 1)
-        return [place for word in words for place in self.places(word) if first <= place[0] < end]
+    def words_behind(self, tokens: Iterable[Token], words: tuple[str, ...]) -> list[list[tuple[int, int]]]:
+        """Where one of these words stands in the line of each number, behind it: first place and the place behind."""
+        spans = [span for word in words for span in self.places(word)]
+        behind = []
+        for first in map(self.end_of, tokens):
+            end = self.text.find("\n", first)
+            behind.append([span for span in spans if first <= span[0] and (end < 0 or span[0] < end)])
+        return behind
 
     def is_followed_by(self, token: Token, words: str) -> bool:
         """Whether words stand right behind a number, such as its unit."""
