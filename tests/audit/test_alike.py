@@ -128,4 +128,4 @@ def test_the_number_beside_a_label_is_no_mask(old: str, new: str, tmp_path: Path
     points = f"- name: inputs\n  at: 0020h\n  line: 1\n  flags:\n{flags}  lines: {{flags: 2..4}}\n"
     described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
     assert described is not None
-    assert audit(described, "plant", "manual.txt", MASKS.replace(old, new), same_text=None).clean == (not old)
+    assert audit(described, "manual.txt", MASKS.replace(old, new), same_text=None).clean == (not old)

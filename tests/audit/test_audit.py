@@ -9,6 +9,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.audit.fingerprint import Fingerprint
 from fieldscribe.audit.manual import Manual, has_word, tokens_of
 from fieldscribe.cli import main
 from fieldscribe.families.modbus.frames import crc16
@@ -63,12 +64,13 @@ DEVICE = together(
 
 
 def audit(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], manual: str = MANUAL, device: str = DEVICE
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], manual: str = MANUAL, device: str = DEVICE, was: str = MANUAL
 ) -> tuple[int, dict[str, Any]]:
-    """Runs the command on a description of MANUAL against another text; exit code and the JSON report."""
+    """Runs the command on a description of a text (`was`) against another one; exit code and the JSON report."""
     folder = tmp_path / "audited"
-    digest = sha256(MANUAL.encode()).hexdigest()
+    digest = sha256(was.encode()).hexdigest()
     write(folder, device.replace("SHA", digest))
+    (folder / "manual.fingerprint").write_text(Fingerprint.of(was, digest).written(), encoding="utf-8")
     path = tmp_path / "manual.txt"
     path.write_text(manual, encoding="utf-8")
     code = main(["audit", str(folder), "--manual", str(path), "--report", "json"])
@@ -188,7 +190,7 @@ def test_inserted_text_moves_facts_and_errata_and_nothing_else(
     """Small numbers that stand in many rows, frames and errata follow what is printed around them."""
     lines = LONG_MANUAL.splitlines()
     text = "\n".join([*lines[:line], *["A sentence without numbers."] * 3, *lines[line:]]) + "\n"
-    _, found = audit(tmp_path, capsys, text, LONG_DEVICE)
+    _, found = audit(tmp_path, capsys, text, LONG_DEVICE, LONG_MANUAL)
     assert (found["missing"], found["errata_not_printed"], found["uncited"]) == ([], [], [])
     assert {one["now"] - one["line"] for one in found["moved"]} == {3}
     assert {one["line"] for one in found["moved"]} == {one for one in (*range(5, 25), 28, 32, 33) if one > line}
@@ -198,7 +200,7 @@ def test_a_changed_address_does_not_move_its_row(tmp_path: Path, capsys: pytest.
     """Its number stands elsewhere too, but a row alone does not jump there and what follows back."""
     text = LONG_MANUAL.replace("| 0003h | 0002h | Coil 3 |", "| 0703h | 0702h | Coil X |")
     assert text != LONG_MANUAL
-    code, found = audit(tmp_path, capsys, text, LONG_DEVICE)
+    code, found = audit(tmp_path, capsys, text, LONG_DEVICE, LONG_MANUAL)
     assert (code, found["moved"], {one["subject"] for one in found["missing"]}) == (1, [], {"coil_2"})
 
 
@@ -513,7 +515,7 @@ def test_what_stands_in_words_and_lists_is_looked_for(
 ) -> None:
     text = MANUAL + MORE
     assert old == "" or text.count(old) == 1
-    _, found = audit(tmp_path, capsys, text.replace(old, new) if old else text, DEVICE + MORE_POINTS)
+    _, found = audit(tmp_path, capsys, text.replace(old, new) if old else text, DEVICE + MORE_POINTS, text)
     assert [f"{one['fact']} {one['wanted']}" for one in found["missing"]] == missing
     if not old:
         assert [one["number"] for one in found["unused_numbers"] if int(str(one["line"])) > 25] == []
@@ -617,9 +619,10 @@ def test_codes_and_split_numbers(
 @pytest.mark.parametrize("moved", ["", "\n"])
 def test_what_was_looked_through_is_not_uncited(moved: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = (MANUAL + SPLIT).replace("## Parameters", f"{moved}## Parameters")
-    _, found = audit(tmp_path, capsys, text, DEVICE + SPLIT_POINTS)
+    _, found = audit(tmp_path, capsys, text, DEVICE + SPLIT_POINTS, MANUAL + SPLIT)
     assert [one for one in found["uncited"] if int(str(one["line"])) >= 35] == []
-    _, found = audit(tmp_path, capsys, text, DEVICE + SPLIT_POINTS.partition("looked_through")[0])
+    described = DEVICE + SPLIT_POINTS.partition("looked_through")[0]
+    _, found = audit(tmp_path, capsys, text, described, MANUAL + SPLIT)
     rows = [(one["line"] - len(moved), one["last"] - len(moved)) for one in found["uncited"]]
     assert rows[-2:] == [(35, 35), (37, 38)]  # rows that follow each other are told once
 
@@ -650,7 +653,7 @@ def test_what_a_frame_says_stands_where_it_is_cited(
 ) -> None:
     check = crc16(bytes.fromhex("01 06 10 01 01 90")).to_bytes(2, "little").hex(" ").upper()
     text = f"{MANUAL}\nThe frequency of {value}\n01 06 10 01 01 90 {check}\n"
-    _, found = audit(tmp_path, capsys, text, DEVICE + FRAME.replace("CRC", check))
+    _, found = audit(tmp_path, capsys, text, DEVICE + FRAME.replace("CRC", check), text)
     assert [f"{one['subject']} {one['fact']} {one['wanted']}" for one in found["missing"]] == missing
 
 

@@ -110,5 +110,5 @@ def test_a_changed_number(device: str, old: str, new: str, expected: list[str], 
     report = Report()
     subject = load_subject(write(tmp_path / "plant", description), report)
     assert subject is not None, report.findings
-    outcome = audit(subject, "plant", "manual.txt", text.replace(old, new) if old else text, same_text=None)
+    outcome = audit(subject, "manual.txt", text.replace(old, new) if old else text, same_text=None)
     assert [f"{one.fact} {one.wanted}" for one in outcome.missing] == expected

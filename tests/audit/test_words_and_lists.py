@@ -64,7 +64,7 @@ def found(folder: Path, points: str, text: str) -> list[str]:
     documents = "{manual: {title: Manual, language: en, writes: {bits: [Bit]}}}"
     subject = load_subject(write(folder / "plant", together(head(documents=documents), group(points))), Report())
     assert subject is not None
-    outcome = audit(subject, "plant", "manual.txt", text, same_text=None)
+    outcome = audit(subject, "manual.txt", text, same_text=None)
     return [f"{one.fact} {one.wanted}" for one in outcome.missing] + [f"unused {one.number}" for one in outcome.unused]
 
 
@@ -132,5 +132,5 @@ def test_a_changed_byte_of_a_message(old: str, new: str, expected: list[str], tm
     subject = load_subject(write(tmp_path / "plant", head(family="can", bus=bus) + ASK), Report())
     assert subject is not None
     text = MESSAGE.replace(old, new) if old else MESSAGE
-    outcome = audit(subject, "plant", "manual.txt", text, same_text=None)
+    outcome = audit(subject, "manual.txt", text, same_text=None)
     assert [f"{one.fact} {one.wanted}" for one in outcome.missing] == expected

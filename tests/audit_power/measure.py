@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit import Audit, Auditor
 from fieldscribe.audit.comparison import Comparison
+from fieldscribe.audit.fingerprint import Fingerprint
 from fieldscribe.audit.manual import Manual
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject
@@ -45,7 +46,9 @@ class Sound:
         file = next(document.file for document in subject.scope.documents.values() if document.file)
         self.device = device
         self.auditor = Auditor(subject)
-        self.manual = Manual((manuals / file).read_text("utf-8"), self.auditor.names)
+        text = (manuals / file).read_text("utf-8")
+        self.fingerprint = Fingerprint.of(text, "")
+        self.manual = Manual(text, self.auditor.names)
         self.comparison = Comparison(self.manual, self.auditor, Audit(device, file, True, len(self.manual)))
         self.outcome = self.comparison.run()
 
@@ -55,7 +58,7 @@ class Sound:
 
     def audited(self, text: str) -> Audit:
         """Another text against the same description."""
-        return self.auditor.audit(self.device, "", text, same_text=False)
+        return self.auditor.audit("", text, same_text=False, kept=self.fingerprint)
 
 
 @cache

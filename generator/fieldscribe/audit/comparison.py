@@ -7,21 +7,18 @@ from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.facts import Facts
 from fieldscribe.audit.instead import instead
 from fieldscribe.audit.labels import Standing, standing
-from fieldscribe.audit.manual import Extent, Manual, Token
-from fieldscribe.audit.outcome import Audit, Missing, Uncited, Unused
-from fieldscribe.audit.places import Asked, nearly_all
-from fieldscribe.audit.printed_errata import printed_errata_of
-from fieldscribe.audit.wordings import Wordings
+from fieldscribe.audit.outcome import Missing, Uncited, Unused
+from fieldscribe.audit.places import nearly_all
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.audit.manual import Extent, Token
+    from fieldscribe.audit.outcome import Audit
 
 _SHORT = 100
 """Findings show at most so many characters of a line."""
@@ -29,36 +26,24 @@ _LISTED = 4
 """So many labels are a list: where nearly all of them stand, all have to."""
 _COMPOUND = re.compile(r"-[^\W\d]{2,}")
 """What makes a number part of a word: `16-bit`."""
+_CAPTION = re.compile(
+    r"[\s*_]*(?:Abbildung|Abb\.|Bild|Tabelle|Tab\.|Figure|Fig\.|Picture|Table)\s+[0-9]+(?:[-.][0-9]+)*\s*[:.\u2013-]",
+    re.I,
+)
+"""What counts a picture or a table is no fact."""
 _FEWEST_LOST, _LOST = 4, 0.5
 """A place is lost where so many facts of a subject are missing, such a share of all, and nearly all its names."""
+_LISTS = ("enum", "flags", "flag values")
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
-
-
-def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
-    """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
-    return Auditor(subject).audit(device, manual_name, text, same_text=same_text)
-
-
-class Auditor(Asked):
-    """What a description takes from its manual, read once for any number of texts."""
-
-    def __init__(self, subject: Subject) -> None:
-        claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
-        super().__init__(claims, list(printed_errata_of(subject)), looked_through_of(subject))
-        self.names = Wordings(subject.scope.header["documents"]).names
-
-    def audit(self, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
-        """Everything that does not agree with a text."""
-        manual = Manual(text, self.names)
-        return Comparison(manual, self, Audit(device, manual_name, same_text, len(manual))).run()
 
 
 class Comparison(Facts):
     """The state of one audit: what is absent, and which numbers were used."""
 
-    def run(self) -> Audit:
-        """All findings."""
+    def run(self, held: Collection[Claim] = ()) -> Audit:
+        """All findings, but for claims that are known to hold."""
+        self._held = held
         labels: dict[tuple[str, str, tuple[tuple[int, int], ...]], list[Claim]] = {}
         for claim in self.claims:
             if claim.entry is None and not claim.beside and claim.fact != "title":
@@ -160,7 +145,7 @@ class Comparison(Facts):
             self._misses(claim, extents)
 
     def _misses(self, claim: Claim, extents: list[Extent]) -> None:
-        if self._is_taken(claim, extents):
+        if claim in self._held or self._is_taken(claim, extents):
             return
         self.absent.append((claim, extents))
 
@@ -170,10 +155,10 @@ class Comparison(Facts):
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
         nearby: dict[tuple[str, str, str | None], Missing] = {}
-        lost = self._lost_places()
-        subjects = {subject for subject, _ in lost}
+        lost = self._lost_together()
+        subjects = {claim.subject for claim in lost}
         for claim, extents in self._without_repetition():
-            gone = lost.get((claim.subject, claim.cited), [claim])
+            gone = lost.get(claim, [claim])
             if claim is not gone[0]:
                 continue
             there = [number for extent in extents for number in unused[extent]]
@@ -181,11 +166,14 @@ class Comparison(Facts):
             told.update(number for number in there if number.number == printed)
             first, last = extents[0].first, extents[0].last
             nearest = None if printed else self._nearest(claim, first)
-            missing = Missing(claim.subject, claim.fact, claim.shown, first, last, nearest, claim.where, printed)
+            shown = claim.shown
+            if claim.fact in _LISTS and len(gone) > 1:
+                shown = ", ".join(one.shown for one in gone[:_LISTED]) + (", ..." if len(gone) > _LISTED else "")
+            missing = Missing(claim.subject, claim.fact, shown, first, last, nearest, claim.where, printed)
             missing.lost = len(gone)
             if len(gone) > 1:  # what stands there now is not of this subject
                 told.update(number for number in there if subjects.issuperset(number.subjects))
-            same = (claim.fact, claim.shown, printed)
+            same = (claim.fact, shown, printed)
             if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
                 nearby[same].spread(missing)
             else:
@@ -193,21 +181,25 @@ class Comparison(Facts):
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
-    def _lost_places(self) -> dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]]:
-        """The facts of each subject that is not where it is cited, with next to nothing of it: its name comes first."""
+    def _lost_together(self) -> dict[Claim, list[Claim]]:
+        """What is missing together, by each of its facts: nearly all of a subject, its name first; most of a list."""
         absent: dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]] = {}
+        of_list: dict[tuple[str, tuple[tuple[int, int], ...], str], list[Claim]] = {}
         for claim, _ in self.absent:
             if not claim.optional:
                 absent.setdefault((claim.subject, claim.cited), []).append(claim)
+            if claim.fact in _LISTS:
+                of_list.setdefault((claim.subject, claim.cited, claim.fact), []).append(claim)
         stated = Counter((claim.subject, claim.cited) for claim in self.claims if not claim.optional)
         anchors = Counter((claim.subject, claim.cited) for claim in self.claims if claim.anchor)
-        lost = {
-            key: claims
-            for key, claims in absent.items()
-            if _FEWEST_LOST <= len(claims) >= _LOST * stated[key]
-            and sum(claim.anchor for claim in claims) >= anchors[key] - (anchors[key] > 1)
-        }
-        return {key: sorted(claims, key=lambda claim: not claim.anchor) for key, claims in lost.items()}
+        listed = Counter((claim.subject, claim.cited, claim.fact) for claim in self.claims)
+        gone = (claims for key, claims in of_list.items() if len(claims) >= min(_LISTED, listed[key]))
+        lost = {claim: claims for claims in gone for claim in claims}
+        for key, claims in absent.items():
+            is_lost = _FEWEST_LOST <= len(claims) >= _LOST * stated[key]
+            if is_lost and sum(claim.anchor for claim in claims) >= anchors[key] - (anchors[key] > 1):
+                lost |= dict.fromkeys(claims, sorted(claims, key=lambda claim: not claim.anchor))
+        return lost
 
     def _without_repetition(self) -> Iterator[tuple[Claim, list[Extent]]]:
         """What is absent, without what only tells the same of a thing in another way."""
@@ -226,6 +218,7 @@ class Comparison(Facts):
         return min(places, key=lambda place: (abs(place - line), place), default=None)
 
     def _unused(self) -> None:
+        self.strays: set[tuple[int, int]] = set()
         self.used -= {(token.line, token.column) for token in self.added}
         passed_over = self.empty | self.manual.page_lines
         for extent, subjects in self.subjects.items():
@@ -234,6 +227,7 @@ class Comparison(Facts):
                 for column, text in self._without_fact(line):
                     if (line, column) not in self.used:
                         self.used.add((line, column))
+                        self.strays.add((line, column))
                         self.outcome.unused.append(Unused(line, column, text, tuple(subjects), place))
         self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
 
@@ -241,7 +235,10 @@ class Comparison(Facts):
         """The numbers of a line, and the words that look like codes but are none of the description."""
         passed_over = self.codes | self.no_facts.get(line, frozenset())
         text = self.manual.line(line)
+        caption = _CAPTION.match(text)
         for token in self._of_line(line):
+            if caption and token.column <= caption.end():
+                continue
             if token.text not in passed_over and not _COMPOUND.match(text, token.column - 1 + len(token.text)):
                 yield token.column, token.text
         for match in self._code_forms.finditer(self.manual.line(line)):

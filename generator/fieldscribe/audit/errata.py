@@ -85,7 +85,7 @@ class Errata(Places):
         if not erratum.numbers and not erratum.texts:
             self.outcome.uncheckable += 1
             return
-        cited = [extent for lines in erratum.cited for extent in self.may_be(*lines)]
+        cited = [self.extent(*lines) for lines in erratum.cited]
         extents = self._spoken_of(erratum)
         absent = False
         for number in map(abs, erratum.numbers):

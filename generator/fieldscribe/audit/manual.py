@@ -12,15 +12,15 @@ from fieldscribe.audit.pages import page_lines
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
 _NUMBER = re.compile(
-    r"""(?<![\w,'])(?<![^.]\.)(?:
+    r"""(?<![\w,'\u2018\u2019\u201a])(?<![^.]\.)(?:
         0[xX](?P<long>[0-9A-Fa-f]{4})
       | (?:0[xX]|[Hh]'|[Hh]ex[ ])(?P<marked>[0-9A-Fa-f]+)
-      | (?P<parted>[0-9]+(?:\\?_[0-9]+)+)(?![A-Za-z0-9]|_[A-Za-z0-9])
+      | (?P<parted>[0-9]+(?:\\?_[0-9]+)+)(?:(?=bin\b)|(?![A-Za-z0-9]|_[A-Za-z0-9]))
       | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?!\w)
-      | (?P<tailed>[0-9A-Fa-f]+)[hH](?!\w)
+      | (?P<tailed>(?=[A-F]*[0-9]|[A-F]+[hH]|[A-Fa-f]+[0-9])[0-9A-Fa-f]+)[hH](?!\w)
       | (?P<bare>[0-9A-F]*[0-9][0-9A-F]*[A-F][0-9A-F]*|[A-F][0-9A-F]*[0-9][0-9A-F]*|[A-F]{2}|[A-F]{4})(?!\w)
       | (?P<grouped>(?<![0-9][ ])[1-9][0-9]{0,2}(?:[ \u00a0\u2009\u202f][0-9]{3})+)(?![\w'.,]*[0-9])(?![ ][0-9])
       | (?P<decimal>[0-9]+(?:[.,][0-9]+)*)
@@ -35,6 +35,7 @@ _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
 _LIST = re.compile("(?![0-9]{1,3}(?:,[0-9]{3})+$)[0-9]+(?:,[0-9]+){2,}")
 """Numbers parted by commas without blanks; three digits behind each comma are thousands."""
 _ONE_OVER = "\\frac{"
+_OVER = re.compile("/(?:[^\\W\\d_]|%|[0-9]{2})")
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
@@ -73,10 +74,14 @@ class Extent:
 
 
 class Manual:
-    """A manual's text, read once. `names` are its words with digits in them that are no numbers."""
+    """A manual's text, read once. `names` are its words with digits in them that are no numbers.
 
-    def __init__(self, text: str, names: Sequence[str] = ()) -> None:
+    `sections` are lines that open a section, whatever they look like.
+    """
+
+    def __init__(self, text: str, names: Sequence[str] = (), sections: Collection[int] = ()) -> None:
         self.lines = lines_of(text)
+        self._sections = frozenset(sections)
         self._heads: dict[int, str] = {}
         self._names = re.compile("|".join(map(_name, names))) if names else None
 
@@ -96,12 +101,12 @@ class Manual:
     def headings(self) -> list[int]:
         """The lines that open a section; lines of a table of contents do not."""
         return [
-            number
-            for number, text in enumerate(self.lines, 1)
-            if (_HEADING.match(text) or _chapter(text) in self._chapters)
-            and not _CONTENTS.search(text)
-            and "|" not in text
+            number for number, text in enumerate(self.lines, 1) if number in self._sections or self._is_heading(text)
         ]
+
+    def _is_heading(self, text: str) -> bool:
+        looks_so = _HEADING.match(text) or _chapter(text) in self._chapters
+        return bool(looks_so) and not _CONTENTS.search(text) and "|" not in text
 
     @cached_property
     def _chapters(self) -> set[tuple[str, str]]:
@@ -266,7 +271,7 @@ def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
         if _LIST.fullmatch(match[0]):
             for part in re.finditer("[0-9]+", match[0]):
                 tokens += tokens_of(part[0], number, column + match.start() + part.start())
-        elif match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start()):
+        elif match[0] != "1" or not (text.endswith(_ONE_OVER, 0, match.start()) or _OVER.match(text, match.end())):
             tokens.append(Token(match[0], number, column + match.start() + 1, _readings_of(match[0])))
     return tokens
 

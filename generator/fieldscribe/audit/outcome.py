@@ -83,6 +83,8 @@ class Audit:
     manual: str
     same_text: bool | None
     lines: int
+    has_fingerprint: bool = False
+    """Whether the layout of the text that was transcribed is known."""
     facts: int = 0
     errata: int = 0
     uncheckable: int = 0
@@ -95,7 +97,12 @@ class Audit:
     @property
     def clean(self) -> bool:
         """Whether all that is cited stands there, errata too, and nothing more than that."""
-        return not (self.missing or self.moved or self.unprinted or self.unused or self.added)
+        return not (self.findings or self.moved)
+
+    @property
+    def findings(self) -> int:
+        """How many there are, cited places that moved not counted."""
+        return len(self.missing) + len(self.unprinted) + len(self.unused) + len(self.added)
 
     @property
     def added(self) -> list[Uncited]:

@@ -9,23 +9,20 @@ from typing import TYPE_CHECKING
 from fieldscribe.audit.columns import Columns
 from fieldscribe.audit.labels import standing
 from fieldscribe.audit.manual import Extent, Manual, Token
-from fieldscribe.audit.outcome import Audit, Moved
 from fieldscribe.audit.passage import Passage
-from fieldscribe.audit.placement import placement
 from fieldscribe.audit.siblings import Siblings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from fractions import Fraction
 
     from fieldscribe.audit.citing import Claim
+    from fieldscribe.audit.outcome import Audit
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.model import About
 
 _PARTED = ("bits", "fixed bits", "enum", "flags", "flag values")
 """Facts that a place may print anew behind the address of each of its subjects."""
-_FAR_APART = 40
-"""So many lines may have come between the two cited lines around one that nothing cites."""
 _NEARLY_ALL = 0.75
 """The share of facts from which on all have to stand alike; of some more one may always be another."""
 
@@ -48,9 +45,11 @@ def nearly_all(stand: list[bool], but_one_of: int = 4) -> bool:
 class Places:
     """Where cited lines stand now, with what was found in them so far."""
 
-    def __init__(self, manual: Manual, asked: Asked, outcome: Audit) -> None:
+    def __init__(self, manual: Manual, asked: Asked, outcome: Audit, now: Callable[[int], int] | None = None) -> None:
+        """`now` tells where a line of the transcribed text stands in this one; without it each is where it was."""
         claims, errata, looked_through = asked.claims, asked.errata, asked.looked_through
         self.manual, self.claims, self.errata, self.outcome = manual, claims, errata, outcome
+        self._now = now = now or _where_it_was
         self.used: set[tuple[int, int]] = set()
         self.taken: dict[About, list[PrintedErratum]] = {}
         for erratum in errata:
@@ -59,15 +58,9 @@ class Places:
         self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
         self.subjects: dict[Extent, dict[str, str]] = {}
         self.absent: list[tuple[Claim, list[Extent]]] = []
-        cited = sorted({first for claim in claims for first, _ in claim.cited})
-        self.now = {line: line for line in cited} if outcome.same_text else self._moved(cited)
-        self.cited = sorted(self.now)
-        self.starts = sorted({self.now[first] for claim in claims for first, last in claim.cited if not last})
-        self.empty = {place for line, numbers in looked_through.items() if not numbers for place in self._may_be(line)}
-        self.no_facts: dict[int, frozenset[str]] = {}
-        for line, numbers in looked_through.items():
-            for place in _lines_between(self._may_be(line)) if numbers else ():
-                self.no_facts[place] = self.no_facts.get(place, frozenset()) | _with_parts(numbers)
+        self.starts = sorted({now(first) for claim in claims for first, last in claim.cited if not last})
+        self.empty = {now(line) for line, numbers in looked_through.items() if not numbers}
+        self.no_facts = {now(line): _with_parts(numbers) for line, numbers in looked_through.items() if numbers}
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
@@ -75,33 +68,17 @@ class Places:
         self.added: list[Token] = []
         self.columns, self.siblings = Columns(manual), Siblings()
 
-    def _now(self, line: int) -> int:
-        """Where any line of the transcribed text stands in this text: it moved with the nearest cited line above it."""
-        place = bisect_right(self.cited, line)
-        return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
-
-    def _may_be(self, line: int) -> set[int]:
-        """Where a line that no fact cites may stand: it moved with the cited line above it, or with the one below."""
-        below = self.cited[bisect_right(self.cited, line) :][:1]
-        return {self._now(line), *(line + self.now[cited] - cited for cited in below)}
-
     def extent(self, first: int, last: int) -> Extent:
         """The lines that a citation means in this text."""
         key = (first, last)
         if key not in self._extents:
-            self._extents[key] = self._extent_at(self._now(first), last - first if last else 0, whole=bool(last))
+            start = self._now(first)
+            place = bisect_right(self.starts, start)
+            following = self.starts[place] if place < len(self.starts) else None
+            self._extents[key] = (
+                Extent(start, self._now(last), "lines") if last else self.manual.extent(start, following)
+            )
         return self._extents[key]
-
-    def _extent_at(self, start: int, length: int, *, whole: bool) -> Extent:
-        if whole:
-            return Extent(start, start + length, "lines")
-        place = bisect_right(self.starts, start)
-        return self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
-
-    def may_be(self, first: int, last: int) -> list[Extent]:
-        """Where the lines of a citation may stand that no fact helps to find."""
-        length = last - first if last else 0
-        return [self._extent_at(start, length, whole=bool(last)) for start in sorted(self._may_be(first))]
 
     def passage(self, extent: Extent) -> Passage:
         """Their text, with the cells that are merged from above."""
@@ -166,31 +143,11 @@ class Places:
             self._parted[key] = nearly_all(stand, but_one_of=3)
         return self._parted[key]
 
-    def _moved(self, cited: list[int]) -> dict[int, int]:
-        """Where each cited line stands in a manual that changed; what moved is noted."""
-        anchors: dict[int, list[Claim]] = {}
-        for claim in self.claims:
-            if not claim.optional:
-                for first, _ in claim.cited:
-                    anchors.setdefault(first, []).append(claim)
-        numbers: dict[int, list[Fraction]] = {}
-        for erratum in self.errata:
-            if not erratum.is_sentence:
-                for first, _ in erratum.cited:
-                    numbers.setdefault(first, []).extend(erratum.numbers)
-        now = placement(self.manual, cited, anchors, numbers)
-        for line in [line for line in cited if now[line] != line]:
-            for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
-                self.outcome.moved.append(Moved(name, line, now[line]))
-        return now
+
+def _where_it_was(line: int) -> int:
+    return line
 
 
 def _with_parts(numbers: frozenset[str]) -> frozenset[str]:
     """Listed numbers, those of a row that is listed as a whole, too."""
     return numbers.union(*map(str.split, numbers))
-
-
-def _lines_between(ends: set[int]) -> Iterable[int]:
-    """The lines between the two where a line may stand, if they are not far apart."""
-    first, last = min(ends), max(ends)
-    return range(first, last + 1) if last - first <= _FAR_APART else ends

@@ -20,6 +20,8 @@ _TEXTS = {
     False: "not the text that was transcribed",
     None: "a text without a known checksum",
 }
+_NO_LAYOUT = "no fingerprint of the text that was transcribed is kept: each line is looked for where it was"
+_KEEP = "audit that text with --fingerprint, or give it as --old"
 
 
 def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
@@ -41,6 +43,8 @@ def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
         if place.among_cited or everything:
             rows = f"{place.last - place.line + 1} rows" if place.last > place.line else place.kind
             yield [(kind, "uncited"), ("", visible(f": {_lines(place.line, place.last)}: {rows}: {place.text}"))]
+    if outcome.same_text is False and not outcome.has_fingerprint:
+        yield [("hint", "hint"), ("", f": {_NO_LAYOUT}; {_KEEP}")]
     yield from _figures(outcome, everything)
 
 

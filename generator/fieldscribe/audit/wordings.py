@@ -43,7 +43,8 @@ class Wordings:
         text = titles.get(self.language) if isinstance(titles, dict) else titles if self.language == "en" else None
         if text is None or not any(map(str.isalpha, str(text))):
             return ()
-        return tuple(self._words.get(str(text), (str(text),)))
+        written = self._words.get(str(text), [str(text)])
+        return (*written, str(text)) if written and str(text) not in written else tuple(written)
 
 
 def joined(numbering: str, number: object) -> tuple[str, ...]:

@@ -55,6 +55,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
     )
     parser.add_argument(
+        "--fingerprint",
+        action="store_true",
+        help="keep the fingerprint of the text that was transcribed: a new edition in another layout is read by it",
+    )
+    parser.add_argument(
         "--holds",
         action="append",
         default=[],
@@ -77,6 +82,10 @@ def run(arguments: Namespace) -> int:
 
     if not arguments.accept and (arguments.file is not None or arguments.edition is not None):
         raise StopError("--file and --edition say what --accept records", "give them with --accept")
+    if arguments.fingerprint and arguments.old is not None:
+        raise StopError(
+            "--fingerprint is of the text that was transcribed", "with --old say --accept: it keeps the new one's"
+        )
     if arguments.old is not None:
         from fieldscribe.cli.audit_editions import run as run_editions
 
@@ -90,17 +99,40 @@ def run(arguments: Namespace) -> int:
         print(as_html(outcome))
     else:
         print_lines(as_lines(outcome, everything=arguments.all))
+    if arguments.fingerprint:
+        _keep(arguments)
     return FINE if outcome.clean else FINDINGS
 
 
 def _audit(arguments: Namespace) -> Audit:
     from fieldscribe.audit import audit
+    from fieldscribe.cli.fingerprints import kept_of
 
     subject = opened(arguments)
     path, document = manual_of(subject, arguments.manual)
     name, text, digest = text_of(path)
     same = None if document.sha256 is None else digest == document.sha256
-    return audit(subject, str(subject.scope.header["device"]), name, text, same_text=same)
+    return audit(subject, name, text, same_text=same, kept=None if same else kept_of(subject, document))
+
+
+def _keep(arguments: Namespace) -> None:
+    """Keep the fingerprint of the text that was transcribed. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.cli.fingerprints import keeping, place_of
+    from fieldscribe.cli.rewriting import rewrite
+    from fieldscribe.reading import shown_path
+
+    subject = opened(arguments)
+    path, document = manual_of(subject, arguments.manual)
+    name, text, digest = text_of(path)
+    if document.sha256 is None:
+        raise StopError(f"documents.{document.id} records no text", f"add `sha256: {digest}` there")
+    if digest != document.sha256:
+        raise StopError(f"`{name}` is not the text that documents.{document.id} records", "give that one as --manual")
+    changes = keeping(subject, document, text, digest)
+    rewrite(changes)
+    if arguments.format == "text":
+        print(f"{'kept' if changes else 'kept before'}: {shown_path(place_of(subject, document))}")
 
 
 def opened(arguments: Namespace) -> Subject:

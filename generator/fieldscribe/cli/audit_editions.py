@@ -149,7 +149,9 @@ def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
     """Record the new edition; what was done. Raises StopError."""
     from fieldscribe.audit.editions.accepting import with_recorded
     from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.audit import manual_of, text_of
     from fieldscribe.cli.common import StopError
+    from fieldscribe.cli.fingerprints import keeping
     from fieldscribe.cli.rewriting import rewrite
 
     said = subject.scope.header["documents"][document.id]
@@ -157,7 +159,8 @@ def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
     text = with_recorded(said, {"sha256": digest, **_given(arguments)})
     if text is None:
         raise StopError(f"not accepted: documents.{document.id} has an alias: write it out", code=FINDINGS)
-    rewrite({said.file.name: (said.file.text, text)})
+    path, _ = manual_of(subject, arguments.manual)
+    rewrite({said.file.name: (said.file.text, text), **keeping(subject, document, text_of(path)[1], digest)})
     return f"accepted: {said.file.name}:{said.span('sha256').line} records the new edition"
 
 
@@ -168,7 +171,7 @@ def _not_clean(arguments: Namespace, subject: Subject) -> list[str]:
     from fieldscribe.cli.audit import manual_of, text_of
 
     name, text, _ = text_of(manual_of(subject, arguments.manual)[0])
-    outcome = audit(subject, str(subject.scope.header["device"]), name, text, same_text=True)
+    outcome = audit(subject, name, text, same_text=True)
     if outcome.clean:
         return []
     lines = (line for line in as_lines(outcome, everything=False) if {kind for kind, _ in line} & {"error", "warning"})

@@ -19,18 +19,33 @@ _MARK = b"\xef\xbb\xbf"
 """What some editors put before a text in UTF-8."""
 
 
-def rewrite(texts: Mapping[str, tuple[str, str]]) -> None:
-    """Replace the text of each file, given as it was read and as it shall be. Raises StopError."""
-    waiting: list[tuple[Path, Path, bytes]] = []
+def rewrite(texts: Mapping[str, tuple[str | None, str]]) -> None:
+    """Replace the text of each file, given as it was read (None: there was none) and as it shall be.
+
+    Raises StopError.
+    """
+    waiting: list[tuple[Path, Path, bytes | None]] = []
     try:
         for name, (before, after) in texts.items():
-            waiting.append(_staged(Path(name).resolve(), before, after))
+            place = Path(name).resolve()
+            waiting.append(_new(place, after) if before is None else _staged(place, before, after))
         _replace_all(waiting)
     except OSError as error:
         raise StopError(f"cannot write {error.filename}: {error.strerror}", "nothing was changed") from error
     finally:
         for _, new, _ in waiting:
             new.unlink(missing_ok=True)
+
+
+def _new(place: Path, text: str) -> tuple[Path, Path, None]:
+    """A file where none is."""
+    if os.path.lexists(place):
+        raise StopError(f"`{place.name}` came while the command ran", "nothing was changed: run the command again")
+    new = place.with_name(f".{place.name}.fieldscribe-new")
+    new.unlink(missing_ok=True)
+    with open(os.open(new, _FLAGS, 0o666), "wb") as stream:
+        stream.write(text.encode())
+    return place, new, None
 
 
 def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
@@ -50,12 +65,12 @@ def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
     return place, new, data
 
 
-def _replace_all(waiting: list[tuple[Path, Path, bytes]]) -> None:
+def _replace_all(waiting: list[tuple[Path, Path, bytes | None]]) -> None:
     """Put all new files in place; if that fails for one, the others get back what they had."""
     for number, (place, new, _) in enumerate(waiting):
         try:
             os.replace(new, place)
         except OSError:
             for done, _, data in waiting[:number]:
-                done.write_bytes(data)
+                done.unlink() if data is None else done.write_bytes(data)
             raise

@@ -101,7 +101,7 @@ def _heads(matching: Matching) -> Iterator[tuple[int, int]]:
 
 def _cut_columns(was: list[list[str]], now: list[list[str]]) -> Iterator[tuple[int, int]]:
     """The columns of a table that have such a cell in its first row here, each with the number of the cell's rows."""
-    if len({len(cells) for cells in (*was, *now)}) != 1:
+    if not was or not now or len({len(cells) for cells in (*was, *now)}) != 1:
         return
     heads = takewhile(lambda row: row[0][0] and row[0][0] == row[1][0], zip(was, now, strict=False))
     most = len(list(heads))

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
+from fieldscribe.audit.alignment import Pieces
 from fieldscribe.audit.editions.formulas import without_setting
 from fieldscribe.audit.manual import lines_of
 
@@ -52,23 +53,22 @@ _BLANK = re.compile(r"(?<![0-9]) | (?![0-9])")
 _NO_ENDS: Mapping[int, int] = MappingProxyType({})
 
 
-class Words:
+class Words(Pieces):
     """The words of a text with the place of each: a name, a number, or one sign of punctuation."""
 
     def __init__(self, text: str, without: Container[int] = (), ends: Mapping[int, int] = _NO_ENDS) -> None:
         """The words of all lines but some (heads and feet of pages part what belongs together), of others to an end."""
+        super().__init__()
         self.lines = lines_of(text)
         self.texts: list[str] = []
-        self.line_of: list[int] = []
         self.column_of: list[int] = []
-        self._first: list[int] = [0]
         self._opening: set[int] = set()
         self.entries: set[int] = set()
         """The lines that a mark makes entries of a list."""
         for number, line in enumerate(self.lines, 1):
             if number not in without and not _RULE.fullmatch(line):
                 self._add(number, line[: ends.get(number)])
-            self._first.append(len(self.texts))
+            self._end_line()
 
     def _add(self, number: int, line: str) -> None:
         marks = _MARKS.match(line)
@@ -93,18 +93,9 @@ class Words:
             return False
         return not any(first < end <= last for first, last in map(re.Match.span, _LIST.finditer(line)))
 
-    def __len__(self) -> int:
-        return len(self.texts)
-
     def line(self, number: int) -> str:
         """A line counted from 1; empty outside the text."""
         return self.lines[number - 1] if 1 <= number <= len(self.lines) else ""
-
-    def of_line(self, line: int) -> range:
-        """The words of a line counted from 1; none outside the text."""
-        if not 1 <= line <= len(self.lines):
-            return range(len(self), len(self))
-        return range(self._first[line - 1], self._first[line])
 
     def first_cell(self, line: int) -> range:
         """The words in the first cell of a row; none of a line that has no cells."""
@@ -116,10 +107,6 @@ class Words:
         """Whether a row goes on in a line: its first cell is empty."""
         text = self.line(line)
         return text.startswith("\t") or (text.startswith("|") and not text.split("|")[1].strip())
-
-    def opens_line(self, word: int) -> bool:
-        """Whether a word is the first of its line; what stands behind the last word is."""
-        return word >= len(self) or word == 0 or self.line_of[word] != self.line_of[word - 1]
 
     def opens_cell(self, word: int) -> bool:
         """Whether a word is the first of its cell, or of a line in it."""
@@ -133,11 +120,6 @@ class Words:
         """The word before these and the one behind, where they are in the same cell."""
         above = [] if self.opens_cell(words.start) else self.texts[max(0, words.start - 1) : words.start]
         return above, [] if self.opens_cell(words.stop) else self.texts[words.stop : words.stop + 1]
-
-    def up_to_end(self, word: int, step: int) -> range:
-        """The words of its line from a word on, forwards or (-1) backwards."""
-        line = self.of_line(self.line_of[word])
-        return range(word, line.stop if step > 0 else line.start - 1, step)
 
     def is_in_one_line(self, start: int, end: int) -> bool:
         """Whether the words from..to stand in one line."""

@@ -1,0 +1,314 @@
+"""A new text in the layout of the one that was transcribed: each line of that one, in its order, with what it says now.
+
+So nothing of the audit has to know how a text may be laid out anew: cells, line breaks, pages and moved sections are as
+they were, and a cited line is where it was cited. Only new lines come between.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.alignment import Alignment, runs
+from fieldscribe.audit.fingerprint import Text
+from fieldscribe.audit.pages import page_lines, repeated
+from fieldscribe.audit.stacked import unstack
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.audit.fingerprint import Fingerprint
+
+_LENGTHS = (12, 8, 4, 2, 1)
+"""So many pieces in a row tell a place if they occur once: one piece alone has one of 64 signs."""
+_CELLS = "|\t"
+_HAS_CELLS = re.compile(r"\||\t|\S {2,}\S")
+_HEADS = 80
+"""A table's head stands at most so many lines below the one before it."""
+_FAR, _LONG, _SEVERAL = 150, 40, 3
+"""Lines so many pieces away, of so many, or so many lines moved; others may have changed places, and that is told."""
+
+
+class _Alignment(Alignment):
+    """A few words that stand in another order nearby have changed places, which is no layout."""
+
+    def __init__(self, old: Fingerprint, new: Text) -> None:
+        super().__init__(old, new, old.signs, new.signs)
+        self._old = old
+        self.align(_LENGTHS)
+        self._extend(1)
+        self._extend(-1)
+
+    def _extend(self, step: int) -> None:
+        """A piece that has no counterpart yet is the one beside that of its neighbour, if that is free and alike."""
+        for at in range(len(self.there))[::step]:
+            there = self.beside(at, step)
+            if there is not None and self.fits(at, there):
+                self.match(at, there)
+
+    def _may_move(self, first: int, last: int, shift: int) -> bool:
+        above = next((piece for piece in range(first, max(0, first - _FAR), -1) if self.there[piece] >= 0), None)
+        is_far = above is None or abs(self.there[above] - first - shift) > _FAR
+        lines = {self._old.line_of[piece] for piece in range(first, last)}
+        return is_far or last - first >= _LONG or len(lines) >= _SEVERAL
+
+
+class Relaid:
+    """The text, with the place of each of its lines and words in both editions."""
+
+    def __init__(self, kept: Fingerprint, text: str) -> None:
+        self.old, self.new = kept, Text(text)
+        self._alignment = _Alignment(kept, self.new)
+        self._there, self._back = self._alignment.there, self._alignment.back
+        self._drop_what_stands_alone()
+        self._pages = self._new_pages()
+        self._order, self._row_of = self._reading_order(unstack(self._alignment, kept, self.new, self._pages))
+        self.lines: list[str] = []
+        self._line_of_old: list[int] = [0]
+        self._places: list[list[tuple[int, int, int]]] = []
+        """For each line the columns of its words, with line and column in the new text."""
+        self._write()
+        self._line_of_new = self._by_new_line()
+        self._new_lines = sorted(self._line_of_new)
+
+    @property
+    def text(self) -> str:
+        """All lines."""
+        return "\n".join(self.lines)
+
+    @property
+    def sections(self) -> set[int]:
+        """The lines that opened a section of the transcribed text."""
+        return {self.now(line) for line in self.old.sections}
+
+    def now(self, line: int) -> int:
+        """The line (of this text) that a line of the transcribed text is."""
+        if line < len(self._line_of_old):
+            return self._line_of_old[line]
+        return line - len(self._line_of_old) + 1 + len(self.lines)
+
+    def of_new(self, line: int) -> int:
+        """The line (of this text) on which a line of the new text begins, or the last one before it."""
+        at = bisect_right(self._new_lines, line)
+        return self._line_of_new[self._new_lines[at - 1]] if at else 1
+
+    def has_words(self, line: int) -> bool:
+        """Whether anything stands on a line of this text."""
+        return 1 <= line <= len(self._places) and bool(self._places[line - 1])
+
+    def in_new(self, line: int, column: int = 0) -> tuple[int, int]:
+        """Line and column in the new text of a place of this one; of a line that is gone, the last line before it.
+
+        Without a column it is the line that has most of its words.
+        """
+        at = line
+        while at and not self.has_words(at):
+            at -= 1
+        if not at:
+            return 1, 1
+        places = self._places[at - 1]
+        if at != line:
+            return max(places)[1], 1
+        if not column:
+            often = Counter(new for _, new, _ in places)
+            return max(often, key=lambda new: (often[new], -new)), 1
+        start, new_line, new_column = places[max(0, bisect_right(places, (column, len(self.new.written) + 1, 0)) - 1)]
+        return new_line, max(1, new_column + column - start)
+
+    def last_in_new(self, line: int) -> int:
+        """The last line of the new text that has words of a line of this one."""
+        here = self._places[line - 1] if 1 <= line <= len(self._places) else []
+        return here[-1][1] if here else self.in_new(line)[0]
+
+    def _by_new_line(self) -> dict[int, int]:
+        """For each line of the new text the line of this one that has its first word."""
+        first: dict[int, tuple[int, int]] = {}
+        for line, places in enumerate(self._places, 1):
+            for _, new, column in places:
+                first[new] = min(first.get(new, (column, line)), (column, line))
+        return {new: line for new, (_, line) in first.items()}
+
+    def _drop_what_stands_alone(self) -> None:
+        """A piece whose neighbours are all others has its sign by chance."""
+        there = self._there
+        for piece, other in enumerate(there):
+            if other < 0:
+                continue
+            before = piece > 0 and there[piece - 1] >= 0 and abs(there[piece - 1] - other) <= 1
+            behind = piece + 1 < len(there) and there[piece + 1] >= 0 and abs(there[piece + 1] - other) <= 1
+            is_line = len(self.old.of_line(self.old.line_of[piece])) == 1
+            if not (before or behind or is_line):
+                self._alignment.forget(range(piece, piece + 1))
+
+    def _new_pages(self) -> frozenset[int]:
+        """The heads and feet of pages that are not as they were."""
+        written = self.new.written
+        partly = {self.new.line_of[piece] for piece, other in enumerate(self._back) if other < 0}
+        mostly = {line for line in partly if self._is_mostly_new(line)}
+        pages = frozenset(page_lines(written) & partly) | frozenset(repeated(written, mostly))
+        for line in pages:
+            self._alignment.forget_new(self.new.of_line(line))
+        return pages
+
+    def _is_mostly_new(self, line: int) -> bool:
+        pieces = self.new.of_line(line)
+        return 2 * sum(self._back[piece] < 0 for piece in pieces) > len(pieces)
+
+    def _write(self) -> None:
+        behind, before, between = self._added()
+        self._copy(between.pop(-1, ()))
+        for line in range(1, len(self.old.ends) + 1):
+            self._line_of_old.append(len(self.lines) + 1)
+            self._write_line(line, behind, before)
+            for piece in self.old.of_line(line):
+                self._copy(between.pop(self._there[piece], ()) if self._there[piece] >= 0 else ())
+
+    def _reading_order(self, rows: Iterable[list[int]]) -> tuple[list[int], list[int]]:
+        """All words but those of pages in the order in which they are read, and the line or row of each."""
+        row_of = list(self.new.line_of)
+        instead: dict[int, list[int]] = {}
+        for pieces in rows:
+            instead[min(pieces)] = pieces
+            for piece in pieces:
+                row_of[piece] = -min(pieces) - 1
+        order: list[int] = []
+        for piece, row in enumerate(row_of):
+            if row < 0:
+                order += instead.get(piece, ())
+            elif row not in self._pages:
+                order.append(piece)
+        return order, row_of
+
+    def _added(self) -> tuple[dict[int, list[int]], dict[int, list[int]], dict[int, list[int]]]:
+        """New words behind or before words that were there, by those; and new lines by the last word before them."""
+        behind: dict[int, list[int]] = {}
+        before: dict[int, list[int]] = {}
+        between: dict[int, list[int]] = {}
+        order, row_of = [-1, *self._order, -1], self._row_of
+        for first, last in runs([0, *(self._back[piece] for piece in self._order), 0]):
+            above, below = order[first - 1], order[last]
+            inside = min(above, below) >= 0 and self._old_line(above) == self._old_line(below)
+            for piece in order[first:last]:
+                if inside or (above >= 0 and row_of[piece] == row_of[above]):
+                    behind.setdefault(above, []).append(piece)
+                elif below >= 0 and row_of[piece] == row_of[below]:
+                    before.setdefault(below, []).append(piece)
+                elif self.new.line_of[piece] not in (added := between.setdefault(above, [])):
+                    added.append(self.new.line_of[piece])
+        return behind, before, between
+
+    def _old_line(self, piece: int) -> int:
+        return self.old.line_of[self._back[piece]]
+
+    def _write_line(self, line: int, behind: dict[int, list[int]], before: dict[int, list[int]]) -> None:
+        pieces = self.old.of_line(line)
+        out = _Line(self.new)
+        gap = ""
+        last: int | None = None
+        for piece in pieces:
+            gap = _joined(gap, self.old.gaps[piece]) if piece != pieces.start else self.old.gaps[piece]
+            there = self._there[piece]
+            if there < 0:
+                continue
+            added = [*(behind.pop(last, ()) if last is not None else ()), *before.pop(there, ())]
+            gap = out.put(added, gap)
+            out.put_kept(there, gap, is_first=last is None)
+            gap, last = "", there
+        if last is None:
+            self._end(out, "" if pieces else self.old.ends[line - 1])
+        else:
+            end = out.put(behind.pop(last, ()), _joined(gap, self.old.ends[line - 1]))
+            self._end(out, end)
+
+    def _end(self, out: _Line, gap: str) -> None:
+        self.lines.append(out.text + _set(gap, first=not out.text, last=True))
+        self._places.append(out.places)
+
+    def _copy(self, lines: Iterable[int]) -> None:
+        """New lines as they are."""
+        for line in lines:
+            if self._repeats(line):
+                continue
+            self.lines.append(self.new.written[line - 1])
+            self._places.append(
+                [(self.new.columns[piece], line, self.new.columns[piece]) for piece in self.new.of_line(line)]
+            )
+
+    def _repeats(self, line: int) -> bool:
+        """Whether a new line says what one above it says: a table's head on one page more."""
+        pieces = self.new.of_line(line)
+        signs = self.new.signs[pieces.start : pieces.stop]
+        above = range(max(1, line - _HEADS), line)
+        has_cells = _HAS_CELLS.search(self.new.written[line - 1].strip())
+        return has_cells is not None and any(
+            signs == self.new.signs[other.start : other.stop] for other in map(self.new.of_line, above)
+        )
+
+
+class _Line:
+    """A line that is written."""
+
+    def __init__(self, new: Text) -> None:
+        self.new, self.text = new, ""
+        self.places: list[tuple[int, int, int]] = []
+        self._last = -1
+
+    def put(self, pieces: Iterable[int], gap: str) -> str:
+        """Words that were not there, with the cells that the new text has between; what is left of the gap."""
+        for piece in pieces:
+            own = self.new.gaps[piece]
+            if self._last != piece - 1 or self.new.opens_line(piece):
+                own = own if not self.text else " "
+                own = "" if self._joins(piece) else own
+            for sign in [sign for sign in own if sign in _CELLS]:
+                if sign in gap:
+                    gap = gap.replace(sign, "", 1)
+                else:
+                    own = own.replace(sign, " ", 1)
+            self._put(piece, _set(own, first=not self.text))
+        return gap
+
+    def _joins(self, piece: int) -> bool:
+        """Whether a word is the rest of one that a hyphen parts at the end of a line; that goes."""
+        parted = self.text.endswith("-") and self.text[-2:-1].isalpha() and self.new.piece(piece)[0].islower()
+        if parted:
+            self.text = self.text[:-1]
+        return parted
+
+    def put_kept(self, piece: int, gap: str, *, is_first: bool) -> None:
+        """A word that was there; the gap is the old one, or after new words what is left of it."""
+        if is_first and not self.text:
+            self._put(piece, _set(gap, first=True))
+        elif not (self._was_kept or gap.strip(" ") or self.new.opens_line(piece)) and self._last == piece - 1:
+            self._put(piece, _set(_without_cells(self.new.gaps[piece])))
+        else:
+            parted = self._last >= 0 and not self._was_kept and not gap
+            self._put(piece, " " if parted else _set(gap))
+        self._was_kept = True
+
+    _was_kept = False
+
+    def _put(self, piece: int, gap: str) -> None:
+        self.text += gap
+        self.places.append((len(self.text) + 1, self.new.line_of[piece], self.new.columns[piece]))
+        self.text += self.new.piece(piece)
+        self._last, self._was_kept = piece, False
+
+
+def _joined(gap: str, other: str) -> str:
+    """What parts words between which others are gone."""
+    signs = "".join(sign for sign in gap + other if sign != " ")
+    return signs or max(gap, other, key=len)
+
+
+def _without_cells(gap: str) -> str:
+    return "".join(" " if sign in _CELLS else sign for sign in gap)
+
+
+def _set(gap: str, *, first: bool = False, last: bool = False) -> str:
+    """A gap as it is written: cells with blanks, breaks as tags."""
+    text = gap.replace("<", "<br>").replace("|", " | ")
+    text = text.removeprefix(" ") if first and gap.startswith("|") else text
+    return text.rstrip() if last else text

@@ -1,0 +1,116 @@
+"""Rows of a table whose cells are set over several lines, side by side: which words of the text belong to which row.
+
+Extractions that keep the look of a page write such a row line by line, so that words of all its cells lie mixed.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Container, Iterable, Iterator
+
+    from fieldscribe.audit.alignment import Alignment
+    from fieldscribe.audit.fingerprint import Fingerprint, Text
+
+_FEWEST_CELLS = 3
+_OPENING = 2
+"""Rows are looked up by so many words: a code and a number."""
+_MOST_LINES, _MOST_ROWS = 40, 12
+"""A row is set over at most so many lines, and shares a cell with at most so many."""
+_SEGMENT = re.compile(r"\S(?:.*?\S)??(?=\s{2}|\t|$)")
+"""What stands in one column of a line: two blanks part it from the next."""
+
+
+def unstack(alignment: Alignment, old: Fingerprint, new: Text, pages: Container[int]) -> Iterator[list[int]]:
+    """Align each row of the old text with the lines of the new one that have it, read column by column.
+
+    Yields all pieces of those lines as they are read so. `pages` are lines of the new text to be passed over.
+    """
+    starts = _starts(alignment, old, new)
+    for below in (1, _MOST_ROWS):  # a cell that rows share goes on beside those below
+        for line, (first, end) in _rows(alignment, old, starts, below):
+            pieces = old.of_line(line)
+            lines = [number for number in range(first, end) if number not in pages]
+            column_of = _columns(new, lines)
+            inside = sorted((column_of(piece), piece) for number in lines for piece in new.of_line(number))
+            free = [piece for _, piece in inside if alignment.back[piece] < 0 or alignment.back[piece] in pieces]
+            signs = [old.signs[piece] for piece in pieces], [new.signs[piece] for piece in free]
+            blocks = SequenceMatcher(None, *signs, autojunk=False).get_matching_blocks()
+            if below > 1:
+                blocks = [block for block in blocks if block.size > 1]
+            before = sum(alignment.there[piece] >= 0 for piece in pieces)
+            if sum(block.size for block in blocks) > before:
+                alignment.forget(pieces)
+                for at, there, count in blocks:
+                    for step in range(count):
+                        alignment.match(pieces[at + step], free[there + step])
+            if below == 1:
+                yield [piece for _, piece in inside]
+
+
+def _rows(
+    alignment: Alignment, old: Fingerprint, starts: dict[int, int], below: int
+) -> Iterator[tuple[int, tuple[int, int]]]:
+    """Rows that lack words, with the lines of the new text from..to where they begin, and so many rows on."""
+    lines = sorted(starts)
+    for number, line in enumerate(lines[:-1]):
+        pieces = old.of_line(line)
+        if _cells(old, pieces) < _FEWEST_CELLS or all(alignment.there[piece] >= 0 for piece in pieces):
+            continue
+        first, end = starts[line], starts[lines[min(number + below, len(lines) - 1)]]
+        end = min(end, first + _MOST_LINES) if below > 1 else end
+        if 1 < end - first <= _MOST_LINES:
+            yield line, (first, end)
+
+
+def _starts(alignment: Alignment, old: Fingerprint, new: Text) -> dict[int, int]:
+    """The line of the new text on which each line of the old one begins: by its first word, or else its first cell."""
+    starts: dict[int, int] = {}
+    opening: dict[str, list[int]] = {}
+    for number in range(1, len(new.ends) + 1):
+        opening.setdefault("".join(new.signs[piece] for piece in new.of_line(number)[:_OPENING]), []).append(number)
+    for line in range(1, len(old.ends) + 1):
+        pieces = old.of_line(line)
+        there = alignment.there[pieces.start] if pieces else -1
+        if there >= 0:
+            starts[line] = new.line_of[there]
+        elif _cells(old, pieces) >= _FEWEST_CELLS:
+            signs = _first_cell(old, pieces)
+            begin = [number for number in opening.get("".join(signs[:_OPENING]), ()) if _begins(new, number, signs)]
+            if len(begin) == 1:
+                starts[line] = begin[0]
+    return starts
+
+
+def _cells(old: Fingerprint, pieces: range) -> int:
+    return sum(old.gaps[piece].count("|") + old.gaps[piece].count("\t") for piece in pieces)
+
+
+def _first_cell(old: Fingerprint, pieces: range) -> list[str]:
+    """The signs of a row's first cell, and of the first word behind it."""
+    end = next((piece for piece in pieces[1:] if {"|", "\t"} & set(old.gaps[piece])), pieces.stop)
+    return old.signs[pieces.start : end + 1]
+
+
+def _begins(new: Text, line: int, signs: list[str]) -> bool:
+    """Whether a line begins with these words, the last of which stands in a column of its own."""
+    pieces = new.of_line(line)
+    last = pieces.start + len(signs) - 1
+    return last < pieces.stop and new.gaps[last] not in ("", " ") and new.signs[pieces.start : last + 1] == signs
+
+
+def _columns(new: Text, lines: Iterable[int]) -> Callable[[int], int]:
+    """In which column of these lines a piece stands: what overlaps, seen from above, is one."""
+    spans = sorted(match.span() for line in lines for match in _SEGMENT.finditer(new.written[line - 1]))
+    columns: list[list[int]] = []
+    for start, stop in spans:
+        if columns and start < columns[-1][1]:
+            columns[-1][1] = max(columns[-1][1], stop)
+        else:
+            columns.append([start, stop])
+    starts = [start for start, _ in columns]
+    return lambda piece: bisect_right(starts, new.columns[piece] - 1)

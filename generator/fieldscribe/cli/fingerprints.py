@@ -1,0 +1,60 @@
+"""The fingerprint of a document's text, in a file beside the description: `manual.fingerprint` for `manual`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.audit.fingerprint import Fingerprint
+    from fieldscribe.model import Document
+    from fieldscribe.resolve.subject import Subject
+
+_MOST_BYTES = 64 << 20
+
+
+def place_of(subject: Subject, document: Document) -> Path:
+    """Where it is kept; a description that is one file gives its own name in front."""
+    head = Path(subject.scope.header.file.name)
+    own = "" if head.stem == "device" else f"{head.stem}."
+    return head.with_name(f"{own}{document.id}.fingerprint")
+
+
+def kept_of(subject: Subject, document: Document) -> Fingerprint | None:
+    """What is kept of the recorded text; None if nothing is, or only of another one. Raises StopError."""
+    from fieldscribe.audit.fingerprint import Fingerprint, FingerprintError
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.reading import shown_path
+
+    place = place_of(subject, document)
+    text = _text_of(place)
+    try:
+        kept = None if text is None else Fingerprint.read(text)
+    except FingerprintError as error:
+        hint = "remove the file, and keep a new one: audit the text that was transcribed with --fingerprint"
+        raise StopError(f"{shown_path(place)}:{error.line}: {error}", hint, FINDINGS) from error
+    return kept if kept is not None and kept.sha256 == document.sha256 else None
+
+
+def keeping(subject: Subject, document: Document, text: str, sha256: str) -> dict[str, tuple[str | None, str]]:
+    """What `rewrite` has to write so that the fingerprint of a text is kept; nothing if it is. Raises StopError."""
+    from fieldscribe.audit.fingerprint import Fingerprint
+
+    place = place_of(subject, document)
+    before, after = _text_of(place), Fingerprint.of(text, sha256).written()
+    return {} if before == after else {str(place): (before, after)}
+
+
+def _text_of(place: Path) -> str | None:
+    """The text of a file that is no link; None if there is none. Raises StopError."""
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.reading import read_regular, shown_path
+
+    if place.is_symlink():
+        raise StopError(
+            f"`{shown_path(place)}` is a link", "a fingerprint is a file beside the description: remove the link"
+        )
+    if not place.exists():
+        return None
+    return read_regular(place, _MOST_BYTES).data.decode("utf-8", "replace")
