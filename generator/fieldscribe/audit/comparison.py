@@ -155,9 +155,10 @@ class Comparison(Facts):
         unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
         told: set[Unused] = set()
         nearby: dict[tuple[str, str, str | None], Missing] = {}
-        lost = self._lost_together()
+        told_once = list(self._without_repetition())
+        lost = self._lost_together([claim for claim, _ in told_once])
         subjects = {claim.subject for claim in lost}
-        for claim, extents in self._without_repetition():
+        for claim, extents in told_once:
             gone = lost.get(claim, [claim])
             if claim is not gone[0]:
                 continue
@@ -181,11 +182,11 @@ class Comparison(Facts):
                 self.outcome.missing.append(missing)
         self.outcome.unused = [number for number in numbers if number not in told]
 
-    def _lost_together(self) -> dict[Claim, list[Claim]]:
+    def _lost_together(self, missing: Iterable[Claim]) -> dict[Claim, list[Claim]]:
         """What is missing together, by each of its facts: nearly all of a subject, its name first; most of a list."""
         absent: dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]] = {}
         of_list: dict[tuple[str, tuple[tuple[int, int], ...], str], list[Claim]] = {}
-        for claim, _ in self.absent:
+        for claim in missing:
             if not claim.optional:
                 absent.setdefault((claim.subject, claim.cited), []).append(claim)
             if claim.fact in _LISTS:

@@ -25,10 +25,15 @@ _LENGTHS = (12, 8, 4, 2, 1)
 """So many pieces in a row tell a place if they occur once: one piece alone has one of 64 signs."""
 _CELLS = "|\t"
 _HAS_CELLS = re.compile(r"\||\t|\S {2,}\S")
+_BROKEN = 12
+"""A line is broken over at most so many."""
 _HEADS = 80
 """A table's head stands at most so many lines below the one before it."""
 _FAR, _LONG, _SEVERAL = 150, 40, 3
-"""Lines so many pieces away, of so many, or so many lines moved; others may have changed places, and that is told."""
+"""Lines so many pieces away, of so many, or so many lines moved; others may have changed places, and that is told.
+
+What stands below a heading moves with it, and below a line that moved.
+"""
 
 
 class _Alignment(Alignment):
@@ -52,7 +57,14 @@ class _Alignment(Alignment):
         above = next((piece for piece in range(first, max(0, first - _FAR), -1) if self.there[piece] >= 0), None)
         is_far = above is None or abs(self.there[above] - first - shift) > _FAR
         lines = {self._old.line_of[piece] for piece in range(first, last)}
-        return is_far or last - first >= _LONG or len(lines) >= _SEVERAL
+        return is_far or last - first >= _LONG or len(lines) >= _SEVERAL or self._goes_along(first, first + shift)
+
+    def _goes_along(self, at: int, there: int) -> bool:
+        """Whether the piece above moved likewise, or ends a heading that stands above in both texts."""
+        if not at or not there:
+            return False
+        is_heading = self._old.line_of[at - 1] in self._old.sections and self._a[at - 1] == self._b[there - 1]
+        return is_heading or self.there[at - 1] == there - 1
 
 
 class Relaid:
@@ -101,7 +113,7 @@ class Relaid:
     def in_new(self, line: int, column: int = 0) -> tuple[int, int]:
         """Line and column in the new text of a place of this one; of a line that is gone, the last line before it.
 
-        Without a column it is the line that has most of its words.
+        Without a column it is the line that has most of its words, or the first of those beside it that has some.
         """
         at = line
         while at and not self.has_words(at):
@@ -113,7 +125,8 @@ class Relaid:
             return max(places)[1], 1
         if not column:
             often = Counter(new for _, new, _ in places)
-            return max(often, key=lambda new: (often[new], -new)), 1
+            most = max(often, key=lambda new: (often[new], -new))
+            return min(new for new in often if most - _BROKEN <= new <= most), 1
         start, new_line, new_column = places[max(0, bisect_right(places, (column, len(self.new.written) + 1, 0)) - 1)]
         return new_line, max(1, new_column + column - start)
 

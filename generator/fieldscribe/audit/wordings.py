@@ -43,8 +43,7 @@ class Wordings:
         text = titles.get(self.language) if isinstance(titles, dict) else titles if self.language == "en" else None
         if text is None or not any(map(str.isalpha, str(text))):
             return ()
-        written = self._words.get(str(text), [str(text)])
-        return (*written, str(text)) if written and str(text) not in written else tuple(written)
+        return tuple(self._words.get(str(text), (str(text),)))
 
 
 def joined(numbering: str, number: object) -> tuple[str, ...]:

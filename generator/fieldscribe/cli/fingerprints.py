@@ -22,18 +22,7 @@ def place_of(subject: Subject, document: Document) -> Path:
 
 def kept_of(subject: Subject, document: Document) -> Fingerprint | None:
     """What is kept of the recorded text; None if nothing is, or only of another one. Raises StopError."""
-    from fieldscribe.audit.fingerprint import Fingerprint, FingerprintError
-    from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.reading import shown_path
-
-    place = place_of(subject, document)
-    text = _text_of(place)
-    try:
-        kept = None if text is None else Fingerprint.read(text)
-    except FingerprintError as error:
-        hint = "remove the file, and keep a new one: audit the text that was transcribed with --fingerprint"
-        raise StopError(f"{shown_path(place)}:{error.line}: {error}", hint, FINDINGS) from error
+    kept = _read(place_of(subject, document))[1]
     return kept if kept is not None and kept.sha256 == document.sha256 else None
 
 
@@ -42,19 +31,25 @@ def keeping(subject: Subject, document: Document, text: str, sha256: str) -> dic
     from fieldscribe.audit.fingerprint import Fingerprint
 
     place = place_of(subject, document)
-    before, after = _text_of(place), Fingerprint.of(text, sha256).written()
+    before, after = _read(place)[0], Fingerprint.of(text, sha256).written()
     return {} if before == after else {str(place): (before, after)}
 
 
-def _text_of(place: Path) -> str | None:
-    """The text of a file that is no link; None if there is none. Raises StopError."""
+def _read(place: Path) -> tuple[str | None, Fingerprint | None]:
+    """The text of a file that is no link, and what it keeps; None if there is none. Raises StopError."""
+    from fieldscribe.audit.fingerprint import Fingerprint, FingerprintError
+    from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
     from fieldscribe.reading import read_regular, shown_path
 
+    shown = shown_path(place)
     if place.is_symlink():
-        raise StopError(
-            f"`{shown_path(place)}` is a link", "a fingerprint is a file beside the description: remove the link"
-        )
+        raise StopError(f"`{shown}` is a link", "a fingerprint is a file beside the description: remove the link")
     if not place.exists():
-        return None
-    return read_regular(place, _MOST_BYTES).data.decode("utf-8", "replace")
+        return None, None
+    text = read_regular(place, _MOST_BYTES).data.decode("utf-8", "replace")
+    try:
+        return text, Fingerprint.read(text)
+    except FingerprintError as error:
+        hint = "remove the file, and keep a new one: audit the text that was transcribed with --fingerprint"
+        raise StopError(f"{shown}:{error.line}: {error}", hint, FINDINGS) from error
