@@ -141,6 +141,7 @@ class Audit:
             "device": self.device,
             "manual": self.manual,
             "same_text": self.same_text,
+            "fingerprint": self.has_fingerprint,
             "clean": self.clean,
             "counts": self.counts,
             "missing": [values_of(fact) for fact in self.missing],
