@@ -9,7 +9,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.audit.fingerprint import Fingerprint
+from fieldscribe.audit.layout import Fingerprint
 from fieldscribe.audit.manual import Manual, has_word, tokens_of
 from fieldscribe.cli import main
 from fieldscribe.families.modbus.frames import crc16

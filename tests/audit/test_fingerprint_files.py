@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from fieldscribe.audit.fingerprint import Fingerprint, FingerprintError
+from fieldscribe.audit.layout import Fingerprint, FingerprintError
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.audit import Auditor
-from fieldscribe.audit.fingerprint import Fingerprint
-from fieldscribe.audit.relaid import Relaid
+from fieldscribe.audit.layout import Fingerprint, Relaid
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject
 from support.described import group, head, together, write

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit import Audit, Auditor
 from fieldscribe.audit.comparison import Comparison
-from fieldscribe.audit.fingerprint import Fingerprint
+from fieldscribe.audit.layout import Fingerprint
 from fieldscribe.audit.manual import Manual
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject

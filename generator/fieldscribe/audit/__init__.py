@@ -5,9 +5,7 @@ pages.py       heads and feet of its pages
 claims.py      what a description takes from the manual: facts of points (claims_of_points.py), of flags
                (claims_of_flags.py) and others (claims_of_bus.py), each with the lines that it cites (citing.py)
 printed_errata.py  what errata say that the manual prints
-fingerprint.py what is kept of the text that was transcribed
-relaid.py      a new text in the layout of that one (alignment.py: which pieces of one text are which of another;
-               stacked.py: rows whose cells are set side by side over several lines)
+layout/        a new text in the layout of the one that was transcribed, by the fingerprint of that one
 places.py      the places that are cited, as they stand in the text
 errata.py      whether the manual prints what errata say, and what the description took against it
 facts.py       whether facts stand in their places: numbers (passage.py), labels (labels.py)

@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
 from fieldscribe.audit.comparison import Comparison
+from fieldscribe.audit.layout import Relaid
 from fieldscribe.audit.manual import Manual, has_word
 from fieldscribe.audit.outcome import Audit, Moved
 from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import printed_errata_of
-from fieldscribe.audit.relaid import Relaid
 from fieldscribe.audit.wordings import Wordings
 from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.audit.fingerprint import Fingerprint
+    from fieldscribe.audit.layout import Fingerprint
     from fieldscribe.resolve.subject import Subject
 
 

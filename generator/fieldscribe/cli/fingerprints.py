@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.audit.fingerprint import Fingerprint
+    from fieldscribe.audit.layout import Fingerprint
     from fieldscribe.model import Document
     from fieldscribe.resolve.subject import Subject
 
@@ -28,7 +28,7 @@ def kept_of(subject: Subject, document: Document) -> Fingerprint | None:
 
 def keeping(subject: Subject, document: Document, text: str, sha256: str) -> dict[str, tuple[str | None, str]]:
     """What `rewrite` has to write so that the fingerprint of a text is kept; nothing if it is. Raises StopError."""
-    from fieldscribe.audit.fingerprint import Fingerprint
+    from fieldscribe.audit.layout import Fingerprint
 
     place = place_of(subject, document)
     before, after = _read(place)[0], Fingerprint.of(text, sha256).written()
@@ -37,7 +37,7 @@ def keeping(subject: Subject, document: Document, text: str, sha256: str) -> dic
 
 def _read(place: Path) -> tuple[str | None, Fingerprint | None]:
     """The text of a file that is no link, and what it keeps; None if there is none. Raises StopError."""
-    from fieldscribe.audit.fingerprint import Fingerprint, FingerprintError
+    from fieldscribe.audit.layout import Fingerprint, FingerprintError
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
     from fieldscribe.reading import read_regular, shown_path

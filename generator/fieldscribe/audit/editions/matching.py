@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.alignment import Alignment, Gap
 from fieldscribe.audit.editions.rows import broken_otherwise, cut_otherwise
 from fieldscribe.audit.editions.swaps import exchanged, exchanged_cells
+from fieldscribe.audit.layout.alignment import Alignment, Gap
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

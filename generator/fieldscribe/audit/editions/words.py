@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
-from fieldscribe.audit.alignment import Pieces
 from fieldscribe.audit.editions.formulas import without_setting
+from fieldscribe.audit.layout.alignment import Pieces
 from fieldscribe.audit.manual import lines_of
 
 if TYPE_CHECKING:

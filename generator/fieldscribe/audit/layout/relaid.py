@@ -11,19 +11,19 @@ from bisect import bisect_right
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.alignment import Alignment, runs
-from fieldscribe.audit.fingerprint import Text
+from fieldscribe.audit.layout.alignment import Alignment, runs
+from fieldscribe.audit.layout.fingerprint import Text
+from fieldscribe.audit.layout.lines import Line, as_written, joined
+from fieldscribe.audit.layout.stacked import unstack
 from fieldscribe.audit.pages import page_lines, repeated
-from fieldscribe.audit.stacked import unstack
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.audit.fingerprint import Fingerprint
+    from fieldscribe.audit.layout.fingerprint import Fingerprint
 
 _LENGTHS = (12, 8, 4, 2, 1)
 """So many pieces in a row tell a place if they occur once: one piece alone has one of 64 signs."""
-_CELLS = "|\t"
 _HAS_CELLS = re.compile(r"\||\t|\S {2,}\S")
 _BROKEN = 12
 """A line is broken over at most so many."""
@@ -217,11 +217,11 @@ class Relaid:
 
     def _write_line(self, line: int, behind: dict[int, list[int]], before: dict[int, list[int]]) -> None:
         pieces = self.old.of_line(line)
-        out = _Line(self.new)
+        out = Line(self.new)
         gap = ""
         last: int | None = None
         for piece in pieces:
-            gap = _joined(gap, self.old.gaps[piece]) if piece != pieces.start else self.old.gaps[piece]
+            gap = joined(gap, self.old.gaps[piece]) if piece != pieces.start else self.old.gaps[piece]
             there = self._there[piece]
             if there < 0:
                 continue
@@ -232,11 +232,11 @@ class Relaid:
         if last is None:
             self._end(out, "" if pieces else self.old.ends[line - 1])
         else:
-            end = out.put(behind.pop(last, ()), _joined(gap, self.old.ends[line - 1]))
+            end = out.put(behind.pop(last, ()), joined(gap, self.old.ends[line - 1]))
             self._end(out, end)
 
-    def _end(self, out: _Line, gap: str) -> None:
-        self.lines.append(out.text + _set(gap, first=not out.text, last=True))
+    def _end(self, out: Line, gap: str) -> None:
+        self.lines.append(out.text + as_written(gap, first=not out.text, last=True))
         self._places.append(out.places)
 
     def _copy(self, lines: Iterable[int]) -> None:
@@ -258,70 +258,3 @@ class Relaid:
         return has_cells is not None and any(
             signs == self.new.signs[other.start : other.stop] for other in map(self.new.of_line, above)
         )
-
-
-class _Line:
-    """A line that is written."""
-
-    def __init__(self, new: Text) -> None:
-        self.new, self.text = new, ""
-        self.places: list[tuple[int, int, int]] = []
-        self._last = -1
-
-    def put(self, pieces: Iterable[int], gap: str) -> str:
-        """Words that were not there, with the cells that the new text has between; what is left of the gap."""
-        for piece in pieces:
-            own = self.new.gaps[piece]
-            if self._last != piece - 1 or self.new.opens_line(piece):
-                own = own if not self.text else " "
-                own = "" if self._joins(piece) else own
-            for sign in [sign for sign in own if sign in _CELLS]:
-                if sign in gap:
-                    gap = gap.replace(sign, "", 1)
-                else:
-                    own = own.replace(sign, " ", 1)
-            self._put(piece, _set(own, first=not self.text))
-        return gap
-
-    def _joins(self, piece: int) -> bool:
-        """Whether a word is the rest of one that a hyphen parts at the end of a line; that goes."""
-        parted = self.text.endswith("-") and self.text[-2:-1].isalpha() and self.new.piece(piece)[0].islower()
-        if parted:
-            self.text = self.text[:-1]
-        return parted
-
-    def put_kept(self, piece: int, gap: str, *, is_first: bool) -> None:
-        """A word that was there; the gap is the old one, or after new words what is left of it."""
-        if is_first and not self.text:
-            self._put(piece, _set(gap, first=True))
-        elif not (self._was_kept or gap.strip(" ") or self.new.opens_line(piece)) and self._last == piece - 1:
-            self._put(piece, _set(_without_cells(self.new.gaps[piece])))
-        else:
-            parted = self._last >= 0 and not self._was_kept and not gap
-            self._put(piece, " " if parted else _set(gap))
-        self._was_kept = True
-
-    _was_kept = False
-
-    def _put(self, piece: int, gap: str) -> None:
-        self.text += gap
-        self.places.append((len(self.text) + 1, self.new.line_of[piece], self.new.columns[piece]))
-        self.text += self.new.piece(piece)
-        self._last, self._was_kept = piece, False
-
-
-def _joined(gap: str, other: str) -> str:
-    """What parts words between which others are gone."""
-    signs = "".join(sign for sign in gap + other if sign != " ")
-    return signs or max(gap, other, key=len)
-
-
-def _without_cells(gap: str) -> str:
-    return "".join(" " if sign in _CELLS else sign for sign in gap)
-
-
-def _set(gap: str, *, first: bool = False, last: bool = False) -> str:
-    """A gap as it is written: cells with blanks, breaks as tags."""
-    text = gap.replace("<", "<br>").replace("|", " | ")
-    text = text.removeprefix(" ") if first and gap.startswith("|") else text
-    return text.rstrip() if last else text

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Iterator
 
-    from fieldscribe.audit.alignment import Alignment
-    from fieldscribe.audit.fingerprint import Fingerprint, Text
+    from fieldscribe.audit.layout.alignment import Alignment
+    from fieldscribe.audit.layout.fingerprint import Fingerprint, Text
 
 _FEWEST_CELLS = 3
 _OPENING = 2

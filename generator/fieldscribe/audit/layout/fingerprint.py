@@ -11,7 +11,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
-from fieldscribe.audit.alignment import Pieces
+from fieldscribe.audit.layout.alignment import Pieces
 from fieldscribe.audit.manual import Manual, lines_of
 
 if TYPE_CHECKING:
