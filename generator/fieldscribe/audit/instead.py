@@ -13,12 +13,13 @@ if TYPE_CHECKING:
     from fieldscribe.audit.passage import Passage
 
 _END_OF_CELL = re.compile(r"[|\t\n]|<br>")
+_SECTION = re.compile(r"[0-9]+(?:\.[0-9]+)+")
 _SHORT = 60
 """So many characters of a label are shown."""
 
 
 def instead(claim: Claim, passages: Sequence[Passage], unused: Sequence[Unused]) -> str | None:
-    """The words beside the number of a label, the other access, or the number there that no fact uses."""
+    """The words beside the number of a label, the other access or section, or the number there that no fact uses."""
     if claim.fact == "access":
         return next((word for passage in passages for word in printed_access(claim, passage.text)), None)
     if claim.beside:
@@ -26,6 +27,9 @@ def instead(claim: Claim, passages: Sequence[Passage], unused: Sequence[Unused])
         return next((words for words in beside if words), None)
     if claim.fact == "code":
         return next((code for passage in passages for code in _codes_like(claim, passage.text)), None)
+    if claim.fact == "section" and _SECTION.fullmatch(claim.words[0]):
+        headings = (_SECTION.match(passage.text) for passage in passages)
+        return next((heading[0] for heading in headings if heading), None)
     said = set(re.split(r"\.\.|[^\w.,]+", claim.shown))
     others = [number for number in unused if number.number not in said]  # its own numbers stand in no other's place
     if not others or not claim.numbers:

@@ -18,6 +18,7 @@ _NUMBER = re.compile(
     r"""(?<![\w,'\u2018\u2019\u201a])(?<![^.]\.)(?:
         0[xX](?P<long>[0-9A-Fa-f]{4})
       | (?:0[xX]|[Hh]'|[Hh]ex[ ])(?P<marked>[0-9A-Fa-f]+)
+      | (?P<binary>[01]{4,}(?:[ ][01]{4,})+)(?=[ ]?bin(?!\w))
       | (?P<parted>[0-9]+(?:\\?_[0-9]+)+)(?:(?=bin\b)|(?![A-Za-z0-9]|_[A-Za-z0-9]))
       | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?!\w)
       | (?P<tailed>(?=[A-F]*[0-9]|[A-F]+[hH]|[A-Fa-f]+[0-9])[0-9A-Fa-f]+)[hH](?!\w)
@@ -41,6 +42,8 @@ _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
 _BLANKS = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " "))
 _DASH = r"\s*[-\u2010-\u2015\u2212]\s*"
+_PAGE = r"(?<!\w)(?:(?:auf )?Seite|(?:on )?page)\s+(?:[A-Z0-9]{1,2}\s*[-\u2013]\s*)?[0-9]+(?!\w)"
+"""Where to read on is no fact."""
 _LONG_ROW = 40
 """A row or paragraph has at most so many lines."""
 
@@ -83,7 +86,7 @@ class Manual:
         self.lines = lines_of(text)
         self._sections = frozenset(sections)
         self._heads: dict[int, str] = {}
-        self._names = re.compile("|".join(map(_name, names))) if names else None
+        self._names = re.compile("|".join([_PAGE, *map(_name, names)]))
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -136,7 +139,7 @@ class Manual:
         return self._tokens_in(text, number, column)
 
     def _tokens_in(self, text: str, number: int, column: int) -> list[Token]:
-        names = [match.span() for match in self._names.finditer(text)] if self._names else []
+        names = [match.span() for match in self._names.finditer(text)]
         tokens = tokens_of(text, number, column)
         if not names:
             return tokens
@@ -144,7 +147,7 @@ class Manual:
 
     def without_names(self, text: str) -> str:
         """A piece of text without the words that are no facts."""
-        return self._names.sub("", text) if self._names else text
+        return self._names.sub("", text)
 
     @cached_property
     def lines_of(self) -> dict[Fraction, list[int]]:
@@ -272,7 +275,8 @@ def tokens_of(text: str, number: int, column: int = 0) -> list[Token]:
             for part in re.finditer("[0-9]+", match[0]):
                 tokens += tokens_of(part[0], number, column + match.start() + part.start())
         elif match[0] != "1" or not (text.endswith(_ONE_OVER, 0, match.start()) or _OVER.match(text, match.end())):
-            tokens.append(Token(match[0], number, column + match.start() + 1, _readings_of(match[0])))
+            digits = match[0].replace(" ", "_") if match["binary"] else match[0]
+            tokens.append(Token(match[0], number, column + match.start() + 1, _readings_of(digits)))
     return tokens
 
 

@@ -11,7 +11,7 @@ from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterable, Iterator
+    from collections.abc import Callable, Container, Iterator, Sequence
 
     from fieldscribe.audit.layout.alignment import Alignment
     from fieldscribe.audit.layout.fingerprint import Fingerprint, Text
@@ -21,7 +21,7 @@ _OPENING = 2
 """Rows are looked up by so many words: a code and a number."""
 _MOST_LINES, _MOST_ROWS = 40, 12
 """A row is set over at most so many lines, and shares a cell with at most so many."""
-_SEGMENT = re.compile(r"\S(?:.*?\S)??(?=\s{2}|\t|$)")
+_SEGMENT = re.compile(r"\S(?:.*?\S)??(?=\s{2}|$)")
 """What stands in one column of a line: two blanks part it from the next."""
 
 
@@ -63,7 +63,7 @@ def _rows(
             continue
         first, end = starts[line], starts[lines[min(number + below, len(lines) - 1)]]
         end = min(end, first + _MOST_LINES) if below > 1 else end
-        if 1 < end - first <= _MOST_LINES:
+        if 1 <= end - first <= _MOST_LINES:
             yield line, (first, end)
 
 
@@ -103,9 +103,13 @@ def _begins(new: Text, line: int, signs: list[str]) -> bool:
     return last < pieces.stop and new.gaps[last] not in ("", " ") and new.signs[pieces.start : last + 1] == signs
 
 
-def _columns(new: Text, lines: Iterable[int]) -> Callable[[int], int]:
-    """In which column of these lines a piece stands: what overlaps, seen from above, is one."""
-    spans = sorted(match.span() for line in lines for match in _SEGMENT.finditer(new.written[line - 1]))
+def _columns(new: Text, lines: Sequence[int]) -> Callable[[int], int]:
+    """In which column of these lines a piece stands: by cells, or else what overlaps, seen from above, is one."""
+    texts = [new.written[line - 1] for line in lines]
+    gap = next((gap for gap in "|\t" if any(gap in text for text in texts)), None)
+    if gap is not None:
+        return lambda piece: new.written[new.line_of[piece] - 1].count(gap, 0, new.columns[piece] - 1)
+    spans = sorted(match.span() for text in texts for match in _SEGMENT.finditer(text))
     columns: list[list[int]] = []
     for start, stop in spans:
         if columns and start < columns[-1][1]:
