@@ -208,8 +208,8 @@ class Relaid:
                     behind.setdefault(above, []).append(piece)
                 elif below >= 0 and row_of[piece] == row_of[below]:
                     before.setdefault(below, []).append(piece)
-                elif self.new.line_of[piece] not in (added := between.setdefault(above, [])):
-                    added.append(self.new.line_of[piece])
+                elif between.setdefault(above, [])[-1:] != [self.new.line_of[piece]]:
+                    between[above].append(self.new.line_of[piece])
         return behind, before, between
 
     def _old_line(self, piece: int) -> int:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.layout.fingerprint import Fingerprint, Text
 
 _FEWEST_CELLS = 3
-_OPENING = 2
-"""Rows are looked up by so many words: a code and a number."""
+_OPENING, _MOST_ALIKE = 2, 100
+"""Rows are looked up by so many words: a code and a number; where so many lines begin so, they tell nothing."""
 _MOST_LINES, _MOST_ROWS = 40, 12
 """A row is set over at most so many lines, and shares a cell with at most so many."""
 _SEGMENT = re.compile(r"\S(?:.*?\S)??(?=\s{2}|$)")
@@ -80,7 +80,8 @@ def _starts(alignment: Alignment, old: Fingerprint, new: Text) -> dict[int, int]
             starts[line] = new.line_of[there]
         elif _cells(old, pieces) >= _FEWEST_CELLS:
             signs = _first_cell(old, pieces)
-            begin = [number for number in opening.get("".join(signs[:_OPENING]), ()) if _begins(new, number, signs)]
+            alike = opening.get("".join(signs[:_OPENING]), [])
+            begin = [number for number in alike[:_MOST_ALIKE] if _begins(new, number, signs)]
             if len(begin) == 1:
                 starts[line] = begin[0]
     return starts
