@@ -51,8 +51,14 @@ class Auditor(Asked):
         as_it_is.run()
         absent = {claim for claim, _ in as_it_is.absent}
         outcome = Comparison(laid, self, outcomes[1], now).run({claim for claim in self.claims if claim not in absent})
+        changed = [relaid.is_new(number.line, number.column, len(number.number)) for number in outcome.unused]
         self._locate(outcome, relaid, now)
-        outcome.unused = [number for number in outcome.unused if (number.line, number.column) in as_it_is.strays]
+        outcome.unused = [
+            number
+            for number, is_new in zip(outcome.unused, changed, strict=True)
+            if is_new or (number.line, number.column) in as_it_is.strays
+        ]
+        outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
         unprinted = {erratum.erratum for erratum in outcomes[0].unprinted}
         outcome.unprinted = [erratum for erratum in outcome.unprinted if erratum.erratum in unprinted]
         added = {line for place in outcomes[0].added for line in range(place.line, place.last + 1)}
@@ -83,7 +89,6 @@ class Auditor(Asked):
         for number, erratum in enumerate(outcome.unprinted):
             if erratum.nearest is not None:
                 outcome.unprinted[number] = replace(erratum, nearest=relaid.in_new(erratum.nearest)[0])
-        outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
         outcome.uncited.sort(key=lambda place: place.line)
         cites = {
             (first, claim.subject): None for claim in self.claims if not claim.optional for first, _ in claim.cited

@@ -44,6 +44,7 @@ _BLANKS = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " "))
 _DASH = r"\s*[-\u2010-\u2015\u2212]\s*"
 _PAGE = r"(?<!\w)(?:(?:auf )?Seite|(?:on )?page)\s+(?:[A-Z0-9]{1,2}\s*[-\u2013]\s*)?[0-9]+(?!\w)"
 """Where to read on is no fact."""
+_LONGEST_NUMBER = 80
 _LONG_ROW = 40
 """A row or paragraph has at most so many lines."""
 
@@ -294,7 +295,7 @@ def _chapter(text: str) -> tuple[str, str] | None:
 @lru_cache(10_000)
 def _readings_of(number: str) -> frozenset[Fraction]:
     """All that a number can mean: the same few are printed again and again."""
-    match = _NUMBER.fullmatch(number)
+    match = _NUMBER.fullmatch(number) if len(number) <= _LONGEST_NUMBER else None
     return frozenset(_readings(match) if match else ())
 
 

@@ -47,7 +47,7 @@ def _read(place: Path) -> tuple[str | None, Fingerprint | None]:
         raise StopError(f"`{shown}` is a link", "a fingerprint is a file beside the description: remove the link")
     if not place.exists():
         return None, None
-    text = read_regular(place, _MOST_BYTES).data.decode("utf-8", "replace")
+    text = read_regular(place, _MOST_BYTES).data.decode("utf-8-sig", "replace").replace("\r\n", "\n")
     try:
         return text, Fingerprint.read(text)
     except FingerprintError as error:

@@ -243,8 +243,12 @@ class Alignment:
                 continue
             olds, news = old.up_to_end(at, -step), new.up_to_end(there, -step)
             same = [self._a[piece] for piece in olds] == [self._b[piece] for piece in news]
-            if same and old.line_of[at] == old.line_of[beside]:
+            if same and old.line_of[at] == old.line_of[beside] and self._may_be_torn(beside, news):
                 self._exchange(olds, news, step)
+
+    def _may_be_torn(self, beside: int, news: range) -> bool:
+        """Whether the first (or last) pieces of a line may be those of another one, and not exchanged with those."""
+        return True
 
     def _exchange(self, olds: range, news: range, step: int) -> None:
         """Take pieces for these, and those that had them for theirs."""

@@ -7,6 +7,7 @@ into it, so that a fingerprint is no copy of the manual. Between the signs stand
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 from unicodedata import normalize
@@ -134,6 +135,11 @@ class Text(Laid):
                 self.columns.append(match.start() + 1)
                 end = match.end()
             self._end(_layout(line[end:], first=not end))
+
+    def at(self, line: int, column: int) -> int:
+        """The piece that begins at a place."""
+        pieces = self.of_line(line)
+        return bisect_left(self.columns, column, pieces.start, pieces.stop)
 
     def piece(self, piece: int) -> str:
         """A piece as it is written."""

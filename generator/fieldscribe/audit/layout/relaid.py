@@ -20,7 +20,7 @@ from fieldscribe.audit.pages import page_lines, repeated
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.audit.layout.fingerprint import Fingerprint
+    from fieldscribe.audit.layout.fingerprint import Fingerprint, Laid
 
 _LENGTHS = (12, 8, 4, 2, 1)
 """So many pieces in a row tell a place if they occur once: one piece alone has one of 64 signs."""
@@ -29,8 +29,8 @@ _BROKEN = 12
 """A line is broken over at most so many."""
 _HEADS = 80
 """A table's head stands at most so many lines below the one before it."""
-_FAR, _LONG, _SEVERAL = 150, 40, 3
-"""Lines so many pieces away, of so many, or so many lines moved; others may have changed places, and that is told.
+_LONG, _SEVERAL = 40, 3
+"""So many pieces, or so many lines, moved; fewer may have changed places with others, and that is told.
 
 What stands below a heading moves with it, and below a line that moved.
 """
@@ -41,10 +41,29 @@ class _Alignment(Alignment):
 
     def __init__(self, old: Fingerprint, new: Text) -> None:
         super().__init__(old, new, old.signs, new.signs)
-        self._old = old
+        self._old, self._new = old, new
         self.align(_LENGTHS)
-        self._extend(1)
-        self._extend(-1)
+        self._match_headings()
+        for step in (1, -1):
+            self._extend(step)
+            self._mend_torn_lines(step)
+
+    def _match_headings(self) -> None:
+        """A heading goes where the line below it goes; a heading alone may have changed places with another."""
+        old, new = self._old, self._new
+        was, now = _lines_by_signs(old, old.sections), _lines_by_signs(new, range(1, len(new.ends) + 1))
+        for signs, lines in was.items():
+            if len(lines) == len(now.get(signs, ())) == 1 and self._are_alike_below(lines[0], now[signs][0]):
+                olds, news = old.of_line(lines[0]), new.of_line(now[signs][0])
+                if any(self.there[at] != there for at, there in zip(olds, news, strict=True)):
+                    self.forget(olds)
+                    self.forget_new(news)
+                    self.match(olds.start, news.start, len(olds))
+                    self.moved.update(olds)
+
+    def _are_alike_below(self, line: int, now: int) -> bool:
+        was, has = _below(self._old, line), _below(self._new, now)
+        return 2 * sum((Counter(was) & Counter(has)).values()) > max(len(was), len(has))
 
     def _extend(self, step: int) -> None:
         """A piece that has no counterpart yet is the one beside that of its neighbour, if that is free and alike."""
@@ -52,12 +71,15 @@ class _Alignment(Alignment):
             there = self.beside(at, step)
             if there is not None and self.fits(at, there):
                 self.match(at, there)
+                if at - step in self.moved:
+                    self.moved.add(at)
+
+    def _may_be_torn(self, beside: int, news: range) -> bool:
+        return beside in self.moved or all(self.back[piece] < 0 for piece in news)
 
     def _may_move(self, first: int, last: int, shift: int) -> bool:
-        above = next((piece for piece in range(first, max(0, first - _FAR), -1) if self.there[piece] >= 0), None)
-        is_far = above is None or abs(self.there[above] - first - shift) > _FAR
         lines = {self._old.line_of[piece] for piece in range(first, last)}
-        return is_far or last - first >= _LONG or len(lines) >= _SEVERAL or self._goes_along(first, first + shift)
+        return last - first >= _LONG or len(lines) >= _SEVERAL or self._goes_along(first, first + shift)
 
     def _goes_along(self, at: int, there: int) -> bool:
         """Whether the piece above moved likewise, or ends a heading that stands above in both texts."""
@@ -78,6 +100,8 @@ class Relaid:
         self._pages = self._new_pages()
         self._order, self._row_of = self._reading_order(unstack(self._alignment, kept, self.new, self._pages))
         self.lines: list[str] = []
+        self._opening: set[int] = set()
+        """New lines at the beginning of tables."""
         self._line_of_old: list[int] = [0]
         self._places: list[list[tuple[int, int, int]]] = []
         """For each line the columns of its words, with line and column in the new text."""
@@ -129,6 +153,13 @@ class Relaid:
             return min(new for new in often if most - _BROKEN <= new <= most), 1
         start, new_line, new_column = places[max(0, bisect_right(places, (column, len(self.new.written) + 1, 0)) - 1)]
         return new_line, max(1, new_column + column - start)
+
+    def is_new(self, line: int, column: int, length: int) -> bool:
+        """Whether some of so many characters of a line of this text stand in no place of the transcribed one."""
+        return any(
+            column <= start < column + length and self._back[self.new.at(new, there)] < 0
+            for start, new, there in self._places[line - 1]
+        )
 
     def last_in_new(self, line: int) -> int:
         """The last line of the new text that has words of a line of this one."""
@@ -242,19 +273,46 @@ class Relaid:
     def _copy(self, lines: Iterable[int]) -> None:
         """New lines as they are."""
         for line in lines:
-            if self._repeats(line):
+            if self._is_head_again(line):
                 continue
             self.lines.append(self.new.written[line - 1])
             self._places.append(
                 [(self.new.columns[piece], line, self.new.columns[piece]) for piece in self.new.of_line(line)]
             )
 
-    def _repeats(self, line: int) -> bool:
-        """Whether a new line says what one above it says: a table's head on one page more."""
-        pieces = self.new.of_line(line)
-        signs = self.new.signs[pieces.start : pieces.stop]
-        above = range(max(1, line - _HEADS), line)
-        has_cells = _HAS_CELLS.search(self.new.written[line - 1].strip())
-        return has_cells is not None and any(
-            signs == self.new.signs[other.start : other.stop] for other in map(self.new.of_line, above)
-        )
+    def _is_head_again(self, line: int) -> bool:
+        """Whether a table begins with a line that one above it has, too: its head on one page more."""
+        written = self.new.written
+        above = line - 1
+        while above > 1 and not written[above - 1].strip():
+            above -= 1
+        opens = above < line - 1 or above in self._pages or above in self._opening or not _is_row(written[above - 1])
+        words = _words(written[line - 1])
+        if not opens or not _is_row(written[line - 1]):
+            return False
+        self._opening.add(line)
+        return any(words == _words(written[other - 1]) for other in range(max(1, line - _HEADS), line))
+
+
+def _lines_by_signs(text: Laid, lines: Iterable[int]) -> dict[str, list[int]]:
+    """The lines that have the same words, by their signs."""
+    found: dict[str, list[int]] = {}
+    for line in lines:
+        pieces = text.of_line(line)
+        found.setdefault("".join(text.signs[pieces.start : pieces.stop]), []).append(line)
+    return found
+
+
+def _below(text: Laid, line: int) -> list[str]:
+    """The signs of the next line that has words."""
+    start = text.of_line(line).stop
+    pieces = text.of_line(text.line_of[start]) if start < len(text) else range(0)
+    return text.signs[pieces.start : pieces.stop]
+
+
+def _is_row(text: str) -> bool:
+    return _HAS_CELLS.search(text.strip()) is not None and any(map(str.isalpha, text))
+
+
+def _words(text: str) -> list[str]:
+    return text.replace("|", " ").split()

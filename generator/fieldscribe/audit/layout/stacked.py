@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _FEWEST_CELLS = 3
 _OPENING, _MOST_ALIKE = 2, 100
 """Rows are looked up by so many words: a code and a number; where so many lines begin so, they tell nothing."""
+_MOST_PAIRS = 60_000
+"""Rows of more words are not compared word by word."""
 _MOST_LINES, _MOST_ROWS = 40, 12
 """A row is set over at most so many lines, and shares a cell with at most so many."""
 _SEGMENT = re.compile(r"\S(?:.*?\S)??(?=\s{2}|$)")
@@ -31,16 +33,18 @@ def unstack(alignment: Alignment, old: Fingerprint, new: Text, pages: Container[
     Yields all pieces of those lines as they are read so. `pages` are lines of the new text to be passed over.
     """
     starts = _starts(alignment, old, new)
-    for below in (1, _MOST_ROWS):  # a cell that rows share goes on beside those below
-        for line, (first, end) in _rows(alignment, old, starts, below):
+    for shared in (False, True):  # a cell that rows share goes on beside those below
+        for line, (first, end) in _rows(alignment, old, starts, shared=shared):
             pieces = old.of_line(line)
             lines = [number for number in range(first, end) if number not in pages]
             column_of = _columns(new, lines)
             inside = sorted((column_of(piece), piece) for number in lines for piece in new.of_line(number))
             free = [piece for _, piece in inside if alignment.back[piece] < 0 or alignment.back[piece] in pieces]
+            if len(pieces) * len(free) > _MOST_PAIRS:
+                continue
             signs = [old.signs[piece] for piece in pieces], [new.signs[piece] for piece in free]
             blocks = SequenceMatcher(None, *signs, autojunk=False).get_matching_blocks()
-            if below > 1:
+            if shared:
                 blocks = [block for block in blocks if block.size > 1]
             before = sum(alignment.there[piece] >= 0 for piece in pieces)
             if sum(block.size for block in blocks) > before:
@@ -48,22 +52,31 @@ def unstack(alignment: Alignment, old: Fingerprint, new: Text, pages: Container[
                 for at, there, count in blocks:
                     for step in range(count):
                         alignment.match(pieces[at + step], free[there + step])
-            if below == 1:
+            if not shared:
                 yield [piece for _, piece in inside]
 
 
 def _rows(
-    alignment: Alignment, old: Fingerprint, starts: dict[int, int], below: int
+    alignment: Alignment, old: Fingerprint, starts: dict[int, int], *, shared: bool
 ) -> Iterator[tuple[int, tuple[int, int]]]:
-    """Rows that lack words, with the lines of the new text from..to where they begin, and so many rows on."""
+    """Rows that lack words, with the lines of the new text from..to where they begin, and the next row does.
+
+    `shared`: up to the row that has something in the cells that lack words, if that is not the next one.
+    """
     lines = sorted(starts)
     for number, line in enumerate(lines[:-1]):
         pieces = old.of_line(line)
-        if _cells(old, pieces) < _FEWEST_CELLS or all(alignment.there[piece] >= 0 for piece in pieces):
+        cells = _cells(old, pieces)
+        lacking = {cell for piece, cell in zip(pieces, cells, strict=True) if alignment.there[piece] < 0}
+        if not lacking or cells[-1] < _FEWEST_CELLS:
             continue
-        first, end = starts[line], starts[lines[min(number + below, len(lines) - 1)]]
-        end = min(end, first + _MOST_LINES) if below > 1 else end
-        if 1 <= end - first <= _MOST_LINES:
+        below = number + 1
+        while shared and below < min(number + _MOST_ROWS, len(lines) - 1):
+            if lacking & set(_cells(old, old.of_line(lines[below]))):
+                break
+            below += 1
+        first, end = starts[line], starts[lines[below]]
+        if below - number > shared and 1 <= end - first <= _MOST_LINES:
             yield line, (first, end)
 
 
@@ -78,17 +91,23 @@ def _starts(alignment: Alignment, old: Fingerprint, new: Text) -> dict[int, int]
         there = alignment.there[pieces.start] if pieces else -1
         if there >= 0:
             starts[line] = new.line_of[there]
-        elif _cells(old, pieces) >= _FEWEST_CELLS:
+        elif pieces and _cells(old, pieces)[-1] >= _FEWEST_CELLS:
             signs = _first_cell(old, pieces)
             alike = opening.get("".join(signs[:_OPENING]), [])
             begin = [number for number in alike[:_MOST_ALIKE] if _begins(new, number, signs)]
-            if len(begin) == 1:
+            rest = [new.line_of[alignment.there[piece]] for piece in pieces if alignment.there[piece] >= 0]
+            if len(begin) == 1 and begin[0] <= min(rest, default=begin[0]):
                 starts[line] = begin[0]
     return starts
 
 
-def _cells(old: Fingerprint, pieces: range) -> int:
-    return sum(old.gaps[piece].count("|") + old.gaps[piece].count("\t") for piece in pieces)
+def _cells(old: Fingerprint, pieces: range) -> list[int]:
+    """The cell in which each piece of a line stands, from 0."""
+    cells, cell = [], 0
+    for piece in pieces:
+        cell += old.gaps[piece].count("|") + old.gaps[piece].count("\t")
+        cells.append(cell)
+    return cells
 
 
 def _first_cell(old: Fingerprint, pieces: range) -> list[str]:
