@@ -244,3 +244,37 @@ def test_a_fingerprint_holds_no_word_of_its_text() -> None:
         word for word in re.findall(r"[A-Za-z]{3,}|[0-9]{2,}", TEXT) if re.search(rf"(?<!\w){word}(?!\w)", kept)
     ]
     assert len(kept) < len(TEXT) / 2
+
+
+EXCHANGED = {
+    "codes of two rows": (TEXT, "A002", "A003"),
+    "codes of rows with one cell for all": (TEXT.replace("| 1-3000 | 0.01 s |", "| 1-3000 | |"), "A002", "A003"),
+    "headings": (TEXT, "4.2 Mode", "4.3 Limits"),
+    "numbers of headings": (TEXT, "4.2", "4.3"),
+    "registers": (TEXT, "2001h (8193)", "2002h (8194)"),
+    "limits of two rows": (TEXT, "0-4000", "20-140"),
+}
+
+
+@pytest.mark.parametrize(("text", "one", "other"), EXCHANGED.values(), ids=EXCHANGED)
+def test_what_was_exchanged_is_told(text: str, one: str, other: str, auditor: Auditor) -> None:
+    """It stands where its like stood, and no layout may bring it back."""
+    new = text.replace(one, "@").replace(other, one).replace("@", other)
+    assert told(auditor.audit("new.txt", new, same_text=False, kept=Fingerprint.of(text, "0" * 64))) != []
+
+
+ADDED = {
+    "a row like one above": (
+        "| A004",
+        "| A003 | Deceleration ramp | 1009h (4105) | 1-3000 | 0.01 s | From the maximum. |\n| A004",
+    ),
+    "the same row again": ("| A004", f"| {' | '.join(ROWS[2])} |\n| A004"),
+    "a sentence of numbers": ("possible with", "possible below 17 Hz with"),
+    "a number in a line that was broken": ("limited in both directions", "limited\nto 217 in both directions"),
+}
+
+
+@pytest.mark.parametrize(("old", "new"), ADDED.values(), ids=ADDED)
+def test_what_was_added_is_told(old: str, new: str, auditor: Auditor) -> None:
+    outcome = auditor.audit("new.txt", TEXT.replace(old, new, 1), same_text=False, kept=KEPT)
+    assert told(outcome) != []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
-from fieldscribe.audit.comparison import Comparison
+from fieldscribe.audit.comparison import Comparison, is_of_caption
 from fieldscribe.audit.layout import Relaid
 from fieldscribe.audit.manual import Manual, has_word
 from fieldscribe.audit.outcome import Audit, Moved
@@ -53,10 +53,11 @@ class Auditor(Asked):
         outcome = Comparison(laid, self, outcomes[1], now).run({claim for claim in self.claims if claim not in absent})
         changed = [relaid.is_new(number.line, number.column, len(number.number)) for number in outcome.unused]
         self._locate(outcome, relaid, now)
+        counts = [is_of_caption(manual.line(number.line), number.column) for number in outcome.unused]
         outcome.unused = [
             number
-            for number, is_new in zip(outcome.unused, changed, strict=True)
-            if is_new or (number.line, number.column) in as_it_is.strays
+            for number, is_new, is_label in zip(outcome.unused, changed, counts, strict=True)
+            if (is_new and not is_label) or (number.line, number.column) in as_it_is.strays
         ]
         outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
         unprinted = {erratum.erratum for erratum in outcomes[0].unprinted}

@@ -236,11 +236,12 @@ class Comparison(Facts):
         """The numbers of a line, and the words that look like codes but are none of the description."""
         passed_over = self.codes | self.no_facts.get(line, frozenset())
         text = self.manual.line(line)
-        caption = _CAPTION.match(text)
         for token in self._of_line(line):
-            if caption and token.column <= caption.end():
-                continue
-            if token.text not in passed_over and not _COMPOUND.match(text, token.column - 1 + len(token.text)):
+            if (
+                token.text not in passed_over
+                and not is_of_caption(text, token.column)
+                and not _COMPOUND.match(text, token.column - 1 + len(token.text))
+            ):
                 yield token.column, token.text
         for match in self._code_forms.finditer(self.manual.line(line)):
             if match[0] not in passed_over and (line, match.start() + 1) not in self.used:
@@ -270,6 +271,12 @@ class Comparison(Facts):
             shown = manual.line(first).strip()[:_SHORT]
             self.outcome.uncited.append(Uncited(first, last, "row", shown, among_cited=among_cited))
         self.outcome.uncited.sort(key=lambda uncited: uncited.line)
+
+
+def is_of_caption(text: str, column: int) -> bool:
+    """Whether a place of a line is in what counts a picture or a table: `Figure 2-1:`."""
+    caption = _CAPTION.match(text)
+    return caption is not None and column <= caption.end()
 
 
 def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:

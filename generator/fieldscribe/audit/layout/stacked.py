@@ -33,27 +33,46 @@ def unstack(alignment: Alignment, old: Fingerprint, new: Text, pages: Container[
     Yields all pieces of those lines as they are read so. `pages` are lines of the new text to be passed over.
     """
     starts = _starts(alignment, old, new)
-    for shared in (False, True):  # a cell that rows share goes on beside those below
-        for line, (first, end) in _rows(alignment, old, starts, shared=shared):
-            pieces = old.of_line(line)
-            lines = [number for number in range(first, end) if number not in pages]
-            column_of = _columns(new, lines)
-            inside = sorted((column_of(piece), piece) for number in lines for piece in new.of_line(number))
-            free = [piece for _, piece in inside if alignment.back[piece] < 0 or alignment.back[piece] in pieces]
-            if len(pieces) * len(free) > _MOST_PAIRS:
-                continue
-            signs = [old.signs[piece] for piece in pieces], [new.signs[piece] for piece in free]
-            blocks = SequenceMatcher(None, *signs, autojunk=False).get_matching_blocks()
-            if shared:
-                blocks = [block for block in blocks if block.size > 1]
-            before = sum(alignment.there[piece] >= 0 for piece in pieces)
-            if sum(block.size for block in blocks) > before:
-                alignment.forget(pieces)
-                for at, there, count in blocks:
-                    for step in range(count):
-                        alignment.match(pieces[at + step], free[there + step])
-            if not shared:
-                yield [piece for _, piece in inside]
+    for line, (first, end) in _rows(alignment, old, starts, shared=False):
+        inside = _by_columns(new, first, end, pages)
+        pieces = old.of_line(line)
+        free = [piece for piece in inside if alignment.back[piece] < 0 or alignment.back[piece] in pieces]
+        pairs = _pairs(old, pieces, new, free, least=1)
+        if len(pairs) > sum(alignment.there[piece] >= 0 for piece in pieces):
+            alignment.forget(pieces)
+            _match(alignment, pairs)
+        yield inside
+    for line, (first, end) in _rows(alignment, old, starts, shared=True):
+        inside = _by_columns(new, first, end, pages)
+        lacking = [piece for piece in old.of_line(line) if alignment.there[piece] < 0]
+        _match(alignment, _pairs(old, lacking, new, [piece for piece in inside if alignment.back[piece] < 0], least=2))
+
+
+def _by_columns(new: Text, first: int, end: int, pages: Container[int]) -> list[int]:
+    """The pieces of some lines, column by column."""
+    lines = [number for number in range(first, end) if number not in pages]
+    column_of = _columns(new, lines)
+    return [piece for _, piece in sorted((column_of(piece), piece) for line in lines for piece in new.of_line(line))]
+
+
+def _pairs(
+    old: Fingerprint, olds: Sequence[int], new: Text, news: Sequence[int], *, least: int
+) -> list[tuple[int, int]]:
+    """Which pieces are which, in order, at least so many side by side."""
+    if len(olds) * len(news) > _MOST_PAIRS:
+        return []
+    signs = [old.signs[piece] for piece in olds], [new.signs[piece] for piece in news]
+    blocks = SequenceMatcher(None, *signs, autojunk=False).get_matching_blocks()
+    return [
+        (olds[at + step], news[there + step])
+        for at, there, count in blocks
+        for step in range(count if count >= least else 0)
+    ]
+
+
+def _match(alignment: Alignment, pairs: list[tuple[int, int]]) -> None:
+    for at, there in pairs:
+        alignment.match(at, there)
 
 
 def _rows(
@@ -61,7 +80,8 @@ def _rows(
 ) -> Iterator[tuple[int, tuple[int, int]]]:
     """Rows that lack words, with the lines of the new text from..to where they begin, and the next row does.
 
-    `shared`: up to the row that has something in the cells that lack words, if that is not the next one.
+    `shared`: up to the row that has something in a cell that lacks words, if that is not the next one: a cell that
+    rows share goes on beside those below.
     """
     lines = sorted(starts)
     for number, line in enumerate(lines[:-1]):
@@ -71,8 +91,9 @@ def _rows(
         if not lacking or cells[-1] < _FEWEST_CELLS:
             continue
         below = number + 1
-        while shared and below < min(number + _MOST_ROWS, len(lines) - 1):
-            if lacking & set(_cells(old, old.of_line(lines[below]))):
+        free = lacking.difference(_cells(old, old.of_line(lines[below])))
+        while shared and free and below < min(number + _MOST_ROWS, len(lines) - 1):
+            if not free.isdisjoint(_cells(old, old.of_line(lines[below]))):
                 break
             below += 1
         first, end = starts[line], starts[lines[below]]
