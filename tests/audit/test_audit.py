@@ -689,3 +689,8 @@ def test_a_section_without_a_number_is_searched_above(
     points = f"- {{name: far, at: 1234, section: Appendix, line: {len(lines)}}}\n"
     _, found = audit(tmp_path, capsys, "\n".join(lines) + "\n", DEVICE + points)
     assert [(one["subject"], one["fact"]) for one in found["missing"]] == missing
+
+
+def test_a_number_of_thousands_of_digits_means_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, found = audit(tmp_path, capsys, MANUAL + "9" * 5000 + "\n")
+    assert (found["missing"], [one["line"] for one in found["unused_numbers"]]) == ([], [26])

@@ -124,6 +124,15 @@ def test_a_bad_one_is_named_with_its_line(text: str, line: int, fan: Path, capsy
     assert printed.out == ""
 
 
+def test_other_ends_of_lines_are_no_fault(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As an editor or a checkout on another system writes them."""
+    place = fan / "fan" / "manual.fingerprint"
+    place.write_bytes(b"\xef\xbb\xbf" + KEPT.replace("\n", "\r\n").encode())
+    run(fan, *AUDIT, manual="new.txt")
+    found = json.loads(capsys.readouterr().out)
+    assert (found["fingerprint"], found["missing"]) == (True, [])
+
+
 def test_too_many_lines_are_refused() -> None:
     with pytest.raises(FingerprintError, match="at most"):
         Fingerprint.read(KEPT + "\n" * 200_001)

@@ -84,3 +84,9 @@ def test_a_row_that_a_page_break_passed_has_moved() -> None:
 def test_a_cell_that_changed_beside_a_row_over_two_pages_is_told() -> None:
     editions = Editions("9\tan error or a stop\t2, 3 or 11", "9\tan error\t2, 4\n\n\tor a stop\tor 11")
     assert [change.kind for change in editions.changes] == ["changed"]
+
+
+def test_a_row_may_stand_where_text_stood() -> None:
+    """Its words are matched with those of a line that has no cells."""
+    editions = Editions("Bit 0 first input\nBit 1 second one\n", "|Bit 0|first input is here|\n|Bit 1|second one|\n")
+    assert [change.kind for change in editions.changes] == ["changed"]
