@@ -278,3 +278,12 @@ ADDED = {
 def test_what_was_added_is_told(old: str, new: str, auditor: Auditor) -> None:
     outcome = auditor.audit("new.txt", TEXT.replace(old, new, 1), same_text=False, kept=KEPT)
     assert told(outcome) != []
+
+
+def test_a_line_that_went_elsewhere_alone_has_moved(auditor: Auditor) -> None:
+    """Not back to its old place, for it may have changed places with another: it is told where it stands."""
+    line = next(line for line in TEXT.splitlines() if line.startswith("The torque")) + "\n"
+    text = TEXT.replace(line, "") + f"\n{line}"
+    outcome = auditor.audit("new.txt", text, same_text=False, kept=KEPT)
+    assert [(place.subject, place.now) for place in outcome.moved] == [("torque_limit", len(text.splitlines()))]
+    assert not [one for one in outcome.missing if "printed wire" in one.fact]

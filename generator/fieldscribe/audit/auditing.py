@@ -47,7 +47,8 @@ class Auditor(Asked):
         ways = (relaid.now, relaid.of_new)  # lines may count the new text already: --renumber comes before --accept
         now = max(ways, key=lambda way: self._stand(laid, way))
         outcomes = [Audit(self.device, name, False, len(manual), has_fingerprint=True) for _ in ways]
-        as_it_is = Comparison(manual, self, outcomes[0], lambda line: relaid.in_new(now(line))[0])
+        gone_to = relaid.gone_to if now == relaid.now else {}
+        as_it_is = Comparison(manual, self, outcomes[0], lambda line: gone_to.get(line) or relaid.in_new(now(line))[0])
         as_it_is.run()
         absent = {claim for claim, _ in as_it_is.absent}
         outcome = Comparison(laid, self, outcomes[1], now).run({claim for claim in self.claims if claim not in absent})
@@ -95,9 +96,9 @@ class Auditor(Asked):
             (first, claim.subject): None for claim in self.claims if not claim.optional for first, _ in claim.cited
         }
         for line, subject in cites:
-            stands = relaid.has_words(now(line))
-            if stands and (there := relaid.in_new(now(line))[0]) != line:
-                outcome.moved.append(Moved(subject, line, there))
+            stands = relaid.in_new(now(line))[0] if relaid.has_words(now(line)) else relaid.gone_to.get(line, line)
+            if stands != line:
+                outcome.moved.append(Moved(subject, line, stands))
 
 
 def audit(subject: Subject, name: str, text: str, *, same_text: bool | None, kept: Fingerprint | None = None) -> Audit:

@@ -18,13 +18,15 @@ from fieldscribe.audit.layout.stacked import unstack
 from fieldscribe.audit.pages import page_lines, repeated
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.audit.layout.fingerprint import Fingerprint, Laid
 
 _LENGTHS = (12, 8, 4, 2, 1)
 """So many pieces in a row tell a place if they occur once: one piece alone has one of 64 signs."""
 _HAS_CELLS = re.compile(r"\||\t|\S {2,}\S")
+_WENT = 6
+"""A line of so many words is found again wherever it went."""
 _BROKEN = 12
 """A line is broken over at most so many."""
 _HEADS = 80
@@ -106,6 +108,8 @@ class Relaid:
         self._places: list[list[tuple[int, int, int]]] = []
         """For each line the columns of its words, with line and column in the new text."""
         self._write()
+        self.gone_to = dict(self._lines_that_went())
+        """The line of the new text that has what one line of the transcribed text said, where that stands alone."""
         self._line_of_new = self._by_new_line()
         self._new_lines = sorted(self._line_of_new)
 
@@ -173,6 +177,22 @@ class Relaid:
             for _, new, column in places:
                 first[new] = min(first.get(new, (column, line)), (column, line))
         return {new: line for new, (_, line) in first.items()}
+
+    def _lines_that_went(self) -> Iterator[tuple[int, int]]:
+        """Lines without a heading that are gone, but stand once somewhere else among the new words."""
+        free: dict[str, list[int]] = {}
+        signs = "".join(self.new.signs)
+        for first, last in runs(self._back):
+            for piece in range(first, last - _WENT + 1):
+                free.setdefault(signs[piece : piece + _WENT], []).append(piece)
+        for line in range(1, len(self.old.ends) + 1):
+            pieces = self.old.of_line(line)
+            is_gone = len(pieces) >= _WENT and all(self._there[piece] < 0 for piece in pieces)
+            if is_gone and line not in self.old.sections:
+                said = "".join(self.old.signs[pieces.start : pieces.stop])
+                places = [at for at in free.get(said[:_WENT], ()) if signs.startswith(said, at)]
+                if len(places) == 1:
+                    yield line, self.new.line_of[places[0]]
 
     def _drop_what_stands_alone(self) -> None:
         """A piece whose neighbours are all others has its sign by chance."""
