@@ -37,6 +37,7 @@ _LIST = re.compile("(?![0-9]{1,3}(?:,[0-9]{3})+$)[0-9]+(?:,[0-9]+){2,}")
 """Numbers parted by commas without blanks; three digits behind each comma are thousands."""
 _ONE_OVER = "\\frac{"
 _OVER = re.compile("/(?:[^\\W\\d_]|%|[0-9]{2})")
+"""What makes a 1 the upper half of a fraction: `1/V`, `1/100`."""
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")

@@ -60,7 +60,10 @@ class Places:
         self.absent: list[tuple[Claim, list[Extent]]] = []
         self.starts = sorted({now(first) for claim in claims for first, last in claim.cited if not last})
         self.empty = {now(line) for line, numbers in looked_through.items() if not numbers}
-        self.no_facts = {now(line): _with_parts(numbers) for line, numbers in looked_through.items() if numbers}
+        self.no_facts: dict[int, frozenset[str]] = {}
+        for line, numbers in looked_through.items():
+            if numbers:  # lines that were joined have those of each
+                self.no_facts[now(line)] = self.no_facts.get(now(line), frozenset()) | _with_parts(numbers)
         self._extents: dict[tuple[int, int], Extent] = {}
         self._passages: dict[Extent, Passage] = {}
         self._own_parts: dict[tuple[Extent, frozenset[Fraction]], Passage] = {}
