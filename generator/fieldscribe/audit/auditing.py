@@ -58,7 +58,8 @@ class Auditor(Asked):
         outcome.unused = [
             number
             for number, is_new, is_label in zip(outcome.unused, changed, counts, strict=True)
-            if (is_new and not is_label) or (number.line, number.column) in as_it_is.strays
+            if (place := (number.line, number.column)) in as_it_is.strays
+            or (is_new and not is_label and place not in as_it_is.used)
         ]
         outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
         unprinted = {erratum.erratum for erratum in outcomes[0].unprinted}

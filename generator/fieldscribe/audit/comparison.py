@@ -33,7 +33,7 @@ _CAPTION = re.compile(
 """What counts a picture or a table is no fact."""
 _FEWEST_LOST, _LOST = 4, 0.5
 """A place is lost where so many facts of a subject are missing, such a share of all, and nearly all its names."""
-_LISTS = ("enum", "flags", "flag values")
+_LISTS = ("enum", "flags", "flag values", "answers", "refusals")
 _LONGEST_MERGED = 10
 """A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
 

@@ -160,7 +160,7 @@ def _blanked(match: re.Match[str]) -> str:
 
 
 def _sign(piece: str) -> str:
-    plain = normalize("NFC", piece.translate(_ALIKE)).replace(" ", "")
+    plain = normalize("NFC", piece.translate(_ALIKE)).replace(" ", "").casefold()
     return _SIGNS[blake2b(plain.encode(), digest_size=1).digest()[0] % len(_SIGNS)]
 
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.layout.alignment import Alignment
     from fieldscribe.audit.layout.fingerprint import Fingerprint, Text
 
-_FEWEST_CELLS = 3
+_FEWEST_CELLS = 2
+"""So many cells, tabs or bars stand before the last one of a row."""
 _OPENING, _MOST_ALIKE = 2, 100
 """Rows are looked up by so many words: a code and a number; where so many lines begin so, they tell nothing."""
 _MOST_PAIRS = 60_000
