@@ -53,6 +53,7 @@ if [ "$purpose" = tests ]; then
     need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h
     need cargo "cargo-web rustc-web"
     need frama-c frama-c-base
+    need cppcheck cppcheck
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy
     need zsh zsh
@@ -95,6 +96,16 @@ if [ ! -x .venv/bin/python ] || [ ! -f .venv/installed ] || [ "$(cat .venv/insta
     .venv/bin/python -m pip --version >/dev/null 2>&1 || python3 -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
     echo "$wanted" >.venv/installed
+fi
+
+firmware=thumbv6m-none-eabi
+if [ "$purpose" = tests ] && command -v rustup >/dev/null 2>&1 && [ ! -d "$(rustc --print target-libdir --target $firmware 2>/dev/null)" ]; then
+    if [ "$(id -u)" = 0 ]; then
+        echo "setting up $firmware for rustc"
+        timeout 300 rustup target add $firmware >/dev/null 2>&1 || echo "rustup could not add $firmware: the test that needs it is skipped" >&2
+    else
+        echo "missing here: rustup target add $firmware" >&2
+    fi
 fi
 
 language_server=yaml-language-server@1.25.0
