@@ -40,8 +40,8 @@ def edition(sound: Sound, random: Random, count: int = 14) -> Edition:
     """So many facts changed on lines of their own, three passages inserted, and all tables padded anew."""
     changes = list(_apart(sound, random, count))
     edits = {number: text for change in changes for number, text in change.lines}
-    inserted_before = _places_that_are_found_again(sound)
-    inserted = random.sample(inserted_before, min(3, len(inserted_before)))
+    headings = sound.manual.headings
+    inserted = random.sample(headings, min(3, len(headings)))
     lines: list[str] = []
     changed = set()
     for number, old in enumerate(sound.manual.lines):
@@ -53,16 +53,6 @@ def edition(sound: Sound, random: Random, count: int = 14) -> Edition:
         if new is not None:
             lines.append(_padded(new))
     return Edition("\n".join(lines) + "\n", changes, changed)
-
-
-def _places_that_are_found_again(sound: Sound) -> list[int]:
-    """Headings before a code or an address: a worked frame has none, and nothing tells where its table went."""
-    claims = sound.auditor.claims
-    cited = sorted({first for claim in claims for first, _ in claim.cited})
-    anchored = {first for claim in claims if claim.anchor for first, _ in claim.cited}
-    spans = {lines for claim in claims for lines in claim.cited if lines[1]}
-    free = [line for line in sound.manual.headings if not any(first < line <= last for first, last in spans)]
-    return [line for line in free if next((first for first in cited if first >= line), 0) in anchored]
 
 
 def _apart(sound: Sound, random: Random, count: int) -> Iterator[Change]:
