@@ -18,8 +18,8 @@ from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.conversation.refusals import amount
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings, read_value
-from fieldscribe.hexadecimal import HexError, parse_hex
 from fieldscribe.model import Special
+from fieldscribe.pasted_numbers import HexError, parse_hex
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import (

@@ -26,7 +26,7 @@ FIRST, SECOND = "321#DD010302000007D0", "321#DD00051E13880064"
 EXPONENTS = {1: "0100", 10: "0000", 14: "0000"}
 
 
-class Told(NamedTuple):
+class Output(NamedTuple):
     """How a command ended, and what it printed."""
 
     code: int
@@ -35,14 +35,14 @@ class Told(NamedTuple):
 
 
 @pytest.fixture
-def decode(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Told]:
+def decode(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Output]:
     """Runs the command in this process, with a text as standard input."""
     monkeypatch.chdir(ROOT)
 
-    def run(*words: str, given: str = "", device: str = "woodward_mpu2s") -> Told:
+    def run(*words: str, given: str = "", device: str = "woodward_mpu2s") -> Output:
         monkeypatch.setattr(pipeline, "load_device", lambda *_: shipped(device))
         monkeypatch.setattr(sys, "stdin", StringIO(given))
-        return Told(main(["decode", device, *words]), *capsys.readouterr())
+        return Output(main(["decode", device, *words]), *capsys.readouterr())
 
     return run
 
@@ -104,7 +104,7 @@ POLLED = {
 
 
 @pytest.mark.parametrize("device", POLLED)
-def test_a_stream_says_what_the_same_frames_say_as_arguments(device: str, decode: Callable[..., Told]) -> None:
+def test_a_stream_says_what_the_same_frames_say_as_arguments(device: str, decode: Callable[..., Output]) -> None:
     """In the same order, with the state of the frames before: also when all of it comes again and is remembered."""
     frames = [*POLLED[device], *POLLED[device]]
     for form in ("text", "json", "jsonl"):
@@ -116,7 +116,7 @@ def test_a_stream_says_what_the_same_frames_say_as_arguments(device: str, decode
 
 
 def test_what_is_remembered_gives_way_and_nothing_else_changes(
-    decode: Callable[..., Told], monkeypatch: pytest.MonkeyPatch
+    decode: Callable[..., Output], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     text = log(200)
     told = decode("-", given=text)
@@ -124,7 +124,7 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
     assert decode("-", given=text) == told
 
 
-def test_both_notations_of_candump_say_the_same(tmp_path: Path, decode: Callable[..., Told]) -> None:
+def test_both_notations_of_candump_say_the_same(tmp_path: Path, decode: Callable[..., Output]) -> None:
     logged, dumped = tmp_path / "logged.log", tmp_path / "dumped.log"
     logged.write_text(log(46))
     dumped.write_text(log(46, dumped=True))
@@ -135,7 +135,7 @@ def test_both_notations_of_candump_say_the_same(tmp_path: Path, decode: Callable
     assert len(json.loads(both.out)["frames"]) == 92
 
 
-def test_a_line_that_is_no_frame_hides_no_other(decode: Callable[..., Told]) -> None:
+def test_a_line_that_is_no_frame_hides_no_other(decode: Callable[..., Output]) -> None:
     done = decode("-", given=f"# taken on Monday\n{FIRST}\n\n{'ab' * 100_000}\n{SECOND}")
     assert done.code == 2
     assert done.out.count("  Frame ") == 2
@@ -147,7 +147,7 @@ def test_a_line_that_is_no_frame_hides_no_other(decode: Callable[..., Told]) -> 
     assert many.err.endswith("fieldscribe: 20 more lines are no frames\n")
 
 
-def test_nothing_to_decode(decode: Callable[..., Told]) -> None:
+def test_nothing_to_decode(decode: Callable[..., Output]) -> None:
     assert decode().code == 2
     assert json.loads(decode("-", "--format", "json").out) == {"device": "woodward_mpu2s", "frames": []}
     assert decode("-", "--format", "jsonl").out == ""

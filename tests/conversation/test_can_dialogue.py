@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.options import refuse_foreign
-from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
 from fieldscribe.families.answers import Heard

@@ -15,8 +15,8 @@ from fieldscribe.families.answers import refused
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.families.modbus.speech import ModbusSpeech
-from fieldscribe.hexadecimal import typed_bytes
 from fieldscribe.model import Code, Place
+from fieldscribe.pasted_numbers import typed_bytes
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import changed, named, sample_device, titles

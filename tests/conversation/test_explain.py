@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.asked import quoted
+from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
-from fieldscribe.conversation.others import explain_others
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from support.models import changed, named, point, sample_device
 
 DEVICE = sample_device()

@@ -9,11 +9,11 @@ import pytest
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
+from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.options import refuse_foreign
-from fieldscribe.conversation.others import explain_others
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings

@@ -24,7 +24,7 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        "__init__ asked hexadecimal text names patterns diagnostics kinds reading records report resources render",
+        "__init__ asked pasted_numbers text names patterns diagnostics kinds reading records report resources render",
     ),
     ("the neutral model", "existence model plain"),
     ("exact arithmetic", "arithmetic"),
@@ -44,7 +44,7 @@ ROOMS = (
     ("checks", "checks"),
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
-    ("what talks to people", "conversation audit export differences importing finding"),
+    ("what talks to people", "conversation audit export differences importing search"),
     ("what a family exports alone", "families.*.export"),
     ("output", "output"),
     ("what a project takes", "vendoring"),

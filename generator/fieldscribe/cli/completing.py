@@ -92,7 +92,7 @@ class _Line:
 
     def _points(self) -> Iterable[str]:
         """The names and codes of the points of the device that is named before."""
-        from fieldscribe.finding.outlines import outline_of
+        from fieldscribe.search.summaries import outline_of
 
         known = self._devices()
         file = next((known[word] for word in self._given if word in known), None)

@@ -48,9 +48,9 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
+    from fieldscribe.conversation.explain_other_items import explain_others
     from fieldscribe.conversation.lookup import near
-    from fieldscribe.conversation.others import explain_others
-    from fieldscribe.hexadecimal import number_of
+    from fieldscribe.pasted_numbers import number_of
 
     device = open_device(arguments)
     matches = _matches(device, arguments.what)

@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
 
 def _devices(arguments: Namespace) -> int:
     from fieldscribe.cli.common import StopError, devices_asked
-    from fieldscribe.finding.outlines import outlines_of
+    from fieldscribe.search.summaries import outlines_of
 
     about_points = [f"--{name}" for name in (*_FILTERS, "variant") if getattr(arguments, name)]
     if about_points:

@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Sequence
 
-    from fieldscribe.finding.search import Hit
-    from fieldscribe.finding.things import Thing
+    from fieldscribe.search.entries import Thing
+    from fieldscribe.search.matching import Hit
 
 HELP = "find words in titles, codes, sections, names, flags, labels and numbers of all devices"
 EXAMPLE = """examples:
@@ -48,7 +48,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
-    from fieldscribe.finding.search import near_words, search
+    from fieldscribe.search.matching import near_words, search
 
     things = _things(arguments)
     words = [word for text in arguments.words for word in text.split()]
@@ -69,8 +69,8 @@ def _things(arguments: Namespace) -> list[Thing]:
 
     from fieldscribe.cli.common import device_file, devices_asked, usage_error
     from fieldscribe.diagnostics import Report
-    from fieldscribe.finding.things import things_of
     from fieldscribe.pipeline import load_subject
+    from fieldscribe.search.entries import things_of
 
     folder = arguments.descriptions
     named = {name: device_file(Chosen(device=name, descriptions=folder)) for name in arguments.device}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.families import family
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:

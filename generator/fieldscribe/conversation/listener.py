@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.conversation.hearing import Hearing
-from fieldscribe.conversation.oddities import Oddities
+from fieldscribe.conversation.decode_state import DecodeState
+from fieldscribe.conversation.frame_warnings import FrameWarnings
 from fieldscribe.conversation.parameters import element_items, word_items
+from fieldscribe.conversation.point_formatter import PointTextCache
 from fieldscribe.conversation.requests import part_of
 from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
-from fieldscribe.conversation.told import Told
 from fieldscribe.families.answers import Item
 from fieldscribe.families.directory import Directory
 from fieldscribe.families.spoken import Course, Cut, Element, Masks, Piece, ProcessData, Recent, Span, Word
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from fieldscribe.families.spoken import Speech
     from fieldscribe.model import Device
 
-_SAYS: Mapping[type, Callable[[Hearing, Any], Iterable[Item]]] = {
+_SAYS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Span: span_items,
     Element: element_items,
     Word: word_items,
@@ -56,13 +56,13 @@ class Listener:
         self._given = dict(settings)
         self._speech = speech
         self._directory = Directory(device)
-        self._oddities = Oddities(device, self._directory)
-        self._told = Told(device, self._directory)
+        self._oddities = FrameWarnings(device, self._directory)
+        self._told = PointTextCache(device, self._directory)
         self._course = Course()
-        self._parties: Recent[int | None, Hearing] = Recent()
+        self._parties: Recent[int | None, DecodeState] = Recent()
 
-    def _unheard(self) -> Hearing:
-        return Hearing(self._device, self._directory, self._told, self._given, dict(self._given))
+    def _unheard(self) -> DecodeState:
+        return DecodeState(self._device, self._directory, self._told, self._given, dict(self._given))
 
     def requests(self, options: Options) -> list[Heard]:
         """The requests that the following frames answer, as the options give them. Raises UnclearError."""

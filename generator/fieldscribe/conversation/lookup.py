@@ -7,7 +7,7 @@ from operator import ne
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.buses import word_text

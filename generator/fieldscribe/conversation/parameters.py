@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, split
-from fieldscribe.conversation.hearing import odd_item
+from fieldscribe.conversation.decode_state import odd_item
 from fieldscribe.conversation.items import named_item
+from fieldscribe.conversation.point_formatter import PARAMETER
 from fieldscribe.conversation.selection import absence
-from fieldscribe.conversation.told import PARAMETER
 from fieldscribe.families.answers import Item
 from fieldscribe.records import replace
 from fieldscribe.wording import address_text, fixed_text
@@ -17,13 +17,13 @@ from fieldscribe.wording.buses import counted, element_text, words_text
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.decode_state import DecodeState
     from fieldscribe.conversation.items import Base
     from fieldscribe.families.spoken import Element, Word
     from fieldscribe.model import Point
 
 
-def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
+def element_items(hearing: DecodeState, element: Element) -> Iterator[Item]:
     """What a frame says about one element of a parameter."""
     points = hearing.directory.at(PARAMETER, element.parameter, element.index)
     base = (PARAMETER, element.parameter, max(1, element.width))
@@ -42,7 +42,7 @@ def element_items(hearing: Hearing, element: Element) -> Iterator[Item]:
         yield from (_element(hearing, element, point, base, carried) for point in shown)
 
 
-def _element(hearing: Hearing, element: Element, point: Point, base: Base, carried: str) -> Item:
+def _element(hearing: DecodeState, element: Element, point: Point, base: Base, carried: str) -> Item:
     if element.value is None:
         return named_item(point, base, odd=absence(hearing.device, point) if element.asked else "")
     if not point.generated:
@@ -62,7 +62,7 @@ def _width_finding(point: Point, element: Element) -> str:
     return f"{said}; a device answers with a wrong data type" if element.asked else said
 
 
-def word_items(hearing: Hearing, word: Word) -> Iterator[Item]:
+def word_items(hearing: DecodeState, word: Word) -> Iterator[Item]:
     """What a frame says about one word of a parameter."""
     points = hearing.directory.at(PARAMETER, word.address)
     if word.learned and word.raw is not None and points:
@@ -78,15 +78,15 @@ def word_items(hearing: Hearing, word: Word) -> Iterator[Item]:
         yield Item(PARAMETER, word.address, 1, f"{address_text(word.address)}: no point is described here{brings}")
 
 
-def _whole(hearing: Hearing, point: Point) -> bool:
+def _whole(hearing: DecodeState, point: Point) -> bool:
     return all(at in hearing.words for at in point.addresses)
 
 
-def _heard(hearing: Hearing, point: Point) -> int:
+def _heard(hearing: DecodeState, point: Point) -> int:
     return raw_of(point, [hearing.words[at] for at in point.addresses])
 
 
-def _word(hearing: Hearing, word: Word, point: Point) -> Item:
+def _word(hearing: DecodeState, word: Word, point: Point) -> Item:
     base = (PARAMETER, word.address, 1)
     if word.raw is None:
         return named_item(point, base, odd=absence(hearing.device, point))

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.decode_state import DecodeState
     from fieldscribe.conversation.items import Base, Saying
-    from fieldscribe.conversation.told import Told
+    from fieldscribe.conversation.point_formatter import PointTextCache
     from fieldscribe.families.spoken import Span
     from fieldscribe.model import Command, Place, Point
 
@@ -31,7 +31,7 @@ SpanKey = tuple[str, int, int, int, bool]
 """Space, address and count of a span, how many words the frame brings, and whether it writes them."""
 
 
-def span_items(hearing: Hearing, span: Span) -> list[Item]:
+def span_items(hearing: DecodeState, span: Span) -> list[Item]:
     """The items of a span; its points are settings for each other."""
     words = span.words or ()
     layout = hearing.told.spans[span.space, span.address, span.count, min(len(words), span.count), span.written]
@@ -47,7 +47,7 @@ def span_items(hearing: Hearing, span: Span) -> list[Item]:
 class SpanLayout:
     """What stands at consecutive addresses, worked out once: what teaches settings, and what says each item."""
 
-    def __init__(self, told: Told, key: SpanKey) -> None:
+    def __init__(self, told: PointTextCache, key: SpanKey) -> None:
         self._told = told
         self._space, self._address, self._count, self._carried, self._written = key
         inside = range(self._address, self._address + self._count)

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.hearing import Hearing
+    from fieldscribe.conversation.decode_state import DecodeState
     from fieldscribe.conversation.items import Base, Saying
-    from fieldscribe.conversation.told import Told
+    from fieldscribe.conversation.point_formatter import PointTextCache
     from fieldscribe.families.spoken import Masks, Piece, ProcessData
     from fieldscribe.model import Device, Point
 
@@ -30,13 +30,13 @@ def _names(device: Device, direction: str) -> list[str]:
     return [telegram.name for telegram in device.telegrams if telegram.direction == direction]
 
 
-def process_items(hearing: Hearing, data: ProcessData) -> list[Item]:
+def process_items(hearing: DecodeState, data: ProcessData) -> list[Item]:
     """The items of process data."""
     sayings = hearing.told.process_data[data.direction, len(data.words)]
     return [say(data.words, hearing.settings) for say in sayings]
 
 
-def process_sayings(told: Told, key: tuple[str, int]) -> list[Saying]:
+def process_sayings(told: PointTextCache, key: tuple[str, int]) -> list[Saying]:
     """What says the items of so many words of process data of a direction."""
     direction, count = key
     names = _names(told.device, direction)
@@ -50,7 +50,7 @@ def process_sayings(told: Told, key: tuple[str, int]) -> list[Saying]:
     return result
 
 
-def _process_saying(told: Told, point: Point, base: Base, *, written: bool) -> Saying:
+def _process_saying(told: PointTextCache, point: Point, base: Base, *, written: bool) -> Saying:
     """What says a point of process data."""
     place = base[1]
     if not point.generated and point.scale is None:
@@ -72,7 +72,7 @@ def _undescribed(base: Base) -> Saying:
     return lambda words, _: Item(*base, f"{head} = {words[base[1]]:04X}h: no point is described here")
 
 
-def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
+def mask_items(hearing: DecodeState, masks: Masks) -> Iterator[Item]:
     """The items of masks: which words of process data are valid, and which bits of control words."""
     counts = [str(place) for place in range(1, 16) if masks.words[0] >> place & 1]
     which = " and ".join([", ".join(counts[:-1]), counts[-1]] if counts[1:] else counts)
@@ -82,7 +82,7 @@ def mask_items(hearing: Hearing, masks: Masks) -> Iterator[Item]:
     yield _mask(hearing, 3, 2, masks.words[2:4])
 
 
-def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item:
+def _mask(hearing: DecodeState, place: int, at: int, words: tuple[int, ...]) -> Item:
     """The item of one mask: which bits of a control word are valid."""
     names = _names(hearing.device, "request")
     point = next((point for name in names for point in hearing.directory.at(name, place)), None)
@@ -101,7 +101,7 @@ def _mask(hearing: Hearing, place: int, at: int, words: tuple[int, ...]) -> Item
 class _Part:
     """A point that has words of a stretch, and what makes its raw number: from the stretch, or from several."""
 
-    def __init__(self, told: Told, key: StretchKey, point: Point) -> None:
+    def __init__(self, told: PointTextCache, key: StretchKey, point: Point) -> None:
         telegram, positions, _ = key
         self.point, self.name, self.addresses = point, point.item, point.addresses
         self.base = telegram, min(point.addresses), len(point.addresses)
@@ -127,7 +127,7 @@ StretchKey = tuple[str, range, int]
 class Stretch:
     """Neighbouring words of a telegram: the points that have one of them, in order, and the words that no point has."""
 
-    def __init__(self, told: Told, key: StretchKey) -> None:
+    def __init__(self, told: PointTextCache, key: StretchKey) -> None:
         telegram, positions, per_frame = key
         at = {place: told.directory.at(telegram, place) for place in positions}
         points = {point.item: point for here in at.values() for point in here}.values()
@@ -140,7 +140,7 @@ class Stretch:
         self.alone = [place for place, here in at.items() if not here]
 
 
-def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
+def piece_items(hearing: DecodeState, piece: Piece) -> Iterable[Item]:
     """The items of a frame of a telegram, and of earlier points whose missing values it brings."""
     stretch = hearing.told.stretches[piece.telegram.name, piece.positions, piece.pieces.per_frame]
     raws = [part.raw(piece) for part in stretch.parts]
@@ -168,14 +168,14 @@ def piece_items(hearing: Hearing, piece: Piece) -> Iterable[Item]:
     return items
 
 
-def _multiplexers(told: Told, telegram: str, per_frame: int, missing: tuple[str, ...]) -> str:
+def _multiplexers(told: PointTextCache, telegram: str, per_frame: int, missing: tuple[str, ...]) -> str:
     """Where missing points come in a telegram; empty if they do not."""
     firsts = [told.directory.first(telegram, name) for name in missing]
     slots = sorted({first // per_frame for first in firsts if first is not None})
     return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
 
 
-def _incomplete_text(hearing: Hearing, piece: Piece, part: _Part) -> str:
+def _incomplete_text(hearing: DecodeState, piece: Piece, part: _Part) -> str:
     """What is known of a number whose words come in two frames and may not belong together."""
     words = [piece.pieces.words((at,)) for at in part.addresses]
     if any(status != "ok" for status, _ in words):
@@ -196,7 +196,7 @@ def _waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) 
     return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
 
 
-def _completed_points(hearing: Hearing) -> Iterator[Item]:
+def _completed_points(hearing: DecodeState) -> Iterator[Item]:
     """Points of earlier frames whose missing values came with this frame."""
     for name, (voice, raw) in list(hearing.waiting.items()):
         if not hearing.fresh.isdisjoint(voice.needs) and not voice.lacks(hearing.settings):

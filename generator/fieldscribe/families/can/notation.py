@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.asked import UnclearError, quoted
 from fieldscribe.families.can.frames import CanFrame
-from fieldscribe.hexadecimal import HexError, parse_hex, rejoined
+from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:

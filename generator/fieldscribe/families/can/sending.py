@@ -9,7 +9,7 @@ from fieldscribe.asked import RefusedError, UnclearError, quoted
 from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.can.frames import build, carries
 from fieldscribe.families.can.notation import frame_text
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
 

@@ -12,7 +12,7 @@ from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
 from fieldscribe.families.spoken import Framed, Remembered, Span, Spoken
-from fieldscribe.hexadecimal import rejoined, typed_bytes
+from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
 

@@ -22,7 +22,7 @@ from fieldscribe.families.uss.parts import (
     split,
 )
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
-from fieldscribe.hexadecimal import rejoined, typed_bytes
+from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import element_text, no_answer_text
 

@@ -8,7 +8,7 @@ from fieldscribe import wording
 from fieldscribe.conversation.exchanges import find_exchanges
 from fieldscribe.conversation.explanation import Explanation
 from fieldscribe.conversation.units import find_units
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 

@@ -7,13 +7,13 @@ import unicodedata
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.hexadecimal import number_of
+from fieldscribe.pasted_numbers import number_of
 from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from fieldscribe.finding.things import Fact, Thing
+    from fieldscribe.search.entries import Fact, Thing
 
 _FAULTS = frozenset({"error", "exception", "fault"})
 """Kinds of codes that people take for the same."""

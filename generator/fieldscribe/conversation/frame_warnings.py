@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Frame
 
 
-class Oddities:
+class FrameWarnings:
     """What looks odd or like a mistake in frames of one device."""
 
     def __init__(self, device: Device, directory: Directory) -> None:

@@ -12,24 +12,24 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.conversation.items import Base
-    from fieldscribe.conversation.told import Told, Voice
+    from fieldscribe.conversation.point_formatter import PointFormatter, PointTextCache
     from fieldscribe.families.answers import Item
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Point
 
 
 @dataclass(slots=True)
-class Hearing:
+class DecodeState:
     """What one dialogue has told: numbers for rules, words of parameters, and points that wait for others."""
 
     device: Device
     directory: Directory
-    told: Told
+    told: PointTextCache
     by_person: Mapping[str, int | Fraction]
     settings: dict[str, int | Fraction]
     """The numbers for rules: what the person gave, else what was heard."""
     words: dict[int, int] = field(default_factory=dict)
-    waiting: dict[str, tuple[Voice, int]] = field(default_factory=dict)
+    waiting: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
     """What speaks for points whose meaning needs others, by item, with their raw numbers."""
     fresh: set[str] = field(default_factory=set)
     """The settings that have changed since the waiting points were last tried."""
@@ -43,7 +43,7 @@ class Hearing:
                 self.settings[name] = setting
                 self.fresh.add(name)
 
-    def beside(self) -> Hearing:
+    def beside(self) -> DecodeState:
         """The same for one frame whose points are settings for each other: what it learns is not kept."""
         return replace(self, settings=dict(self.settings), fresh=set())
 

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.finding.search import near_words, search
-from fieldscribe.finding.things import things_of
 from fieldscribe.pipeline import load_subject
+from fieldscribe.search.entries import things_of
+from fieldscribe.search.matching import near_words, search
 from support.places import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.finding.things import Thing
+    from fieldscribe.search.entries import Thing
 
 DEVICES = ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
 
 
-class Told(NamedTuple):
+class Output(NamedTuple):
     """How a command ended, and what it printed."""
 
     code: int
@@ -32,9 +32,9 @@ class Told(NamedTuple):
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Told]:
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[..., Output]:
     monkeypatch.chdir(ROOT)
-    return lambda *words: Told(main(list(words)), *capsys.readouterr())
+    return lambda *words: Output(main(list(words)), *capsys.readouterr())
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +88,7 @@ def test_near_words(things: list[Thing]) -> None:
     assert near_words(things, ["Hochlaufzeitt"])[0] == "Hochlaufzeit"
 
 
-def test_search(run: Callable[..., Told]) -> None:
+def test_search(run: Callable[..., Output]) -> None:
     told = run("search", "base_frequency", "--device", "hitachi_l200")
     assert told.out.startswith("hitachi_l200 A020 base_frequency: Base frequency / ")
     assert "descriptions/hitachi_l200/standard_a.yaml:" in told.out
@@ -103,7 +103,7 @@ def test_search(run: Callable[..., Told]) -> None:
     assert few.out.splitlines()[-1].startswith("and ")
 
 
-def test_the_list_of_devices(run: Callable[..., Told]) -> None:
+def test_the_list_of_devices(run: Callable[..., Output]) -> None:
     told = run("list")
     assert [line.split()[0] for line in told.out.splitlines()] == ["device", *DEVICES]
     data = json.loads(run("list", "--family", "modbus", "--matching", "*l2*", "--format", "json").out)["devices"]
@@ -124,13 +124,13 @@ def test_the_list_of_devices(run: Callable[..., Told]) -> None:
         (("--group", "basic_f", "--type", "u16"), ["frequency_setpoint", "motor_direction"]),
     ],
 )
-def test_the_points_of_a_device(words: tuple[str, ...], names: list[str], run: Callable[..., Told]) -> None:
+def test_the_points_of_a_device(words: tuple[str, ...], names: list[str], run: Callable[..., Output]) -> None:
     told = run("list", "hitachi_l200", *words, "--format", "json")
     assert [point["name"] for point in json.loads(told.out)["points"]] == names
     assert told.code == (0 if names else 1)
 
 
-def test_points_for_people_and_spreadsheets(run: Callable[..., Told]) -> None:
+def test_points_for_people_and_spreadsheets(run: Callable[..., Output]) -> None:
     first, row = run("list", "hitachi_l200", "--matching", "A020").out.splitlines()
     assert first.split() == ["code", "name", "space", "address", "access", "type", "unit", "range", "group", "title"]
     assert row.split()[:8] == ["A020", "base_frequency", "holding", "1028h", "rw", "u16", "Hz", "0..400"]

@@ -34,7 +34,7 @@ _MOST_SPANS = 2048
 """How many different spans of addresses are remembered."""
 
 
-class Voice:
+class PointFormatter:
     """Puts the raw numbers of one point into words."""
 
     def __init__(self, device: Device, point: Point, base: Base, *, written: bool) -> None:
@@ -92,12 +92,12 @@ class Voice:
         return odd, f"{self._title}; {remark}" if remark else self._title
 
 
-class Told:
+class PointTextCache:
     """What the points of a device mean; each meaning is put into words once as long as it is remembered."""
 
     def __init__(self, device: Device, directory: Directory) -> None:
         self.device, self.directory = device, directory
-        self._voices: dict[tuple[str, Base, bool], Voice] = {}
+        self._voices: dict[tuple[str, Base, bool], PointFormatter] = {}
         self.spans: Remembered[SpanKey, SpanLayout] = Remembered(_MOST_SPANS, partial(SpanLayout, self))
         self.stretches: Remembered[StretchKey, Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
         """Parts of telegrams that have come."""
@@ -109,10 +109,10 @@ class Told:
         parameter, index, written = key
         return without_variants(self.directory.at(PARAMETER, parameter, index), limits=written)
 
-    def voice(self, point: Point, base: Base, *, written: bool = False) -> Voice:
+    def voice(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
         """What speaks for a point at this place."""
         key = point.item, base, written
         voice = self._voices.get(key)
         if voice is None:
-            voice = self._voices[key] = Voice(self.device, point, base, written=written)
+            voice = self._voices[key] = PointFormatter(self.device, point, base, written=written)
         return voice
