@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
 from support.described import shipped
 from support.places import ROOT
 
@@ -120,7 +120,7 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
 ) -> None:
     text = log(200)
     told = decode("-", given=text)
-    monkeypatch.setattr(Remembered, "__missing__", lambda self, key: self._make(key))
+    monkeypatch.setattr(BoundedMemo, "__missing__", lambda self, key: self._make(key))
     assert decode("-", given=text) == told
 
 
@@ -174,7 +174,7 @@ def test_a_closed_pipe_ends_quietly() -> None:
 MEASURED = """
 import re, sys, time
 from fieldscribe.cli import main
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
 main(["decode", "woodward_mpu2s", "--log", sys.argv[1]])
 peak = re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())
 print(peak[1], time.process_time(), file=sys.stderr)

@@ -15,11 +15,11 @@ from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
-from fieldscribe.families.answers import Heard
+from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
 from fieldscribe.families.can.recognition import Recogniser
-from fieldscribe.families.can.speech import CanSpeech
+from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.model import Role
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
@@ -37,12 +37,12 @@ FACTOR = coded(DEVICE, "KWUGNSEK")
 EXPONENTS = "321#DD010302000007D0"
 
 
-def hear(*texts: str, **settings: int) -> list[Heard]:
+def hear(*texts: str, **settings: int) -> list[FrameResult]:
     """All frames, one after the other."""
     return decode(DEVICE, settings, texts, asked())
 
 
-def said(heard: Heard) -> list[str]:
+def said(heard: FrameResult) -> list[str]:
     """What the items say, each up to the title."""
     return [item.text for item in heard.items]
 
@@ -75,7 +75,7 @@ def send(item: str, value: str, options: Options | None = None) -> tuple[str, ..
 )
 def test_notations(texts: list[str], can_id: str | None, shown: list[str]) -> None:
     pasted = read_frames(texts, None if can_id is None else read_identifier(can_id))
-    assert [one.shown for one in pasted] == shown
+    assert [one.text for one in pasted] == shown
     assert all(isinstance(word, str) for one in pasted for word in (one.stamp, one.bus))
 
 
@@ -284,7 +284,7 @@ _HEADS = st.sampled_from([b"", b"\xdd", b"\xff\x01", b"\xee\x01", b"\xdd\x0e", b
 
 @given(st.lists(st.tuples(_IDS, _HEADS, st.binary(max_size=12)), min_size=1, max_size=8))
 def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
-    listening = Listener(DEVICE, {}, CanSpeech(DEVICE))
+    listening = Listener(DEVICE, {}, CanFrameDecoder(DEVICE))
     for number, start, rest in frames:
         for data in (start + rest, (start + rest)[:8]):
             heard = listening.hear(Pasted(CanFrame(number, data)))
@@ -292,7 +292,7 @@ def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
             assert heard.as_data()
 
 
-RECOGNISER = Recogniser(DEVICE, lambda _head, _identifier: Heard(b"", "can", "other", None, None, ""))
+RECOGNISER = Recogniser(DEVICE, lambda _head, _identifier: FrameResult(b"", "can", "other", None, None, ""))
 """It remembers what the heads of all the frames have told."""
 
 

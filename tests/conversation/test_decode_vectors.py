@@ -18,7 +18,7 @@ from support.vector_file import File
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Device
     from support.vector_file import Vector
 
@@ -29,7 +29,7 @@ def vectors(device: Device, kind: str) -> Iterator[Vector]:
     return (one for one in File(text) if one["kind"] == kind and one["bytes"])
 
 
-def holds(vector: Vector, heard: Heard, sound: bool) -> None:
+def holds(vector: Vector, heard: FrameResult, sound: bool) -> None:
     """The frame is whole, and answers what was asked, where the parsers say so, and not elsewhere."""
     assert sound == (not heard.faults and heard.kind not in ("other", "unreadable")), (vector, heard)
 

@@ -11,10 +11,10 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
-from fieldscribe.families.answers import refused
+from fieldscribe.families.frame_results import refused
+from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.modbus.sending import words_of, write_request
-from fieldscribe.families.modbus.speech import ModbusSpeech
 from fieldscribe.model import Code, Place
 from fieldscribe.pasted_numbers import typed_bytes
 from hypothesis import given
@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from support.models import changed, named, sample_device, titles
 
 if TYPE_CHECKING:
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
 
 DEVICE = sample_device()
 
@@ -33,15 +33,15 @@ def rtu(text: str) -> bytes:
     return body + crc16(body).to_bytes(2, "little")
 
 
-def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> Heard:
+def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> FrameResult:
     """The last of the frames, heard after the others."""
-    listening = Listener(DEVICE, settings, ModbusSpeech(DEVICE))
+    listening = Listener(DEVICE, settings, ModbusFrameDecoder(DEVICE))
     if request is not None:
         listening.expect_reply_to(request)
     return [listening.hear(data) for data in frames][-1]
 
 
-def said(heard: Heard) -> list[str]:
+def said(heard: FrameResult) -> list[str]:
     """What the items say."""
     return [item.text for item in heard.items]
 
@@ -91,7 +91,7 @@ def test_read_and_reply() -> None:
 
 def test_a_second_expected_request_takes_the_place_of_the_first() -> None:
     """It is a request whatever was expected before, and the replies that follow are its own."""
-    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE))
+    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE))
     listening.expect_reply_to(rtu("01 03 10 13 00 02"))
     assert listening.expect_reply_to(rtu("01 03 10 28 00 01")).kind == "request"
     heard = listening.hear(rtu("01 03 02 01 F4"))
@@ -236,11 +236,11 @@ def test_commands_and_loopback() -> None:
 
 def test_tcp_is_known_by_its_header() -> None:
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
-    heard = Listener(rtu_only, {}, ModbusSpeech(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
+    heard = Listener(rtu_only, {}, ModbusFrameDecoder(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.findings == ("the manual knows only RTU frames",)
-    wrong = Listener(DEVICE, {}, ModbusSpeech(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
+    wrong = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)
 
@@ -254,7 +254,7 @@ def test_pieces_are_no_frames(text: str) -> None:
 
 @given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
 def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
-    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE, framing))
+    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE, framing))
     if asked:
         listening.expect_reply_to(frames[0])
     for data in frames:
@@ -324,7 +324,7 @@ def test_why_no_frame_writes_a_point(status: str, why: str) -> None:
 def test_what_a_person_says_is_a_request_is_read_as_one_whatever_came_before() -> None:
     """An echo looks like its request: with --request it is the request."""
     frame = rtu("05 06 10 28 01 F4")
-    listening = Listener(DEVICE, {}, ModbusSpeech(DEVICE))
+    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE))
     assert listening.hear(frame).kind == "request_or_reply"
     assert listening.expect_reply_to(frame).kind == "request_or_reply"
     assert listening.hear(frame).kind == "reply"

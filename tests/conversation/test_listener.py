@@ -1,4 +1,4 @@
-"""The listener of all families: what a made-up speech says is open, learned and answered, and nothing of a family."""
+"""The listener of all families: what a made-up decoder says is open, learned and answered, and nothing of a family."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.conversation.listener import Listener
-from fieldscribe.families.answers import Heard, Item
-from fieldscribe.families.spoken import Course, Span, Spoken
+from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span
+from fieldscribe.families.frame_results import FrameResult, Item
 from support.models import sample_device
 
 if TYPE_CHECKING:
@@ -17,25 +17,27 @@ if TYPE_CHECKING:
     from fieldscribe.families.directory import Directory
 
 DEVICE = sample_device()
-QUIET = Heard(b"", "rtu", "request", 1, None, "said")
+QUIET = FrameResult(b"", "rtu", "request", 1, None, "said")
 
 
 @dataclass
 class Script:
-    """A speech whose frames are what they say; the summary tells which request was open."""
+    """A decoder whose frames are what they say; the summary tells which request was open."""
 
-    def frames(self, texts: Sequence[str]) -> Sequence[Spoken]:
+    def frames(self, texts: Sequence[str]) -> Sequence[DecodedFrame]:
         """None: nobody pastes anything here."""
-        return [Spoken(replace(QUIET, summary=text)) for text in texts]
+        return [DecodedFrame(replace(QUIET, summary=text)) for text in texts]
 
-    def hear(self, frame: Spoken, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
+    def decode(
+        self, frame: DecodedFrame, requests: OpenRequests, directory: Directory, *, expecting: bool = False
+    ) -> DecodedFrame:
         """The frame, and what was open before it."""
         del directory
-        heard = replace(frame.heard, summary=f"{course.asked(frame.party, frame.exchange)}")
-        return replace(frame, heard=heard, binds=expecting)
+        heard = replace(frame.result, summary=f"{requests.request(frame.unit, frame.exchange)}")
+        return replace(frame, result=heard, stays_open=expecting)
 
 
-def summaries(*frames: Spoken, expected: Spoken | None = None) -> list[str]:
+def summaries(*frames: DecodedFrame, expected: DecodedFrame | None = None) -> list[str]:
     """Which request was open at each frame."""
     listening = Listener(DEVICE, {}, Script())
     if expected is not None:
@@ -43,7 +45,7 @@ def summaries(*frames: Spoken, expected: Spoken | None = None) -> list[str]:
     return [listening.hear(frame).summary for frame in frames]
 
 
-ASKS, ANSWERS = Spoken(QUIET, asks="first"), Spoken(QUIET, answers=True)
+ASKS, ANSWERS = DecodedFrame(QUIET, request="first"), DecodedFrame(QUIET, answers=True)
 
 
 @pytest.mark.parametrize(
@@ -51,24 +53,24 @@ ASKS, ANSWERS = Spoken(QUIET, asks="first"), Spoken(QUIET, answers=True)
     [
         ([ASKS, ANSWERS, ANSWERS], None, ["None", "first", "None"]),
         ([ASKS, replace(ANSWERS, answers=False), ANSWERS], None, ["None", "first", "first"]),
-        ([ASKS, replace(ASKS, asks="all", silent=True), ANSWERS], None, ["None", "first", "None"]),
-        ([ASKS, replace(ANSWERS, party=2), ANSWERS], None, ["None", "None", "first"]),
+        ([ASKS, replace(ASKS, request="all", unanswered=True), ANSWERS], None, ["None", "first", "None"]),
+        ([ASKS, replace(ANSWERS, unit=2), ANSWERS], None, ["None", "None", "first"]),
         ([ASKS, replace(ANSWERS, exchange="other"), ANSWERS], None, ["None", "None", "first"]),
         ([ANSWERS, ANSWERS], ASKS, ["first", "first"]),
-        ([ANSWERS, ANSWERS], replace(ASKS, silent=True), ["first", "first"]),
+        ([ANSWERS, ANSWERS], replace(ASKS, unanswered=True), ["first", "first"]),
     ],
 )
-def test_which_request_is_open(frames: list[Spoken], expected: Spoken | None, open_: list[str]) -> None:
+def test_which_request_is_open(frames: list[DecodedFrame], expected: DecodedFrame | None, open_: list[str]) -> None:
     assert summaries(*frames, expected=expected) == open_
 
 
-def carrying(*words: int) -> Spoken:
+def carrying(*words: int) -> DecodedFrame:
     """The words of one span, the first of them a power factor."""
-    return Spoken(QUIET, (Span("holding", 0x2002, len(words), words),))
+    return DecodedFrame(QUIET, (Span("holding", 0x2002, len(words), words),))
 
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:
     told = Item("", 0, 1, "as it is")
-    heard = Listener(DEVICE, {}, Script()).hear(replace(carrying(7), carried=(told, told)))
+    heard = Listener(DEVICE, {}, Script()).hear(replace(carrying(7), contents=(told, told)))
     assert heard.items == (told, told)
     assert [item.raw for item in Listener(DEVICE, {}, Script()).hear(carrying(7)).items] == [7]

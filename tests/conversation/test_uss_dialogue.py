@@ -17,8 +17,8 @@ from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link
-from fieldscribe.families.uss.speech import UssSpeech
 from fieldscribe.families.uss.telegrams import Request, parse, telegram
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
@@ -31,7 +31,7 @@ from support.models import sample_device
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
 
 DEVICE = shipped("siemens_mm4")
 SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])
@@ -39,12 +39,12 @@ READ, ANSWER = "143A 0000 0000 0000", "243A 0000 4248 0000"
 PKW = asked(framing="pkw")
 
 
-def hear(*texts: str, options: Options | None = None, **settings: int | Fraction) -> list[Heard]:
+def hear(*texts: str, options: Options | None = None, **settings: int | Fraction) -> list[FrameResult]:
     """All telegrams, one after the other."""
     return decode(DEVICE, settings, texts, options or asked())
 
 
-def pkw(*texts: str, link: int | None = None, direction: str | None = None) -> list[Heard]:
+def pkw(*texts: str, link: int | None = None, direction: str | None = None) -> list[FrameResult]:
     """Parameter parts alone."""
     return hear(*texts, options=asked(framing="pkw", pkw=link, direction=direction))
 
@@ -284,7 +284,7 @@ def test_a_part_longer_than_any_telegram_is_read_after_a_request() -> None:
     st.sampled_from([None, "request", "response"]),
 )
 def test_any_bytes_are_safe(frames: list[bytes], framing: str, words: int, direction: str | None) -> None:
-    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, Link(words, 2), framing, direction))
+    listening = Listener(DEVICE, {}, UssFrameDecoder(DEVICE, Link(words, 2), framing, direction))
     for data in frames:
         even = data[: len(data) & ~1]
         for whole in (data, telegram(1, [int.from_bytes(even[at : at + 2], "big") for at in range(0, len(even), 2)])):
@@ -309,7 +309,7 @@ def test_answers_without_faults_are_those_of_the_reference(
     part = (code << 12 | number, place, value >> 16, value & 0xFFFF)[: link.sent]
     answer = telegram(1, (*part, 0, 0))
     status = parse(DEVICE.bus, link, asked, answer).status
-    listening = Listener(DEVICE, {}, UssSpeech(DEVICE, link))
+    listening = Listener(DEVICE, {}, UssFrameDecoder(DEVICE, link))
     listening.hear(telegram(1, (*(0x143A, 0, 0, 0)[: link.sent], 0, 0)))
     heard = listening.hear(answer)
     assert (heard.kind in ("reply", "exception")) == (status in ("ok", "refused", "no_rights", "no_answer"))

@@ -30,7 +30,7 @@ ROOMS = (
     ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families families.contract"),
-    ("frames taken apart, as all families say it", "families.answers families.directory families.spoken"),
+    ("frames taken apart, as all families say it", "families.frame_results families.directory families.decoded_frame"),
     ("facts and frames of a family", "families.*"),
     ("the table of keys", "language.keys"),
     ("a family's own keys", "families.*.keys"),

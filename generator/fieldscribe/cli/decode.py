@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fieldscribe.asked import UnclearError
     from fieldscribe.cli.heard import Shown
     from fieldscribe.conversation.listener import Listener
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
 
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli.common import StopError, open_device, settings_of
     from fieldscribe.cli.heard import shown_as
     from fieldscribe.cli.link import options_of
-    from fieldscribe.conversation.listener import Listener, speech_of
+    from fieldscribe.conversation.listener import Listener, decoder_of
 
     if not arguments.frames and not arguments.log:
         raise StopError("there is nothing to decode", "give frames, - for standard input, or --log FILE")
@@ -85,7 +85,7 @@ def run(arguments: Namespace) -> int:
     options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        listening = Listener(device, settings, speech_of(device, options))
+        listening = Listener(device, settings, decoder_of(device, options))
         telling = _Telling(listening, shown_as(arguments.format, device), arguments.unit)
         asked = listening.requests(options)
         for frames in _runs(arguments.frames):
@@ -118,7 +118,7 @@ class _Telling:
         self._wrong = False
         self._unread = 0
 
-    def tell(self, heard: Iterable[Heard]) -> None:
+    def tell(self, heard: Iterable[FrameResult]) -> None:
         """Print frames."""
         for frame in heard:
             if self._unit is None or frame.unit == self._unit:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.conversation.encoding import Encoded
-    from fieldscribe.families.answers import Sent
+    from fieldscribe.families.frame_results import BuiltFrames
 
 HELP = "turn a value into its raw number, or into the whole request frame"
 EXAMPLE = """examples:
@@ -83,7 +83,7 @@ def run(arguments: Namespace) -> int:
     return FINE
 
 
-def _tell(form: str, encoded: Encoded, sent: Sent | None) -> None:
+def _tell(form: str, encoded: Encoded, sent: BuiltFrames | None) -> None:
     import sys
 
     from fieldscribe.cli.common import print_json

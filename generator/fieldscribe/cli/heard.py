@@ -10,13 +10,13 @@ from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.cli.terminal import is_coloured, print_lines, print_rows
-from fieldscribe.families.answers import Item, bits_label
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Item, bits_label
 from fieldscribe.report import visible
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Device
 
 _MOST_LABELS = 256
@@ -30,7 +30,7 @@ class Shown(Protocol):
 
     def __init__(self, device: Device) -> None: ...
 
-    def frame(self, heard: Heard) -> None:
+    def frame(self, heard: FrameResult) -> None:
         """Print the next frame."""
 
     def end(self) -> None:
@@ -49,12 +49,12 @@ class _Text:
     def __init__(self, device: Device) -> None:
         places = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
         width = max(map(len, places | {"Checksum"}))
-        self._margins: Remembered[str, str] = Remembered(_MOST_LABELS, lambda label: f"\n  {label:<{width}}  ")
+        self._margins: BoundedMemo[str, str] = BoundedMemo(_MOST_LABELS, lambda label: f"\n  {label:<{width}}  ")
         self._coloured = is_coloured(sys.stdout)
         self._between = ""
 
-    def frame(self, heard: Heard) -> None:
-        heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.shown)
+    def frame(self, heard: FrameResult) -> None:
+        heading = spaced(heard.data) if heard.captured is None else visible(heard.captured.text)
         rows = _rows(heard)
         if self._coloured:
             sys.stdout.write(self._between)
@@ -70,12 +70,12 @@ class _Text:
             print_lines([[("", "no frame of that unit")]])
 
 
-def _rows(heard: Heard) -> list[tuple[str, str]]:
+def _rows(heard: FrameResult) -> list[tuple[str, str]]:
     rows = [("Frame", visible(heard.summary))]
     for item in heard.items:
-        rows.append(("Says", visible(item.said)))
-        if item.telling:
-            rows += [bits.shown for bits in item.flags]
+        rows.append(("Says", visible(item.summary)))
+        if item.bit_texts:
+            rows += [bits.row for bits in item.flags]
     if heard.checks:
         rows.append(("Header" if heard.framing == "tcp" else "Checksum", visible(heard.checks)))
     rows += [("Wrong", visible(fault)) for fault in (*heard.faults, *heard.findings)]
@@ -86,7 +86,7 @@ class _JsonLines:
     def __init__(self, device: Device) -> None:
         self._device = device.id
 
-    def frame(self, heard: Heard) -> None:
+    def frame(self, heard: FrameResult) -> None:
         sys.stdout.write(f"{json.dumps({'device': self._device, **heard.as_data()})}\n")
 
     def end(self) -> None:
@@ -100,7 +100,7 @@ class _Json:
         self._device = device.id
         self._before = ""
 
-    def frame(self, heard: Heard) -> None:
+    def frame(self, heard: FrameResult) -> None:
         begin = self._before or f'{{\n  "device": {json.dumps(self._device)},\n  "frames": ['
         sys.stdout.write(f"{begin}\n    {_indented({**heard.as_data(), 'items': heard.items}, 2 * _STEP)}")
         self._before = ","

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.conversation.items import Base
     from fieldscribe.conversation.point_formatter import PointFormatter, PointTextCache
-    from fieldscribe.families.answers import Item
     from fieldscribe.families.directory import Directory
+    from fieldscribe.families.frame_results import Item
     from fieldscribe.model import Device, Point
 
 

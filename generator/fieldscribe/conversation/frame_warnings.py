@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.spoken import Span
+from fieldscribe.families.decoded_frame import Span
 from fieldscribe.text import line
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import spaced
@@ -13,8 +13,8 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.families.decoded_frame import DecodedFrame
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.spoken import Spoken
     from fieldscribe.model import Device, Frame
 
 
@@ -27,17 +27,17 @@ class FrameWarnings:
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.own is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
 
-    def findings(self, spoken: Spoken) -> tuple[str, ...]:
+    def findings(self, decoded: DecodedFrame) -> tuple[str, ...]:
         """The finding that the device does not use the framing."""
         known = self._framings
-        if not known or spoken.heard.framing in known:
+        if not known or decoded.result.framing in known:
             return ()
         return (f"the manual knows only {' and '.join(known).upper()} frames",)
 
-    def notes(self, spoken: Spoken) -> tuple[str, ...]:
+    def notes(self, decoded: DecodedFrame) -> tuple[str, ...]:
         """Notes on what looks like a mistake."""
-        asked = [carried for carried in spoken.carried if isinstance(carried, Span)] if spoken.asks else ()
-        misprint = self._misprints.get(spoken.own.data if spoken.own else spoken.heard.data)
+        asked = [content for content in decoded.contents if isinstance(content, Span)] if decoded.request else ()
+        misprint = self._misprints.get(decoded.frame.data if decoded.frame else decoded.result.data)
         if not asked and misprint is None:
             return ()
         said = [] if misprint is None else [_misprint_text(misprint)]

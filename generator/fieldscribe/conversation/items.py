@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.selection import same_meaning
-from fieldscribe.families.answers import Item
+from fieldscribe.families.frame_results import Item
 from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text

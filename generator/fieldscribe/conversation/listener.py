@@ -11,17 +11,27 @@ from fieldscribe.conversation.point_formatter import PointTextCache
 from fieldscribe.conversation.requests import part_of
 from fieldscribe.conversation.spans import span_items
 from fieldscribe.conversation.telegrams import mask_items, piece_items, process_items
-from fieldscribe.families.answers import Item
+from fieldscribe.families.decoded_frame import (
+    CutFrame,
+    Element,
+    Masks,
+    OpenRequests,
+    Piece,
+    ProcessData,
+    RecentlyUsed,
+    Span,
+    Word,
+)
 from fieldscribe.families.directory import Directory
-from fieldscribe.families.spoken import Course, Cut, Element, Masks, Piece, ProcessData, Recent, Span, Word
+from fieldscribe.families.frame_results import Item
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.families.answers import Heard
-    from fieldscribe.families.spoken import Speech
+    from fieldscribe.families.decoded_frame import FrameDecoder
+    from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Device
 
 _SAYS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
@@ -36,56 +46,56 @@ _SAYS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
 """What a frame carries, and what puts it into items."""
 
 
-def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
+def decode(device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[FrameResult]:
     """The meaning of pasted frames, in order; any bytes are safe. Raises UnclearError for text that is no frame."""
-    listening = Listener(device, settings, speech_of(device, options))
+    listening = Listener(device, settings, decoder_of(device, options))
     return [*listening.requests(options), *listening.pasted(texts)]
 
 
-def speech_of(device: Device, options: Options) -> Speech:
+def decoder_of(device: Device, options: Options) -> FrameDecoder:
     """The decoder for frames of the device. Raises UnclearError."""
-    speech: Speech = part_of(device, "speech").speech_of(device, options)
-    return speech
+    decoder: FrameDecoder = part_of(device, "frame_decoder").decoder_of(device, options)
+    return decoder
 
 
 class Listener:
     """Decodes one frame after the other."""
 
-    def __init__(self, device: Device, settings: Settings, speech: Speech) -> None:
+    def __init__(self, device: Device, settings: Settings, decoder: FrameDecoder) -> None:
         self._device = device
         self._given = dict(settings)
-        self._speech = speech
+        self._decoder = decoder
         self._directory = Directory(device)
         self._oddities = FrameWarnings(device, self._directory)
         self._told = PointTextCache(device, self._directory)
-        self._course = Course()
-        self._parties: Recent[int | None, DecodeState] = Recent()
+        self._open_requests = OpenRequests()
+        self._parties: RecentlyUsed[int | None, DecodeState] = RecentlyUsed()
 
     def _unheard(self) -> DecodeState:
         return DecodeState(self._device, self._directory, self._told, self._given, dict(self._given))
 
-    def requests(self, options: Options) -> list[Heard]:
+    def requests(self, options: Options) -> list[FrameResult]:
         """The requests that the following frames answer, as the options give them. Raises UnclearError."""
         return [] if options.request is None else self._each([options.request], expecting=True)
 
-    def pasted(self, texts: Sequence[str]) -> list[Heard]:
+    def pasted(self, texts: Sequence[str]) -> list[FrameResult]:
         """The meaning of the frames in the texts. Raises UnclearError for a text that is no frame."""
         return self._each(texts, expecting=False)
 
-    def _each(self, texts: Sequence[str], *, expecting: bool) -> list[Heard]:
-        return [self.hear(frame, expecting=expecting) for frame in self._speech.frames(texts)]
+    def _each(self, texts: Sequence[str], *, expecting: bool) -> list[FrameResult]:
+        return [self.hear(frame, expecting=expecting) for frame in self._decoder.frames(texts)]
 
-    def hear(self, frame: Any, *, expecting: bool = False) -> Heard:
+    def hear(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """The meaning of the next frame; any bytes are safe."""
-        spoken = self._speech.hear(frame, self._course, self._directory, expecting=expecting)
-        hearing = self._parties.of(spoken.party, self._unheard)
-        items = tuple([item for carried in spoken.carried for item in _SAYS[type(carried)](hearing, carried)])
-        self._course.follow(spoken, expecting=expecting)
-        notes = self._oddities.notes(spoken)
-        if isinstance(frame, Cut):
-            notes = (*notes, frame.said)
-        return spoken.saying(items, self._oddities.findings(spoken), notes)
+        decoded = self._decoder.decode(frame, self._open_requests, self._directory, expecting=expecting)
+        hearing = self._parties.of(decoded.unit, self._unheard)
+        items = tuple([item for content in decoded.contents for item in _SAYS[type(content)](hearing, content)])
+        self._open_requests.follow(decoded, expecting=expecting)
+        notes = self._oddities.notes(decoded)
+        if isinstance(frame, CutFrame):
+            notes = (*notes, frame.note)
+        return decoded.with_items(items, self._oddities.findings(decoded), notes)
 
-    def expect_reply_to(self, frame: Any) -> Heard:
+    def expect_reply_to(self, frame: Any) -> FrameResult:
         """Treat a frame as the request that the following frames answer."""
         return self.hear(frame, expecting=True)

@@ -14,8 +14,8 @@ from fieldscribe.arithmetic.lines import Line
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
-from fieldscribe.families.answers import Bits, bits_label
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.records import dataclass, replace
 from fieldscribe.report import visible
 from fieldscribe.text import line
@@ -180,7 +180,7 @@ class Flags:
     def __init__(self, point: Point) -> None:
         self._lowest, self._width = point.bits[1] if point.bits else 0, point.width
         self._flags = [(flag.low, mask_of(flag.width), _flag_said(flag, self._lowest)) for flag in point.flags]
-        self._nameless = Remembered(_MOST_FLAGS, _nameless_bit)
+        self._nameless = BoundedMemo(_MOST_FLAGS, _nameless_bit)
         self._named_bits = sum(mask << low for low, mask, _ in self._flags)
 
     def sentence(self, raw: int) -> str:
@@ -208,7 +208,7 @@ class Flags:
         return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
 
 
-def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits]]:
+def _flag_said(flag: Flag, lowest: int) -> BoundedMemo[int, tuple[bool, str, Bits]]:
     """By the number of a flag: whether it is a bit whose name is not true, what it is called, and both as a fact."""
     is_bit, low = flag.width == 1, lowest + flag.low
     high = low + flag.width - 1
@@ -221,7 +221,7 @@ def _flag_said(flag: Flag, lowest: int) -> Remembered[int, tuple[bool, str, Bits
         shown = place, visible(_flag_line(flag, number, told))
         return true is False, _flag_text(flag, number), Bits(high, low, flag.name, number, true, told, shown)
 
-    return Remembered(_MOST_FLAGS, said)
+    return BoundedMemo(_MOST_FLAGS, said)
 
 
 def _nameless_bit(bit: int) -> Bits:

@@ -11,8 +11,8 @@ from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.spans import SpanLayout
 from fieldscribe.conversation.telegrams import Stretch, process_sayings
 from fieldscribe.conversation.writing import written_remarks
-from fieldscribe.families.answers import Item
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Item
 from fieldscribe.text import line
 from fieldscribe.wording import label
 
@@ -98,11 +98,11 @@ class PointTextCache:
     def __init__(self, device: Device, directory: Directory) -> None:
         self.device, self.directory = device, directory
         self._voices: dict[tuple[str, Base, bool], PointFormatter] = {}
-        self.spans: Remembered[SpanKey, SpanLayout] = Remembered(_MOST_SPANS, partial(SpanLayout, self))
-        self.stretches: Remembered[StretchKey, Stretch] = Remembered(_MOST_SPANS, partial(Stretch, self))
+        self.spans: BoundedMemo[SpanKey, SpanLayout] = BoundedMemo(_MOST_SPANS, partial(SpanLayout, self))
+        self.stretches: BoundedMemo[StretchKey, Stretch] = BoundedMemo(_MOST_SPANS, partial(Stretch, self))
         """Parts of telegrams that have come."""
-        self.process_data: Remembered[tuple[str, int], list[Saying]] = Remembered(64, partial(process_sayings, self))
-        self.elements: Remembered[tuple[int, int, bool], list[Point]] = Remembered(_MOST_SPANS, self._element)
+        self.process_data: BoundedMemo[tuple[str, int], list[Saying]] = BoundedMemo(64, partial(process_sayings, self))
+        self.elements: BoundedMemo[tuple[int, int, bool], list[Point]] = BoundedMemo(_MOST_SPANS, self._element)
         """The points of a parameter's element, as frames show them; variants that are written may differ in limits."""
 
     def _element(self, key: tuple[int, int, bool]) -> list[Point]:

@@ -11,7 +11,7 @@ from fieldscribe.wording.samples import sample_raw, sample_said
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.asked import Options
-    from fieldscribe.families.answers import Sent, Way
+    from fieldscribe.families.frame_results import BuiltFrames, WriteMethod
     from fieldscribe.model import Device, Point
 
 
@@ -24,9 +24,9 @@ def part_of(device: Device, name: str) -> Any:
     return part
 
 
-def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """The frames that write a raw number. Raises RefusedError, UnclearError."""
-    sent: Sent = part_of(device, "sending").frames_for(device, point, raw, settings, options)
+    sent: BuiltFrames = part_of(device, "sending").frames_for(device, point, raw, settings, options)
     return sent
 
 
@@ -39,9 +39,9 @@ def read_text(device: Device, point: Point) -> str:
 def write_text(device: Device, point: Point) -> str:
     """How the point is written, with an example; empty if it cannot be written."""
     part = family(device.family).part("explaining")
-    way: Way | None = part.way_to_write(device, point) if part and point.writable and point.addresses else None
+    way: WriteMethod | None = part.way_to_write(device, point) if part and point.writable and point.addresses else None
     if way is None:
         return ""
-    raw = None if way.shown is None else sample_raw(point)
-    shown = "" if way.shown is None or raw is None else way.shown(raw)
+    raw = None if way.example is None else sample_raw(point)
+    shown = "" if way.example is None or raw is None else way.example(raw)
     return way.how if raw is None or not shown else f"{way.how}{way.joint}{sample_said(point, raw)}{shown}"

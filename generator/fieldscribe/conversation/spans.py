@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.words import raw_reader
 from fieldscribe.conversation.items import always, named_item
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
-from fieldscribe.families.answers import Item
+from fieldscribe.families.frame_results import Item
 from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, title_text
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.conversation.decode_state import DecodeState
     from fieldscribe.conversation.items import Base, Saying
     from fieldscribe.conversation.point_formatter import PointTextCache
-    from fieldscribe.families.spoken import Span
+    from fieldscribe.families.decoded_frame import Span
     from fieldscribe.model import Command, Place, Point
 
 _MOST_WORDS = 16
@@ -135,7 +135,7 @@ class SpanLayout:
         def say(words: Sequence[int], settings: Settings) -> Item:
             del settings
             shown = " ".join(map(form.format, words[first : min(end, first + _MOST_WORDS)]))
-            return replace(item, said=f"{text} (carries {shown}{more})")
+            return replace(item, summary=f"{text} (carries {shown}{more})")
 
         yield say if first < end else always(item)
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, raw_reader
 from fieldscribe.conversation.items import named_item
-from fieldscribe.families.answers import Item
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Item
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.conversation.decode_state import DecodeState
     from fieldscribe.conversation.items import Base, Saying
     from fieldscribe.conversation.point_formatter import PointTextCache
-    from fieldscribe.families.spoken import Masks, Piece, ProcessData
+    from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
     from fieldscribe.model import Device, Point
 
 _MOST_MISSING = 64
@@ -132,7 +132,7 @@ class Stretch:
         at = {place: told.directory.at(telegram, place) for place in positions}
         points = {point.item: point for here in at.values() for point in here}.values()
         parts = [_Part(told, key, point) for point in points]
-        comes = Remembered(_MOST_MISSING, partial(_multiplexers, told, telegram, per_frame))
+        comes = BoundedMemo(_MOST_MISSING, partial(_multiplexers, told, telegram, per_frame))
         for part in parts:
             part.voice.comes = comes.__getitem__
         self.parts = sorted(parts, key=lambda part: part.start)
@@ -202,5 +202,5 @@ def _completed_points(hearing: DecodeState) -> Iterator[Item]:
         if not hearing.fresh.isdisjoint(voice.needs) and not voice.lacks(hearing.settings):
             del hearing.waiting[name]
             item = voice.item(raw, hearing.settings)
-            yield replace(item, said=f"from a frame before: {item.said}")
+            yield replace(item, summary=f"from a frame before: {item.summary}")
     hearing.fresh.clear()

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Message
 
 
@@ -98,7 +98,7 @@ def described(name: str) -> Message:
     return next(one for one in made("kitchen_can").messages if one.name == name)
 
 
-def hear_kitchen(text: str) -> Heard:
+def hear_kitchen(text: str) -> FrameResult:
     """What the command line makes of a frame."""
     return decode(made("kitchen_can"), {}, [text], Options())[0]
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, with_fixed, words_of
 from fieldscribe.asked import RefusedError
-from fieldscribe.families.answers import Way
 from fieldscribe.families.can.frames import CanFrame, carries, identifier
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.can.sending import read_frame, request_of, write_frames
+from fieldscribe.families.frame_results import WriteMethod
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
 
@@ -27,7 +27,7 @@ def read_text(device: Device, point: Point) -> str:
     return f"{_messages_text(point, message)}to unit {device.bus.usual_unit}: {read_frame(device, point.addresses[0])}"
 
 
-def way_to_write(device: Device, point: Point) -> Way | None:
+def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     """How to write the point; None if it cannot be written."""
     message = request_of(device, writes=True)
     if point.telegram is not None or message is None:
@@ -35,14 +35,14 @@ def way_to_write(device: Device, point: Point) -> Way | None:
     head = _messages_text(point, message)
     if point.bits is not None:
         fixed = f"; {fixed_text(point)}" if point.fixed is not None else ""
-        return Way(
+        return WriteMethod(
             f"{head}after the word was read: replace the bits of mask {hex_text(group_mask(point))} and write it back, "
             f"for other points share the word{fixed}"
         )
     if point.text is None:
-        return Way(head.rstrip(", "), lambda raw: _written(device, point, raw), ", ")
+        return WriteMethod(head.rstrip(", "), lambda raw: _written(device, point, raw), ", ")
     shown = _written(device, point, int.from_bytes(b"TEXT".ljust(2 * point.words), "big"))
-    return Way(f'{head}for example "TEXT", padded with spaces{shown}' if shown else head.rstrip(", "))
+    return WriteMethod(f'{head}for example "TEXT", padded with spaces{shown}' if shown else head.rstrip(", "))
 
 
 def _written(device: Device, point: Point, raw: int) -> str:

@@ -43,7 +43,7 @@ class Pasted:
     remote: bool = False
 
     @property
-    def shown(self) -> str:
+    def text(self) -> str:
         """The frame as candump logs it."""
         text = frame_text(self.frame, remote=self.remote)
         return " ".join([part for part in (self.stamp, self.bus, text) if part])

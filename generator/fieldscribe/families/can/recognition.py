@@ -19,14 +19,14 @@ from fieldscribe.families.can.frames import (
     sums,
     unit_of,
 )
-from fieldscribe.families.spoken import Remembered
+from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.records import dataclass
 from fieldscribe.wording.buses import check_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from fieldscribe.families.answers import Heard
+    from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Device, Message
 
 _MOST = 2048
@@ -67,18 +67,18 @@ class Known:
     """A recognised frame: its head, what the head says, and what its checksum says."""
 
     head: Head
-    heard: Heard
+    heard: FrameResult
     checks: str = ""
 
 
 class Recogniser:
     """Recognises the frames of a device; `said` puts what the head of a frame with this identifier tells into words."""
 
-    def __init__(self, device: Device, said: Callable[[Head, int], Heard]) -> None:
+    def __init__(self, device: Device, said: Callable[[Head, int], FrameResult]) -> None:
         self._device = device
         self._said = said
         self._candidates: dict[int, list[_Candidate]] = {}
-        self._heads: Remembered[tuple[_Candidate, bool, int], Known] = Remembered(_MOST, self._known)
+        self._heads: BoundedMemo[tuple[_Candidate, bool, int], Known] = BoundedMemo(_MOST, self._known)
 
     def recognise(self, frame: CanFrame) -> Known | None:
         """The message with the fewest flaws for this frame, and what it says; None if no message fits."""

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, insert, words_of
 from fieldscribe.asked import RefusedError, UnclearError, quoted
-from fieldscribe.families.answers import Sent, refused
 from fieldscribe.families.can.frames import build, carries
 from fieldscribe.families.can.notation import frame_text
+from fieldscribe.families.frame_results import BuiltFrames, refused
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
@@ -50,14 +50,14 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
     return tuple(frames)
 
 
-def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """The frames that write a raw number; a bit group is put into the word of `--with-word`. Raises RefusedError."""
     del settings  # a message carries one parameter alone
     there: str | None = options.own.get("with_word")
     if point.bits is None:
         if there is not None:
             raise UnclearError(f"{label(point)} takes its whole word", "--with-word is for bit groups")
-        return Sent(write_frames(device, point, words_of(point, raw), options.unit), _text_note(point))
+        return BuiltFrames(write_frames(device, point, words_of(point, raw), options.unit), _text_note(point))
     if there is None:
         mask = group_mask(point)
         ask = read_frame(device, point.addresses[0], options.unit) if point.addresses else ""
@@ -70,7 +70,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     notes = [f"the other bits stay as in {there.strip()}: the word becomes {hex_text(word)}"]
     if point.fixed is not None:
         notes.append(f"the word has bits that are always written so: {fixed_text(point)}")
-    return Sent(write_frames(device, point, (word,), options.unit), tuple(notes))
+    return BuiltFrames(write_frames(device, point, (word,), options.unit), tuple(notes))
 
 
 def _text_note(point: Point) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.answers import Way
+from fieldscribe.families.frame_results import WriteMethod
 from fieldscribe.families.modbus.functions import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.families.modbus.sending import function_for, words_of
@@ -24,7 +24,7 @@ def read_text(device: Device, point: Point) -> str:
     return how + _example(device, function, min(point.addresses), count, ())
 
 
-def way_to_write(device: Device, point: Point) -> Way | None:
+def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     """How to write the point; None if it cannot be written."""
     addresses = point.written.addresses
     function = function_for(device, point.space, len(addresses)) if point.space in SPACES else None
@@ -32,8 +32,10 @@ def way_to_write(device: Device, point: Point) -> Way | None:
         return None
     how = f"function {hex_text(function, 2)}"
     if point.bits is not None:
-        return Way(f"{how}; read the word first, replace the bits and write it back, for other points share the word")
-    return Way(
+        return WriteMethod(
+            f"{how}; read the word first, replace the bits and write it back, for other points share the word"
+        )
+    return WriteMethod(
         how,
         lambda raw: _example(device, function, min(addresses), len(addresses), words_of(point, raw, addresses)),
     )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from fieldscribe.families.decoded_frame import cut_apart
 from fieldscribe.families.modbus.frames import LEAST, Unwrapped, reply_length, request_length, unwrap, without_crc
 from fieldscribe.families.modbus.functions import FRAMINGS
-from fieldscribe.families.spoken import cut_apart
 
 
 def recognise(data: bytes, framings: tuple[str, ...], forced: str | None = None) -> Unwrapped:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, split
 from fieldscribe.asked import RefusedError
-from fieldscribe.families.answers import Sent, refused
+from fieldscribe.families.frame_results import BuiltFrames, refused
 from fieldscribe.families.modbus.functions import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording import label
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 
-def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """The request that writes a raw number. Raises RefusedError."""
     del settings  # a request carries only the point
-    return Sent((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
+    return BuiltFrames((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
 
 
 def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.families.answers import Way
+from fieldscribe.families.frame_results import WriteMethod
 from fieldscribe.families.uss.links import default_link
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
 from fieldscribe.families.uss.remarks import code_text
@@ -27,19 +27,19 @@ def read_text(device: Device, point: Point) -> str:
     return f"{task}; PKW {part_words(data, link)}; {_example(data, link, unit)}"
 
 
-def way_to_write(device: Device, point: Point) -> Way | None:
+def way_to_write(device: Device, point: Point) -> WriteMethod | None:
     """How to write the point; None if it cannot be written."""
     if point.words > 2:
         return None
     if point.telegram is not None:
-        return Way(f"{_word(point)} of every request", lambda raw: _sent(device, point, raw))
+        return WriteMethod(f"{_word(point)} of every request", lambda raw: _sent(device, point, raw))
     array = point.index is not None
     tasks = [
         code_text(device.bus.functions, write_task(point.words, array=array, keep=keep), "task")
         for keep in (False, True)
     ]
     how = f"{tasks[0]} (RAM) or {tasks[1]} (EEPROM too)" if point.keeps == "choice" else tasks[0]
-    return Way(how, lambda raw: _written(device, point, raw))
+    return WriteMethod(how, lambda raw: _written(device, point, raw))
 
 
 def _written(device: Device, point: Point, raw: int) -> str:

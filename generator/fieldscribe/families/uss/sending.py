@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import insert, words_in, words_of
 from fieldscribe.asked import RefusedError, UnclearError
-from fieldscribe.families.answers import Sent, refused
+from fieldscribe.families.frame_results import BuiltFrames, refused
 from fieldscribe.families.uss.links import asked, link_of
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
 from fieldscribe.families.uss.remarks import titled_code, words_printed
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 
-def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """The telegram that writes a raw number, or only its words. Raises RefusedError, UnclearError."""
     framing = options.framing or "uss"
     if framing == "broadcast":
@@ -40,7 +40,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     request = write_request(point, raw, unit, words, keep=keep)
     data = _built(device, point, link, request)
     task = titled_code(device.bus.functions, request.task, "task")
-    return Sent((_shown(data, framing, link, 0),), (task, *notes))
+    return BuiltFrames((_shown(data, framing, link, 0),), (task, *notes))
 
 
 def process_words(
@@ -87,7 +87,9 @@ def part_words(data: bytes, link: Link) -> str:
     return words_printed(words_in(data[3 : 3 + 2 * link.sent]))
 
 
-def _process_data(device: Device, point: Point, raw: int, how: tuple[Settings, Link, int, str], *, keep: bool) -> Sent:
+def _process_data(
+    device: Device, point: Point, raw: int, how: tuple[Settings, Link, int, str], *, keep: bool
+) -> BuiltFrames:
     settings, link, unit, framing = how
     if keep or framing == "pkw":
         said = "--keep" if keep else "--framing pkw"
@@ -99,7 +101,7 @@ def _process_data(device: Device, point: Point, raw: int, how: tuple[Settings, L
     own = dict(zip(point.addresses, words_of(point, raw), strict=True))
     words, notes = process_words(device, link, settings, own)
     data = _built(device, point, link, Request(unit, 0, words=words))
-    return Sent((_shown(data, framing, link, link.pzd),), tuple(notes))
+    return BuiltFrames((_shown(data, framing, link, link.pzd),), tuple(notes))
 
 
 def _built(device: Device, point: Point, link: Link, request: Request) -> bytes:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.answers import Heard, Item
+from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, FrameBytes, Span
+from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.families.modbus import remarks
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, data_size, reply_length, values_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, SPACE_OF, framings_of
 from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
-from fieldscribe.families.spoken import Framed, Remembered, Span, Spoken
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.asked import Options
+    from fieldscribe.families.decoded_frame import OpenRequests
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.spoken import Course
     from fieldscribe.model import Device
 
 
@@ -29,36 +29,40 @@ _MOST = 8192
 """How many heads of requests and replies are remembered."""
 
 
-class ModbusSpeech:
+class ModbusFrameDecoder:
     """Decodes the frames of one device."""
 
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
-        self._heads: Remembered[tuple[str, str, int, int, int, int], Heard] = Remembered(_MOST, self._said)
+        self._heads: BoundedMemo[tuple[str, str, int, int, int, int], FrameResult] = BoundedMemo(_MOST, self._said)
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """The frames that people pasted. Raises UnclearError."""
         pasted = (typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2))
         return [frame for data in pasted for frame in frames_in(data, self._framing)]
 
-    def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
+    def decode(
+        self, frame: bytes, requests: OpenRequests, directory: Directory, *, expecting: bool = False
+    ) -> DecodedFrame:
         """What a frame is; any bytes are safe."""
         del directory  # a request tells all that a reply needs
         unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
-        asked: Request | None = None if expecting else course.asked()
+        asked: Request | None = None if expecting else requests.request()
         sound = unwrapped if unwrapped.flaw is None else replace(unwrapped, flaw=None)
-        spoken = self._read(sound, asked, fixed=course.fixed and asked is not None)
-        heard = spoken.heard
+        decoded = self._read(sound, asked, fixed=requests.fixed and asked is not None)
+        heard = decoded.result
         faults = (*remarks.frame_faults(unwrapped), *heard.faults)
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
             heard = replace(heard, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
         checks = remarks.frame_checks(unwrapped)
         heard = replace(heard, faults=faults) if faults else heard
-        return replace(spoken, heard=heard, own=Framed(unwrapped.data, checks), binds=spoken.asks is not None)
+        return replace(
+            decoded, result=heard, frame=FrameBytes(unwrapped.data, checks), stays_open=decoded.request is not None
+        )
 
-    def _read(self, unwrapped: Unwrapped, asked: Request | None, *, fixed: bool) -> Spoken:
+    def _read(self, unwrapped: Unwrapped, asked: Request | None, *, fixed: bool) -> DecodedFrame:
         pdu = unwrapped.pdu
         if not pdu:
             return _unreadable(unwrapped, None)
@@ -72,17 +76,17 @@ class ModbusSpeech:
             return self._request(unwrapped, parsed)
         return _unmatched_reply(unwrapped, parsed, asked, reply.status)
 
-    def _request(self, unwrapped: Unwrapped, request: Request) -> Spoken:
+    def _request(self, unwrapped: Unwrapped, request: Request) -> DecodedFrame:
         heard = self._heads["request", unwrapped.framing, *_head(request)]
         silent = request.unit == self._device.bus.broadcast
-        return Spoken(heard, _carried(request, _span(request)), asks=request, silent=silent)
+        return DecodedFrame(heard, _carried(request, _span(request)), request=request, unanswered=silent)
 
-    def _reply(self, unwrapped: Unwrapped, asked: Request, reply: Reply) -> Spoken:
+    def _reply(self, unwrapped: Unwrapped, asked: Request, reply: Reply) -> DecodedFrame:
         heard = self._heads["reply", unwrapped.framing, *_head(asked)]
         words = reply.values if asked.function in READS else asked.values
-        return Spoken(heard, _carried(asked, _span(asked, words, learned=True)), answers=True)
+        return DecodedFrame(heard, _carried(asked, _span(asked, words, learned=True)), answers=True)
 
-    def _said(self, key: tuple[str, str, int, int, int, int]) -> Heard:
+    def _said(self, key: tuple[str, str, int, int, int, int]) -> FrameResult:
         """What a request says, or the reply to it, whatever it carries."""
         kind, framing, unit, function, address, count = key
         request = Request(unit, function, address, count)
@@ -96,23 +100,23 @@ class ModbusSpeech:
         heard = _headed(framing, kind, request.unit, request.function, said)
         return replace(heard, findings=findings, notes=(remarks.SILENT,) if silent and not findings else ())
 
-    def _exception(self, unwrapped: Unwrapped, asked: Request | None, status: str) -> Spoken:
+    def _exception(self, unwrapped: Unwrapped, asked: Request | None, status: str) -> DecodedFrame:
         if len(unwrapped.pdu) != 2:
             return _unreadable(unwrapped, Flaw("long_exception", len(unwrapped.pdu), 2))
         code = unwrapped.pdu[1]
         said = f"exception {remarks.exception_text(self._device, code)}"
         heard = replace(_heard(unwrapped, "exception", said), exception=code)
         if asked is None:
-            return Spoken(replace(heard, notes=(remarks.UNKNOWN_REQUEST,)))
+            return DecodedFrame(replace(heard, notes=(remarks.UNKNOWN_REQUEST,)))
         if status != "exception":
-            return Spoken(replace(heard, faults=(no_answer_text(status, "request before"),)))
+            return DecodedFrame(replace(heard, faults=(no_answer_text(status, "request before"),)))
         heard = replace(heard, summary=f"{heard.summary}; refused was {remarks.span_said(asked)}")
-        return Spoken(heard, _carried(asked, _span(asked)), answers=True)
+        return DecodedFrame(heard, _carried(asked, _span(asked)), answers=True)
 
 
-def speech_of(device: Device, options: Options) -> ModbusSpeech:
+def decoder_of(device: Device, options: Options) -> ModbusFrameDecoder:
     """The decoder for the frames of the device."""
-    return ModbusSpeech(device, options.framing)
+    return ModbusFrameDecoder(device, options.framing)
 
 
 def _head(request: Request) -> tuple[int, int, int, int]:
@@ -120,7 +124,7 @@ def _head(request: Request) -> tuple[int, int, int, int]:
     return request.unit, request.function, request.address, request.count
 
 
-def _unmatched_reply(unwrapped: Unwrapped, parsed: Request | Flaw, asked: Request | None, status: str) -> Spoken:
+def _unmatched_reply(unwrapped: Unwrapped, parsed: Request | Flaw, asked: Request | None, status: str) -> DecodedFrame:
     """The result for a reply that does not fit the open request: what it carries, as far as that is known."""
     pdu = unwrapped.pdu
     faults = (no_answer_text(status),) if asked else ()
@@ -131,20 +135,20 @@ def _unmatched_reply(unwrapped: Unwrapped, parsed: Request | Flaw, asked: Reques
     if isinstance(request, Flaw):
         return _unreadable(unwrapped, request)
     carried = _carried(request, _span(request)) if 0 < request.count <= PROTOCOL_MOST[request.function] else ()
-    return Spoken(replace(_heard(unwrapped, "reply", remarks.reply_said(request)), faults=faults), carried)
+    return DecodedFrame(replace(_heard(unwrapped, "reply", remarks.reply_said(request)), faults=faults), carried)
 
 
-def _unmatched_read(unwrapped: Unwrapped, asked: Request | None, faults: tuple[str, ...]) -> Spoken:
+def _unmatched_read(unwrapped: Unwrapped, asked: Request | None, faults: tuple[str, ...]) -> DecodedFrame:
     data = unwrapped.pdu[2:]
     if asked is None:
         heard = _heard(unwrapped, "reply", remarks.data_said(data))
-        return Spoken(replace(heard, faults=faults, notes=(remarks.UNASKED,)))
+        return DecodedFrame(replace(heard, faults=faults, notes=(remarks.UNASKED,)))
     values, due = values_in(asked.function, data), data_size(asked.function, asked.count)
     if len(data) != due:
         faults = (remarks.data_fault(asked, len(data), due),)
     came = replace(asked, count=min(asked.count, len(values)))
     heard = replace(_heard(unwrapped, "reply", remarks.reply_said(came)), faults=faults)
-    return Spoken(heard, (_span(came, values[: came.count]),), answers=True)
+    return DecodedFrame(heard, (_span(came, values[: came.count]),), answers=True)
 
 
 def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
@@ -161,16 +165,16 @@ def _carried(request: Request, span: Span) -> tuple[Span | Item, ...]:
     return (span,)
 
 
-def _heard(unwrapped: Unwrapped, kind: str, said: str) -> Heard:
+def _heard(unwrapped: Unwrapped, kind: str, said: str) -> FrameResult:
     function = unwrapped.pdu[0] if unwrapped.pdu else None
     function = function & 0x7F if function is not None and kind == "exception" else function
     return _headed(unwrapped.framing, kind, unwrapped.unit, function, said)
 
 
-def _headed(framing: str, kind: str, unit: int | None, function: int | None, said: str) -> Heard:
-    return Heard(b"", framing, kind, unit, function, remarks.summary(framing, unit, function, said))
+def _headed(framing: str, kind: str, unit: int | None, function: int | None, said: str) -> FrameResult:
+    return FrameResult(b"", framing, kind, unit, function, remarks.summary(framing, unit, function, said))
 
 
-def _unreadable(unwrapped: Unwrapped, flaw: Flaw | None) -> Spoken:
+def _unreadable(unwrapped: Unwrapped, flaw: Flaw | None) -> DecodedFrame:
     faults = () if flaw is None else (remarks.unreadable_text(unwrapped.pdu, flaw),)
-    return Spoken(replace(_heard(unwrapped, "unreadable", "not readable"), faults=faults))
+    return DecodedFrame(replace(_heard(unwrapped, "unreadable", "not readable"), faults=faults))

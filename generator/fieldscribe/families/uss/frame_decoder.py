@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.answers import Heard
-from fieldscribe.families.spoken import Element, Masks, ProcessData, Remembered, Speech, Spoken
+from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, Element, FrameDecoder, Masks, ProcessData
+from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.uss import remarks
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.families.uss.links import asked as said_of
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.asked import Options
+    from fieldscribe.families.decoded_frame import Content, OpenRequests
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.spoken import Carried, Course
     from fieldscribe.model import Device
 
 _CODES = 16
@@ -39,7 +39,7 @@ _CODES = 16
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 
 
-class UssSpeech(Speech):
+class UssFrameDecoder(FrameDecoder):
     """Decodes the telegrams of one device, with the settings of its link."""
 
     def __init__(self, device: Device, link: Link, framing: str = "uss", direction: str | None = None) -> None:
@@ -48,8 +48,8 @@ class UssSpeech(Speech):
         self._framing = framing
         self._direction = direction
         tasks, responses = device.bus.functions, device.bus.codes("responses")
-        self._tasks: Remembered[int, str] = Remembered(_CODES, lambda code: remarks.code_text(tasks, code, "task"))
-        self._responses: Remembered[int, str] = Remembered(
+        self._tasks: BoundedMemo[int, str] = BoundedMemo(_CODES, lambda code: remarks.code_text(tasks, code, "task"))
+        self._responses: BoundedMemo[int, str] = BoundedMemo(
             _CODES, lambda code: remarks.code_text(responses, code, "response")
         )
 
@@ -59,51 +59,60 @@ class UssSpeech(Speech):
         pasted = [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
         return [frame for data in pasted for frame in frames_in(data)] if self._framing == "uss" else pasted
 
-    def hear(self, frame: bytes, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
+    def decode(
+        self, frame: bytes, requests: OpenRequests, directory: Directory, *, expecting: bool = False
+    ) -> DecodedFrame:
         """What a telegram is; any bytes are safe."""
         unwrapped = unwrap(frame) if self._framing == "uss" else bare_words(frame)
-        spoken = self._read(unwrapped, course, directory, expecting=expecting)
-        return replace(spoken, binds=True) if expecting else spoken
+        decoded = self._read(unwrapped, requests, directory, expecting=expecting)
+        return replace(decoded, stays_open=True) if expecting else decoded
 
-    def _read(self, unwrapped: Unwrapped, course: Course, directory: Directory, *, expecting: bool) -> Spoken:
+    def _read(
+        self, unwrapped: Unwrapped, requests: OpenRequests, directory: Directory, *, expecting: bool
+    ) -> DecodedFrame:
         unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
         head = "USS" if unit is None else f"USS, unit {unit}"
         checks, faults = remarks.checks_text(unwrapped), tuple(remarks.flaw_texts(unwrapped))
-        base = Heard(unwrapped.data, framing, "unreadable", unit, None, head, checks=checks, faults=faults)
-        direction = "request" if expecting else self._direction or ("response" if course.fixed else None)
+        base = FrameResult(unwrapped.data, framing, "unreadable", unit, None, head, checks=checks, faults=faults)
+        direction = "request" if expecting else self._direction or ("response" if requests.fixed else None)
         if words is None:
-            return Spoken(replace(base, summary=f"{head}: not readable"))
+            return DecodedFrame(replace(base, summary=f"{head}: not readable"))
         if "wrong_start" in unwrapped.flaws and len(faults) > 1:
-            return Spoken(replace(base, summary=f"{head}: not readable", unit=None, notes=(remarks.PARTS,)))
+            return DecodedFrame(replace(base, summary=f"{head}: not readable", unit=None, notes=(remarks.PARTS,)))
         if framing == "broadcast" or (framing == "uss" and unit == self._device.bus.broadcast):
             return _broadcast(base, words)
         if framing == "pzd":
             return self._process_data(base, words, direction)
-        return self._telegram(base, words, course, directory, direction)
+        return self._telegram(base, words, requests, directory, direction)
 
     def _telegram(
-        self, base: Heard, words: tuple[int, ...], course: Course, directory: Directory, direction: str | None
-    ) -> Spoken:
-        asked: Request | None = course.asked(base.unit)
+        self,
+        base: FrameResult,
+        words: tuple[int, ...],
+        requests: OpenRequests,
+        directory: Directory,
+        direction: str | None,
+    ) -> DecodedFrame:
+        asked: Request | None = requests.request(base.unit)
         status = ""
         if asked is not None and direction != "request":
             status = answer_in(self._device.bus, self._link, asked, words).status
         if direction == "response" or (direction is None and status in _ANSWERS):
             # the person fixed a request, but this unit has none open: that request went to another unit
             return self._reply(
-                base, words, asked, "wrong_unit" if course.fixed and asked is None else status, directory
+                base, words, asked, "wrong_unit" if requests.fixed and asked is None else status, directory
             )
-        spoken = self._request(base, words, directory)
-        if direction is None and not course.met(base.unit) and self._could_answer(words):
-            return replace(spoken, heard=replace(spoken.heard, notes=(*spoken.heard.notes, remarks.UNASKED)))
-        return spoken
+        decoded = self._request(base, words, directory)
+        if direction is None and not requests.addressed(base.unit) and self._could_answer(words):
+            return replace(decoded, result=replace(decoded.result, notes=(*decoded.result.notes, remarks.UNASKED)))
+        return decoded
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
         """Whether these words, read as a request, carry values, so that they could be an answer instead."""
         part = part_of(split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
-    def _request(self, base: Heard, words: tuple[int, ...], directory: Directory) -> Spoken:
+    def _request(self, base: FrameResult, words: tuple[int, ...], directory: Directory) -> DecodedFrame:
         divided = split(words, self._link, request=True)
         misfit = () if divided.fits else (remarks.misfit_text(len(words), self._link, request=True),)
         faults = (*base.faults, *misfit)
@@ -113,10 +122,10 @@ class UssSpeech(Speech):
             alone = self._link.pkw == 0
             said = f"{base.summary}: {'request, process data' if alone else 'not readable'}"
             heard = replace(base, kind="request" if alone else "unreadable", summary=said, faults=faults)
-            return Spoken(heard, (data,), base.unit, asks=Request(unit, 0, words=divided.words))
+            return DecodedFrame(heard, (data,), base.unit, request=Request(unit, 0, words=divided.words))
         asks = request_in(unit, part, self._link, divided.words)
         value = part.value(asks.width, self._link)
-        element = Element(part.parameter, part.index, asks.width, value, part.values, asked=True)
+        element = Element(part.parameter, part.index, asks.width, value, part.values, in_request=True)
         said, details = _about(part, "task", directory)
         heard = replace(
             base,
@@ -128,17 +137,17 @@ class UssSpeech(Speech):
             findings=tuple(remarks.request_findings(self._device, part, base.unit)),
             notes=tuple(remarks.request_notes(part, self._link)),
         )
-        return Spoken(heard, (element, data) if part.code else (data,), base.unit, asks=asks)
+        return DecodedFrame(heard, (element, data) if part.code else (data,), base.unit, request=asks)
 
     def _reply(
-        self, base: Heard, words: tuple[int, ...], asked: Request | None, status: str, directory: Directory
-    ) -> Spoken:
+        self, base: FrameResult, words: tuple[int, ...], asked: Request | None, status: str, directory: Directory
+    ) -> DecodedFrame:
         divided = split(words, self._link, request=False)
         fault = "" if not status or status in _ANSWERS else no_answer_text(status)
         fault = fault if divided.fits else remarks.misfit_text(len(words), self._link, request=False)
         faults = (*base.faults, fault) if fault else base.faults
         part = part_of(divided.part)
-        carried: tuple[Carried, ...] = (ProcessData("response", divided.words),)
+        carried: tuple[Content, ...] = (ProcessData("response", divided.words),)
         if part is None:
             heard = replace(base, kind="reply", summary=f"{base.summary}: reply, process data", faults=faults)
         else:
@@ -148,7 +157,7 @@ class UssSpeech(Speech):
             if part.code in (REFUSED, NO_RIGHTS):
                 heard = self._refusal(heard, part, None if asked is None else asked.task)
             carried = (self._element(part), *carried) if part.code else carried
-        return Spoken(heard, carried, base.unit, answers=status != "no_answer")
+        return DecodedFrame(heard, carried, base.unit, answers=status != "no_answer")
 
     def _element(self, part: Part) -> Element:
         """The element in an answer, with its value."""
@@ -157,7 +166,7 @@ class UssSpeech(Speech):
         refused, counts = part.code in (REFUSED, NO_RIGHTS), part.code == SIZE
         return Element(part.parameter, part.index, width, value, part.values, refused=refused, counts=counts)
 
-    def _refusal(self, base: Heard, part: Part, task: int | None) -> Heard:
+    def _refusal(self, base: FrameResult, part: Part, task: int | None) -> FrameResult:
         """The result for an answer that refuses the request."""
         base = replace(base, kind="exception")
         if part.code == NO_RIGHTS or not part.values:
@@ -171,7 +180,7 @@ class UssSpeech(Speech):
             notes=tuple(remarks.error_notes(part, self._link)),
         )
 
-    def _process_data(self, base: Heard, words: tuple[int, ...], direction: str | None) -> Spoken:
+    def _process_data(self, base: FrameResult, words: tuple[int, ...], direction: str | None) -> DecodedFrame:
         kind = "reply" if direction == "response" else "request"
         low, high = of_bus(self._device.bus).pzd
         faults = base.faults
@@ -179,12 +188,12 @@ class UssSpeech(Speech):
             faults = (*faults, f"there are {low} to {high} words of process data, here are {len(words)}")
         notes = () if direction else (remarks.FROM_MASTER,)
         heard = replace(base, kind=kind, summary=f"USS: {kind}, process data", faults=faults, notes=notes)
-        return Spoken(heard, (ProcessData(direction or "request", words),))
+        return DecodedFrame(heard, (ProcessData(direction or "request", words),))
 
 
-def speech_of(device: Device, options: Options) -> UssSpeech:
+def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """The decoder for the telegrams of the device. Raises UnclearError."""
-    return UssSpeech(device, link_of(device, options), options.framing or "uss", said_of(options).direction)
+    return UssFrameDecoder(device, link_of(device, options), options.framing or "uss", said_of(options).direction)
 
 
 def _about(part: Part, key: str, directory: Directory) -> tuple[str, dict[str, object]]:
@@ -197,10 +206,10 @@ def _about(part: Part, key: str, directory: Directory) -> tuple[str, dict[str, o
     return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
 
-def _broadcast(base: Heard, words: tuple[int, ...]) -> Spoken:
+def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
     """The result for a broadcast: four words of masks, then process data."""
     heard = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
     if len(words) < MASKS:
         fault = f"a broadcast starts with {MASKS} words of masks, here are {len(words)}"
-        return Spoken(replace(heard, faults=(*heard.faults, fault)))
-    return Spoken(heard, (Masks(words[:MASKS]), ProcessData("request", words[MASKS:])))
+        return DecodedFrame(replace(heard, faults=(*heard.faults, fault)))
+    return DecodedFrame(heard, (Masks(words[:MASKS]), ProcessData("request", words[MASKS:])))

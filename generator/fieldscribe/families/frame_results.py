@@ -1,4 +1,4 @@
-"""The answers that people get: decoded frames, and the frames that write a point."""
+"""What a user gets: decoded frames, and the frames that write a point."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Bits:
-    """What some bits of a word say: `raw` is their number, `true` whether the name of a single bit holds.
+    """What some bits of a word mean: `raw` is their number; `true` says whether the name of a single bit applies.
 
-    Set bits that the manual does not name have no name. `text` is what the number means, where the manual says it;
-    `shown` is the line with all of that, and what stands before it.
+    `name` is None for a set bit that the manual does not name. `text` is the meaning of the number in the manual.
+    `row` is the label and the text of these bits in a table.
     """
 
     high: int
@@ -29,64 +29,64 @@ class Bits:
     raw: int
     true: bool | None
     text: str
-    shown: tuple[str, str]
+    row: tuple[str, str]
 
     def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
-        own = {"name": self.name, "raw": self.raw, "true": self.true, "text": self.text}
-        return {"bits": [self.high, self.low], **own}
+        """Return the same for JSON."""
+        meaning = {"name": self.name, "raw": self.raw, "true": self.true, "text": self.text}
+        return {"bits": [self.high, self.low], **meaning}
 
 
 def bits_label(high: int, low: int) -> str:
-    """What stands before a line about bits: `Bit 3`, `Bits 7..6`."""
+    """Return the label of a row about bits: `Bit 3`, `Bits 7..6`."""
     return f"Bit {low}" if high == low else f"Bits {high}..{low}"
 
 
-class TellsBits(Protocol):
-    """What tells the bits of a word."""
+class BitTexts(Protocol):
+    """Explains the bits of a word."""
 
     def bits(self, raw: int) -> list[Bits]:
-        """What each flag says, and each set bit that the manual does not name."""
+        """Return each flag, and each set bit that the manual does not name."""
 
     def sentence(self, raw: int) -> str:
-        """The same in one sentence."""
+        """Return the same in one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """What a frame says about one address: a point with its value, a part of a point, a command, or nothing known.
+    """What a frame holds at one address: a point with its value, a part of a point, a command, or nothing known.
 
-    `said` tells a person everything but the flags of a word: `telling` tells those, when they are asked for (most never
-    are). `missing` names the points whose raw numbers are needed to work out the value. `findings` say what the device
-    refuses or which address the manual closes; `said` repeats them.
+    `summary` is one line with everything but the flags of a word; `bit_texts` works those out on demand (few users look
+    at them). `missing` names the points whose raw numbers are needed to compute the value. `findings` say what the
+    device refuses, or that the manual closes the address; `summary` repeats them.
     """
 
     space: str
     address: int
     count: int
-    said: str
+    summary: str
     point: str | None = None
     code: str | None = None
     raw: int | None = None
     value: str | None = None
     missing: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    telling: TellsBits | None = None
+    bit_texts: BitTexts | None = None
 
     @property
     def text(self) -> str:
-        """What it says in one line, flags too."""
-        if self.telling is None or self.raw is None:
-            return self.said
-        return f"{self.said}; {self.telling.sentence(self.raw)}"
+        """The summary with the flags."""
+        if self.bit_texts is None or self.raw is None:
+            return self.summary
+        return f"{self.summary}; {self.bit_texts.sentence(self.raw)}"
 
     @property
     def flags(self) -> list[Bits]:
-        """The flags of a word, one by one."""
-        return [] if self.telling is None or self.raw is None else self.telling.bits(self.raw)
+        """The flags of the word, one by one."""
+        return [] if self.bit_texts is None or self.raw is None else self.bit_texts.bits(self.raw)
 
     def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
+        """Return the same for JSON."""
         return {
             "space": self.space,
             "address": self.address,
@@ -103,10 +103,10 @@ class Item:
 
 
 class Captured(Protocol):
-    """A frame as it was captured."""
+    """A frame as it was captured from the bus."""
 
     @property
-    def shown(self) -> str:
+    def text(self) -> str:
         """The frame in the notation of its users."""
 
     @property
@@ -115,14 +115,13 @@ class Captured(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class FrameResult:
     """One frame in words.
 
-    `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
-    are other remarks.
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
-    `details` are further facts of the family for JSON. `captured` is the frame as its users write it, where that is not
-    plain bytes.
+    `faults` say what is damaged in the frame; `findings` say where an undamaged frame contradicts the manual; `notes`
+    are other remarks. `details` are further facts of the family for JSON. `captured` is the frame in the notation of
+    its users, where that is not plain bytes.
     """
 
     data: bytes
@@ -141,7 +140,7 @@ class Heard:
     captured: Captured | None = None
 
     def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
+        """Return the same for JSON."""
         return {
             "bytes": self.data.hex(" ").upper(),
             "framing": self.framing,
@@ -161,12 +160,12 @@ class Heard:
 
     @property
     def wrong(self) -> bool:
-        """Whether anything about the frame is a fault or a finding."""
+        """True if the frame has a fault or a finding."""
         return bool(self.faults or self.findings or any(item.findings for item in self.items))
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
+class BuiltFrames:
     """The frames that write a point, in the notation of their users, and remarks about them."""
 
     frames: tuple[str, ...]
@@ -174,15 +173,15 @@ class Sent:
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
-    """How a point is written: in words, and as example frames.
+class WriteMethod:
+    """How a point is written: in words (`how`), and as example frames.
 
-    `shown` turns a raw number into the example; its text is empty where no frame can be built. `joint` is the text
-    between the words and the example.
+    `example` returns the frames for a raw number, or an empty text where none can be built. `joint` is the text between
+    the words and the example.
     """
 
     how: str
-    shown: Callable[[int], str] | None = None
+    example: Callable[[int], str] | None = None
     joint: str = "; "
 
 
@@ -202,6 +201,6 @@ _WHY = {
 
 
 def refused(bus: Bus, point: Point, status: str, hint: str = "") -> RefusedError:
-    """The error for a point that no frame can write, with the reason."""
+    """Return the error for a point that no frame can write, with the reason."""
     hint = hint or (units_text(bus) if status == "bad_unit" else "")
     return RefusedError(status, f"{label(point)}: {_WHY.get(status, status)}", hint)

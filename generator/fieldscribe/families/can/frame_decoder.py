@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.answers import Heard
 from fieldscribe.families.can import remarks
 from fieldscribe.families.can.frames import carried, carries
 from fieldscribe.families.can.notation import read_frames, read_identifier
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Asked, Recogniser, senders
-from fieldscribe.families.spoken import Framed, Piece, Recent, Speech, Spoken, Word
+from fieldscribe.families.decoded_frame import DecodedFrame, FrameBytes, FrameDecoder, Piece, RecentlyUsed, Word
+from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.records import replace
 from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     from fieldscribe.asked import Options
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.can.recognition import Head, Known
+    from fieldscribe.families.decoded_frame import OpenRequests
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.spoken import Course
     from fieldscribe.model import Device, Telegram
 
 _KINDS = {"request": "request", "response": "reply"}
 
 
-class CanSpeech(Speech):
+class CanFrameDecoder(FrameDecoder):
     """Decodes the frames of one device; keeps the words of telegrams that come in several frames."""
 
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._identifier = None if can_id is None else read_identifier(can_id)
-        self._receivers: Recent[tuple[int | None, str], Receiver] = Recent()
+        self._receivers: RecentlyUsed[tuple[int | None, str], Receiver] = RecentlyUsed()
         self._recogniser = Recogniser(device, self._said)
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         asks = [message for message in device.messages if message.direction == "request" and carries(message, "raw")]
@@ -46,7 +46,9 @@ class CanSpeech(Speech):
         """The frames that people pasted. Raises UnclearError."""
         return read_frames(texts, self._identifier)
 
-    def hear(self, frame: Pasted, course: Course, directory: Directory, *, expecting: bool = False) -> Spoken:
+    def decode(
+        self, frame: Pasted, requests: OpenRequests, directory: Directory, *, expecting: bool = False
+    ) -> DecodedFrame:
         """What a frame is; any bytes are safe."""
         del directory, expecting  # the messages themselves tell which frame answers which
         known = None if frame.remote else self._recogniser.recognise(frame.frame)
@@ -54,10 +56,10 @@ class CanSpeech(Speech):
             return self._unknown(frame)
         telegram = self._telegrams.get(known.head.message.name)
         if telegram is None:
-            return self._parameter(known, frame, course)
+            return self._parameter(known, frame, requests)
         return self._cyclic(known, frame, telegram)
 
-    def _said(self, head: Head, identifier: int) -> Heard:
+    def _said(self, head: Head, identifier: int) -> FrameResult:
         """What the head of a frame says, whatever words it carries."""
         message = head.message
         telegram = self._telegrams.get(message.name)
@@ -65,26 +67,26 @@ class CanSpeech(Speech):
         kind = "cyclic" if telegram is not None else _KINDS.get(message.direction, "cyclic")
         said, faults = remarks.message_text(head, identifier, telegram), tuple(remarks.faults(head, self._device.bus))
         details = {"can_id": identifier, "message": message.name, **own}
-        heard = Heard(b"", "can", kind, head.unit, None, said, faults=faults, details=details)
+        heard = FrameResult(b"", "can", kind, head.unit, None, said, faults=faults, details=details)
         if telegram is not None and head.slot * message.words >= (telegram.words if message.words else 0):
             return replace(heard, findings=(remarks.multiplexer_finding(message, telegram),))
         damaged = telegram is not None and (head.differences or head.wrong_sum)
         return replace(heard, notes=(remarks.DAMAGED,)) if damaged else heard
 
-    def _cyclic(self, known: Known, frame: Pasted, telegram: Telegram) -> Spoken:
-        head, own = known.head, Framed(frame.frame.data, known.checks, frame)
+    def _cyclic(self, known: Known, frame: Pasted, telegram: Telegram) -> DecodedFrame:
+        head, own = known.head, FrameBytes(frame.frame.data, known.checks, frame)
         if known.heard.findings or known.heard.notes:
-            return Spoken(known.heard, own=own)
+            return DecodedFrame(known.heard, frame=own)
         whose = head.unit, telegram.name
         receiver = self._receivers.of(whose, lambda: Receiver(telegram, head.message, head.unit or 0))
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, frame.frame), receiver)
-        return Spoken(known.heard, (piece,), head.unit, own=own)
+        return DecodedFrame(known.heard, (piece,), head.unit, frame=own)
 
-    def _parameter(self, known: Known, pasted: Pasted, course: Course) -> Spoken:
+    def _parameter(self, known: Known, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
         head, heard, frame = known.head, known.heard, pasted.frame
-        own = Framed(frame.data, known.checks, pasted)
+        own = FrameBytes(frame.data, known.checks, pasted)
         if head.address is None:
-            return Spoken(heard, party=head.unit, own=own)
+            return DecodedFrame(heard, unit=head.unit, frame=own)
         message, sound = head.message, not head.flaws
         raw = carried(message, frame, "raw") if carries(message, "raw") else None
         about = Asked(head.address, raw)
@@ -92,33 +94,33 @@ class CanSpeech(Speech):
         writes = message.name in self._writing
         learned = raw is not None and sound and not asks
         # an answer reports what the device holds, so it is not checked against limits
-        word = Word(head.address, raw, asked=writes and asks, learned=learned, stale=writes and sound)
+        word = Word(head.address, raw, in_request=writes and asks, learned=learned, stale=writes and sound)
         if asks:
             strange = "" if head.unit is None else strange_unit(self._device.bus, head.unit)
             heard = replace(heard, findings=(strange,) if strange else ())
-            return Spoken(heard, (word,), head.unit, message.name, asks=about, own=own)
+            return DecodedFrame(heard, (word,), head.unit, message.name, request=about, frame=own)
         exchange = message.answers or ""
-        asked: Asked | None = course.asked(head.unit, exchange)
+        asked: Asked | None = requests.request(head.unit, exchange)
         odd = () if asked is None else tuple(remarks.answer_findings(asked, about))
         answers = asked is not None and asked.address == about.address
         heard = replace(heard, findings=odd) if odd else heard
-        return Spoken(heard, (word,), head.unit, exchange, answers=answers, own=own)
+        return DecodedFrame(heard, (word,), head.unit, exchange, answers=answers, frame=own)
 
-    def _unknown(self, pasted: Pasted) -> Spoken:
+    def _unknown(self, pasted: Pasted) -> DecodedFrame:
         """The result for a frame that is no message of the device, or an incomplete one."""
         frame = pasted.frame
         said = f"CAN {hex_text(frame.id, 3)}"
-        base = Heard(frame.data, "can", "other", None, None, said, details={"can_id": frame.id})
+        base = FrameResult(frame.data, "can", "other", None, None, said, details={"can_id": frame.id})
         here = list(senders(self._device, frame))
         if not here:
             note = remarks.foreign_note(self._device)
             heard = replace(base, summary=f"{said}: not of this device", notes=(note,))
-            return Spoken(heard, own=Framed(frame.data, captured=pasted))
+            return DecodedFrame(heard, frame=FrameBytes(frame.data, captured=pasted))
         fault = remarks.unknown_kind(pasted, [message for message, _ in here])
         heard = replace(base, kind="unreadable", unit=here[0][1], summary=f"{said}: not readable", faults=(fault,))
-        return Spoken(heard, own=Framed(frame.data, captured=pasted))
+        return DecodedFrame(heard, frame=FrameBytes(frame.data, captured=pasted))
 
 
-def speech_of(device: Device, options: Options) -> CanSpeech:
+def decoder_of(device: Device, options: Options) -> CanFrameDecoder:
     """The decoder for the frames of the device."""
-    return CanSpeech(device, options.own.get("can_id"))
+    return CanFrameDecoder(device, options.own.get("can_id"))

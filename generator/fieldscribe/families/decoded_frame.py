@@ -1,0 +1,254 @@
+"""A decoded frame in the form that all families share: what it is, what it carries, and which request it answers.
+
+A family's `frame_decoder` turns bytes into a `DecodedFrame`; `conversation` matches its contents with the points of the
+device and makes a `FrameResult` of it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+
+from fieldscribe.families.frame_results import FrameResult, Item
+from fieldscribe.records import dataclass, field, replace
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from fieldscribe.families.directory import Directory
+    from fieldscribe.families.frame_results import Captured
+    from fieldscribe.model import Telegram
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Consecutive addresses of a space with their words or bits; `words` is None where the frame only names them."""
+
+    space: str
+    address: int
+    count: int
+    words: tuple[int, ...] | None = None
+    written: bool = False
+    learned: bool = False
+    """True if the device itself reported the values, so that later frames may rely on them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One element of a parameter; `value` is None where the frame only names the element.
+
+    `width` is the number of words that the value should have. `counts`: the value is the number of elements.
+    """
+
+    parameter: int
+    index: int
+    width: int = 0
+    value: int | None = None
+    words: tuple[int, ...] = ()
+    in_request: bool = False
+    refused: bool = False
+    counts: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """One word of a parameter; `raw` is None where the frame only names it.
+
+    `learned`: the device itself reported it. `stale`: values that the device derives from the parameter are outdated.
+    """
+
+    address: int
+    raw: int | None
+    in_request: bool = False
+    learned: bool = False
+    stale: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ProcessData:
+    """The process data of one direction, from the first word on."""
+
+    direction: str
+    words: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Masks:
+    """The masks of a broadcast: which words of process data and which bits of the control words count."""
+
+    words: tuple[int, ...]
+
+
+class Pieces(Protocol):
+    """The words received so far of a telegram that comes in several frames."""
+
+    @property
+    def per_frame(self) -> int:
+        """The number of words that one frame carries."""
+
+    def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
+        """Return ("ok", words); another status and no words while they are not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """The words of one frame of a telegram that comes in several frames."""
+
+    telegram: Telegram
+    positions: range
+    words: tuple[int, ...]
+    pieces: Pieces
+
+
+Content = Span | Element | Word | ProcessData | Masks | Piece | Item
+
+
+@dataclass(frozen=True, slots=True)
+class FrameBytes:
+    """What only this frame has: its bytes, what its checksum says, and how it was captured."""
+
+    data: bytes
+    checks: str = ""
+    captured: Captured | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DecodedFrame:
+    """One decoded frame, before its contents are matched with points.
+
+    `result` may be shared by many frames with the same head; `frame` then holds what only this one has.
+    `unit` is the unit that sends or receives it; `exchange` tells apart exchanges that are open at the same time.
+    `request` is the family's own form of a request, if the frame is one. `unanswered`: nobody answers this request.
+    `answers`: the frame closes the open request. `stays_open`: given as the expected request, it stays open for all
+    frames that follow.
+    """
+
+    result: FrameResult
+    contents: tuple[Content, ...] = ()
+    unit: int | None = None
+    exchange: str = ""
+    request: Any = None
+    unanswered: bool = False
+    answers: bool = False
+    stays_open: bool = False
+    frame: FrameBytes | None = None
+
+    def with_items(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> FrameResult:
+        """Return the result with the items of its points, and with more findings and notes."""
+        result = self.result
+        frame = self.frame or FrameBytes(result.data, result.checks, result.captured)
+        return replace(
+            result,
+            data=frame.data,
+            items=items,
+            checks=frame.checks,
+            findings=result.findings + findings,
+            notes=result.notes + notes,
+            captured=frame.captured,
+        )
+
+
+@dataclass(slots=True)
+class OpenRequests:
+    """The open requests, and the units that have been sent one. `fixed`: the user gave the request for all frames."""
+
+    fixed: bool = False
+    _open: dict[tuple[int | None, str], Any] = field(default_factory=dict)
+    _addressed: set[int | None] = field(default_factory=set)
+
+    def request(self, unit: int | None = None, exchange: str = "") -> Any:
+        """Return the open request; None if there is none."""
+        return self._open.get((unit, exchange))
+
+    def addressed(self, unit: int | None) -> bool:
+        """Return True if this unit has been sent a request."""
+        return unit in self._addressed
+
+    def follow(self, decoded: DecodedFrame, *, expecting: bool) -> None:
+        """Update the open requests after a frame; with `expecting`, the user says that the next frames answer it."""
+        key = decoded.unit, decoded.exchange
+        if decoded.request is not None:
+            self._addressed.add(decoded.unit)
+        if decoded.request is not None and (expecting or not decoded.unanswered):
+            self._open[key] = decoded.request
+        elif decoded.unanswered or (decoded.answers and not self.fixed):
+            self._open.pop(key, None)
+        if expecting:
+            self.fixed = decoded.stays_open
+
+
+class CutFrame(bytes):
+    """A frame that was cut out of bytes with several frames; `note` says which one it is."""
+
+    note = ""
+
+
+def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> list[bytes]:
+    """Cut bytes into the frames that they hold; return them whole if they hold one frame, or none.
+
+    `sound_size` returns the size of the sound frame at the beginning of its argument, 0 if there is none. What remains
+    behind sound frames counts as a frame if it has at least `least` bytes.
+    """
+    pieces: list[bytes] = []
+    rest = data
+    while rest and (size := sound_size(rest)):
+        pieces, rest = [*pieces, rest[:size]], rest[size:]
+    pieces += [rest] if rest else []
+    if len(pieces) < 2 or 0 < len(rest) < least:
+        return [data]
+    begin, result = 1, []
+    for number, piece in enumerate(pieces, 1):
+        frame = CutFrame(piece)
+        frame.note = f"these bytes hold {len(pieces)} frames; this is number {number}, from byte {begin} on"
+        result.append(frame)
+        begin += len(piece)
+    return [*result]
+
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+_MOST_RECENT = 256
+
+
+class RecentlyUsed(Generic[Key, Value]):
+    """One value per key, for the keys used last: a stream may last for days."""
+
+    def __init__(self) -> None:
+        self._values: dict[Key, Value] = {}
+        self._last: Key | None = None
+
+    def of(self, key: Key, make: Callable[[], Value]) -> Value:
+        """Return the value of this key; make it if there is none."""
+        if key == self._last and self._values:
+            return self._values[key]
+        value = self._values[key] = self._values.pop(key) if key in self._values else make()
+        self._last = key
+        if len(self._values) > _MOST_RECENT:
+            del self._values[next(iter(self._values))]
+        return value
+
+
+class BoundedMemo(dict[Key, Value]):
+    """Computes the value of a key once; forgets all values when there are too many: a stream may last for days."""
+
+    def __init__(self, most: int, make: Callable[[Key], Value]) -> None:
+        super().__init__()
+        self._most, self._make = most, make
+
+    def __missing__(self, key: Key) -> Value:
+        value = self._make(key)
+        if len(self) >= self._most:
+            self.clear()
+        self[key] = value
+        return value
+
+
+class FrameDecoder(Protocol):
+    """Decodes the frames of a family; `decoder_of(device, options)` of its part `frame_decoder` makes one."""
+
+    def frames(self, texts: Sequence[str]) -> Sequence[Any]:
+        """Return the frames in pasted texts. Raises UnclearError."""
+
+    def decode(
+        self, frame: Any, requests: OpenRequests, directory: Directory, *, expecting: bool = False
+    ) -> DecodedFrame:
+        """Decode one frame; any bytes are safe. With `expecting`, the user says that the frame is a request."""
