@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.pipeline import outputs
 from fieldscribe.plain import for_code
+from fieldscribe.targets import TARGETS
 from support.described import group, head, loaded_in, together
 from support.python_package import Slave, error, imported, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from fieldscribe.model import Device
 
@@ -90,6 +92,20 @@ def test_every_language_says_when_a_point_exists(tempco: Device) -> None:
     assert "Exists only when model == pro." in texts["python/tempco/points.py"]
     assert "only when `model == pro`" in "".join(text for path, text in texts.items() if path.endswith(".rs"))
     assert "exists when model == pro" in texts["docs/tempco.md"]
+
+
+def test_a_condition_may_name_two_axes(tmp_path: Path) -> None:
+    """A condition on two axes was an error inside the Python target: the second axis was taken for a number."""
+    axes = "{model: {values: {a: {}, b: {}}}, link: {values: {t: {}, u: {}}}}"
+    points = "- {name: first, at: 1}\n- {name: both, at: 2, when: model == a and link == t}\n- {name: last, at: 3}\n"
+    device = loaded_in(tmp_path, together(head(device="two_axes", bus=BUS, variants=axes), group(points)))
+    assert {target for target, _, _ in outputs(device, TARGETS)} == set(TARGETS)
+    for package in imported(write_package(for_code(device), tmp_path / "package"), "two_axes"):
+        slave = Slave()
+        assert package.TwoAxes(slave, 1, model="a", link_="t").both.read() == 0
+        assert "exists only for model a" in str(error(lambda: package.TwoAxes(slave, 1, model="b").both))
+        package.TwoAxes(slave, 1, model="a").read_many("main")
+        assert slave.log == [(3, 2, 1), (3, 1, 1), (3, 2, 1), (3, 3, 1)]
 
 
 class Silent(Slave):

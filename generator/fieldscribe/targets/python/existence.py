@@ -16,7 +16,7 @@ def only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str
     """The first axis on which the point's condition depends, and the values for which the point can exist."""
     for axis in () if point.when is None else point.when.names:
         values = variants.get(axis, ())
-        left = tuple([value for value in values if not absent(point.when, {axis: (value,)})])
+        left = tuple([value for value in values if not absent(point.when, {**variants, axis: (value,)})])
         if left != values:
             return axis, left
     return None
