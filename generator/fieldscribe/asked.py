@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.records import dataclass, field
 from fieldscribe.text import line
 
 if TYPE_CHECKING:

@@ -5,6 +5,7 @@ Titles and notes change often. They reach only the documentation, so that vendor
 
 from __future__ import annotations
 
+from dataclasses import fields, replace
 from functools import lru_cache
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -26,7 +27,6 @@ from fieldscribe.model import (
     Terms,
     Titles,
 )
-from fieldscribe.records import names_of, replace, values_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,8 +38,8 @@ _SHARED = ("source", "shape", "terms")
 """What many points have in common, so that its text is written once."""
 _common = attrgetter(*_SHARED)
 _identity = attrgetter(
-    *[field for field in names_of(Point) if field not in (*_SHARED, "allowed", "place")],
-    *[f"place.{name}" for name in names_of(Place)],
+    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
+    *[f"place.{field.name}" for field in fields(Place)],
 )
 
 
@@ -126,7 +126,7 @@ def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
 
 def _own(own: Own) -> Own:
     """The facts of one family, with names as the titles of their codes."""
-    held = values_of(own)
+    held = {field.name: getattr(own, field.name) for field in fields(own)}
     codes = {
         name: value
         for name, value in held.items()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.facts import reading, runs_of
 from fieldscribe.audit.frames import runs_of_bytes
 from fieldscribe.audit.instead import printed_access
 from fieldscribe.audit.labels import standing
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

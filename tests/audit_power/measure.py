@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass, field
 from functools import cache
 from random import Random
 from typing import TYPE_CHECKING
@@ -13,7 +14,6 @@ from fieldscribe.audit.layout import Fingerprint
 from fieldscribe.audit.manual import Manual
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_subject
-from fieldscribe.records import dataclass, field
 from fieldscribe.resources import descriptions_dir
 
 from audit_power.changes import Change, Changes

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import fields as dataclass_fields
+from dataclasses import is_dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +25,6 @@ from fieldscribe.existence import Comparison, Condition
 from fieldscribe.export import export_model
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.model import Own
-from fieldscribe.records import names_of, replace
 from support.described import made
 from support.models import sample_device
 
@@ -72,9 +73,14 @@ OTHER = {
 """Values that a field takes where no text that is made up would do."""
 
 
+def names_of(kind: Any) -> list[str]:
+    """Return the names of the fields of a dataclass or of an object of one."""
+    return [field.name for field in dataclass_fields(kind)]
+
+
 def children_of(thing: Any) -> tuple[Any, ...]:
     """What a thing of the model is made of."""
-    if hasattr(thing, "__fields__"):
+    if is_dataclass(thing):
         return tuple(getattr(thing, name) for name in names_of(thing))
     return tuple(thing.values()) if isinstance(thing, Mapping) else thing if isinstance(thing, tuple) else ()
 
@@ -89,7 +95,7 @@ def records_of(device: model.Device) -> Iterator[Any]:
         if children and id(thing) not in seen:
             seen[id(thing)] = thing
             left += children
-            if hasattr(thing, "__fields__"):
+            if is_dataclass(thing):
                 yield thing
 
 
@@ -140,7 +146,7 @@ def another(value: Any) -> Any:  # noqa: PLR0911  # a line for each kind of valu
 def fields() -> list[str]:
     """All fields of records of the model that say something, as `Shape.type`."""
     kinds = [getattr(model, name) for name in model.__all__] + [Comparison, Condition, *_own_kinds(Own)]
-    records = [kind for kind in kinds if isinstance(kind, type) and hasattr(kind, "__fields__") and kind is not Own]
+    records = [kind for kind in kinds if isinstance(kind, type) and is_dataclass(kind) and kind is not Own]
     names = [f"{kind.__name__}.{name}" for kind in records for name in names_of(kind)]
     return [name for name in names if not {name, name.partition(".")[0]} & SAYS_NOTHING.keys()]
 
@@ -156,7 +162,8 @@ def devices() -> Iterator[model.Device]:
     sample, uss = sample_device(), made("kitchen_uss")
     noted = replace(sample.points[0], note={"en": "Careful"})
     manual = model.Document("manual", "Manual", "de", "manual.txt", "0123")
-    link = replace(uss.bus.own, bitrate=9600, variant_pzd=((model.Variant("size", "small"), 2),))
+    own: Any = uss.bus.own
+    link = replace(own, bitrate=9600, variant_pzd=((model.Variant("size", "small"), 2),))
     yield replace(sample, points=(noted, *sample.points[1:]), documents=(manual,))
     yield replace(uss, bus=replace(uss.bus, own=link))
     yield from (made(name) for name in ("kitchen_can", "kitchen_sink"))
@@ -172,7 +179,7 @@ def samples() -> dict[str, list[tuple[model.Device, Any]]]:
                 value, field = getattr(record, name), f"{type(record).__name__}.{name}"
                 if value not in (None, "", (), {}):
                     examples = known.setdefault(field, [])
-                    if len(examples) < 4 and not hasattr(value, "__fields__"):
+                    if len(examples) < 4 and not is_dataclass(value):
                         examples.append((device, record))
     return known
 

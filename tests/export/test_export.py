@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from dataclasses import replace as replace_record
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
@@ -16,7 +17,6 @@ from fieldscribe.export import export_model
 from fieldscribe.export.rules import bound_of, use_of
 from fieldscribe.families import families, family
 from fieldscribe.model import Factor, Flag, Limit, Special
-from fieldscribe.records import replace as replace_record
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in, made
 from support.models import allowed, linear, point, sample_device, scaled, titles, value_of

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language import positions
 from fieldscribe.pipeline import load_device, load_undigested
-from fieldscribe.records import replace
 from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.contract import BusKeys, Family
 from fieldscribe.model import Own
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus

@@ -6,6 +6,7 @@ It knows no words on the wire and no buses. A CodecError names other points whos
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, isnan
 from typing import TYPE_CHECKING
@@ -13,7 +14,6 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic import floats
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bound, Factor, Interval, Linear, Point, Special

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import claims_of, looked_through_of
@@ -12,7 +13,6 @@ from fieldscribe.audit.outcome import Audit, Moved
 from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import printed_errata_of
 from fieldscribe.audit.wordings import Wordings
-from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-
-from fieldscribe.records import dataclass, field, values_of
+from dataclasses import asdict, dataclass, field
 
 
 @dataclass(slots=True)
@@ -144,9 +143,9 @@ class Audit:
             "fingerprint": self.has_fingerprint,
             "clean": self.clean,
             "counts": self.counts,
-            "missing": [values_of(fact) for fact in self.missing],
-            "moved": [values_of(place) for place in self.moved],
-            "errata_not_printed": [values_of(erratum) for erratum in self.unprinted],
-            "unused_numbers": [values_of(number) for number in self.unused],
-            "uncited": [values_of(place) for place in self.uncited],
+            "missing": [asdict(fact) for fact in self.missing],
+            "moved": [asdict(place) for place in self.moved],
+            "errata_not_printed": [asdict(erratum) for erratum in self.unprinted],
+            "unused_numbers": [asdict(number) for number in self.unused],
+            "uncited": [asdict(place) for place in self.uncited],
         }

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.audit.citing import numbers_in, spans_of
 from fieldscribe.language.nodes import Map
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

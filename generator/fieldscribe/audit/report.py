@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
 from fieldscribe.report import visible
 
 if TYPE_CHECKING:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.language.nodes import Map
-from fieldscribe.records import dataclass, replace
 from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:

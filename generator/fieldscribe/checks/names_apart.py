@@ -8,11 +8,11 @@ Where the proof fails, nothing is wrong yet: then all identifiers are compared a
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import dataclass, field, fields, replace
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Shape
-from fieldscribe.records import dataclass, field, names_of, replace
 from fieldscribe.targets.identifiers import clashes
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Names, Owner
 
 
-_BUT_ENUM = attrgetter(*[name for name in names_of(Shape) if name not in ("enum", "flags", "specials")])
+_BUT_ENUM = attrgetter(*[each.name for each in fields(Shape) if each.name not in ("enum", "flags", "specials")])
 
 
 class Kinds:

@@ -56,13 +56,14 @@ def add_own(parser: ArgumentParser, command: str) -> None:
 
 def options_of(device: Device, arguments: Namespace) -> Options:
     """The options that were given. Raises StopError for one that the device's family does not take."""
+    from dataclasses import fields
+
     from fieldscribe.asked import Options, UnclearError
     from fieldscribe.cli.common import StopError
     from fieldscribe.conversation.options import refuse_foreign
     from fieldscribe.families import families
-    from fieldscribe.records import names_of
 
-    common = {name: getattr(arguments, name) for name in names_of(Options) if hasattr(arguments, name)}
+    common = {each.name: getattr(arguments, each.name) for each in fields(Options) if hasattr(arguments, each.name)}
     names = dict.fromkeys(option.name for family in families() for option in family.options)
     values = {name: getattr(arguments, name, None) for name in names}
     options = Options(

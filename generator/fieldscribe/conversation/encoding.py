@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
@@ -10,7 +11,6 @@ from fieldscribe.conversation.meanings import meaning_of, raw_text
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.conversation.writing import rounding_remarks
-from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording import label
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.conversation.requests import read_text, write_text
 from fieldscribe.families import family
-from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 

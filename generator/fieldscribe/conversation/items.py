@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.selection import same_meaning
 from fieldscribe.families.frame_results import Item
-from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 

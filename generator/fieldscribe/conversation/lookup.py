@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from operator import ne
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.pasted_numbers import number_of
-from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.buses import word_text
 from fieldscribe.wording.exact import hex_text

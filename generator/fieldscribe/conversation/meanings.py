@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -16,7 +17,6 @@ from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.conversation.texts import shown, text_of
 from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Bits, bits_label
-from fieldscribe.records import dataclass, replace
 from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from fieldscribe.asked import Options, UnclearError
 from fieldscribe.families import families, family
-from fieldscribe.records import values_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,7 +40,8 @@ def refuse_foreign(device: Device, options: Options) -> None:
 
 
 def _said(options: Options) -> Iterator[str]:
-    yield from (name for name, value in values_of(options).items() if name != "own" and value is not None)
+    names = [field.name for field in fields(options) if field.name != "own"]
+    yield from (name for name in names if getattr(options, name) is not None)
     yield from options.own
 
 

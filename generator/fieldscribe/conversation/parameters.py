@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, split
@@ -10,7 +11,6 @@ from fieldscribe.conversation.items import named_item
 from fieldscribe.conversation.point_formatter import PARAMETER
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families.frame_results import Item
-from fieldscribe.records import replace
 from fieldscribe.wording import address_text, fixed_text
 from fieldscribe.wording.buses import counted, element_text, words_text
 

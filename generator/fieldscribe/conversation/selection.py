@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,6 @@ from fieldscribe import wording
 from fieldscribe.asked import UnclearError, did_you_mean, quoted
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.existence import absent
-from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import label
 

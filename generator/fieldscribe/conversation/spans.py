@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_reader
@@ -9,7 +10,6 @@ from fieldscribe.conversation.items import always, named_item
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.frame_results import Item
-from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.buses import span_text, word_text

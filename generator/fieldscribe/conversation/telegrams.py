@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,6 @@ from fieldscribe.arithmetic.words import raw_of, raw_reader
 from fieldscribe.conversation.items import named_item
 from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Item
-from fieldscribe.records import replace
 from fieldscribe.wording.buses import word_text, words_text
 
 if TYPE_CHECKING:

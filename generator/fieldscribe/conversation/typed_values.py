@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -17,7 +18,6 @@ from fieldscribe.conversation.selection import choose_point
 from fieldscribe.conversation.texts import pattern_of_text
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
-from fieldscribe.records import dataclass
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -15,7 +16,6 @@ from fieldscribe.export import export_model
 from fieldscribe.export.contract import ContractError, model_from
 from fieldscribe.pipeline import find_devices, is_new, load_so_far
 from fieldscribe.reading import read_regular, shown_path
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

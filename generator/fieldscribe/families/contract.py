@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
-
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,10 +6,10 @@ device and makes a `FrameResult` of it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from fieldscribe.families.frame_results import FrameResult, Item
-from fieldscribe.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.asked import RefusedError
-from fieldscribe.records import dataclass, field
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import units_text
 

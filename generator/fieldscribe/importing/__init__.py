@@ -6,9 +6,8 @@ Nothing is guessed: what the cells leave open is left out, and a question stands
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
-
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing.cell_text import one_line
 from fieldscribe.importing.head_words import MOST_HEAD, ROLES, base_of, role_of, unit_in
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

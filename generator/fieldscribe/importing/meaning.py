@@ -7,12 +7,12 @@ or nothing says which of two readings is meant, the fact is left out and a quest
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing import numbers
 from fieldscribe.importing.cell_text import one_line
-from fieldscribe.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from fieldscribe.importing.numbers import Span

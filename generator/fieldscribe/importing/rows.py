@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing import addresses, numbers
@@ -14,7 +15,6 @@ from fieldscribe.importing.labels import choices_in, first_labels, labels_in
 from fieldscribe.importing.meaning import evidence, meaning_of
 from fieldscribe.importing.said import take_apart
 from fieldscribe.importing.words_of_rows import LONG, access_of, bits_of, half_of, is_reserved, type_of
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence

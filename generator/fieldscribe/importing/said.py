@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing import numbers
 from fieldscribe.importing.cell_text import one_line
 from fieldscribe.importing.labels import without_labels
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.importing.numbers import Span

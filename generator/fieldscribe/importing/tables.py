@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.records import dataclass
+from dataclasses import dataclass
 
 MOST_BYTES = 64 << 20
 """The largest file that is read."""

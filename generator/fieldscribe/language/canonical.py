@@ -6,10 +6,10 @@ below the key that it belongs to, lines in brackets go on below what the bracket
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.pieces import pieces
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
@@ -12,7 +13,6 @@ from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
 from fieldscribe.reading import shown_path
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from pathlib import Path

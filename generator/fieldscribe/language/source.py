@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cache
 from itertools import accumulate
@@ -10,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.reading import shown_path
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -12,7 +13,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Unit
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

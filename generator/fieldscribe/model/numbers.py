@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-
-from fieldscribe.records import dataclass, field
+from dataclasses import dataclass, field
 
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always present."""

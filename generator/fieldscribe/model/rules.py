@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
-
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from fractions import Fraction

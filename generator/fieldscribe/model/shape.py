@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.model.numbers import TYPES, TypeInfo
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.model.numbers import Digits, Enum, Fixed, Flag, Special, Text

@@ -5,12 +5,12 @@ The outputs of a device stay as they are if its description or a target has an e
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.output.result import Result
 from fieldscribe.reading import Inputs, shown_path
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

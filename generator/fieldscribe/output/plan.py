@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.output.manifests import carries_head, made_of, manifest_text
 from fieldscribe.output.spool import Kept, kept
 from fieldscribe.reading import kind_of, read_regular, state_of
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

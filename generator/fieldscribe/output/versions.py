@@ -83,8 +83,9 @@ def model_of(record: Record) -> dict[str, Any]:
 
 def checksum(device: Device) -> str:
     """A checksum of all that a device says, titles and notes too, but for its version."""
+    from dataclasses import replace
+
     from fieldscribe.plain import checksum_of
-    from fieldscribe.records import replace
 
     return checksum_of(replace(device, version="", digest=""))
 

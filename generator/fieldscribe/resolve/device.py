@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Block, Device, Enum, Group, Point
 from fieldscribe.plain import for_code
-from fieldscribe.records import replace
 from fieldscribe.resolve.drafts import groups, humanised
 from fieldscribe.resolve.exponents import with_exponents
 from fieldscribe.resolve.families import reading_of

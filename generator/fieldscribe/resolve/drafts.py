@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.model import TYPES, Titles, item_of
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

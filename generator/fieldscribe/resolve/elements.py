@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.nodes import Map
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Entry, Enum, Flag
-from fieldscribe.records import dataclass, field
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import bits_named, integer

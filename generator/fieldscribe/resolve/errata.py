@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import About, Bus, Erratum, Named
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.values import integer
 

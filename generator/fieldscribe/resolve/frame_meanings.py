@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.language.numbers import is_whole_number
-from fieldscribe.records import dataclass, field
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import number_text
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
 from fieldscribe.model import Bus, Frame, Named, Point
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.families import reading_of
 from fieldscribe.resolve.frame_meanings import meaning_of

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Allowed, Enum, Interner, Shape
-from fieldscribe.records import replace
 from fieldscribe.resolve.alike import Once, frozen
 from fieldscribe.resolve.display import display_of
 from fieldscribe.resolve.drafts import humanised

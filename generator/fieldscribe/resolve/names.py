@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.meant import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:

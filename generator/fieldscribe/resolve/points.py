@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Point, Terms
-from fieldscribe.records import dataclass, replace
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.alike import Kinds, Once, frozen
 from fieldscribe.resolve.allowed import Ranges

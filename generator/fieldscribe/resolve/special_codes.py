@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of, number_of
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
-from fieldscribe.records import dataclass, field, replace
 from fieldscribe.resolve.drafts import groups
 from fieldscribe.resolve.enums import entry_titles, name_of
 from fieldscribe.resolve.values import integer

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
-from fieldscribe.records import dataclass, field
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 

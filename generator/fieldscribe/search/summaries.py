@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_outline
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.scope import titles
 from fieldscribe.text import line
 

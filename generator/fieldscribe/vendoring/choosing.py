@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,6 @@ from fieldscribe.conversation.lookup import find, near
 from fieldscribe.families import family
 from fieldscribe.model import Interval
 from fieldscribe.plain import for_code, with_digest
-from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence

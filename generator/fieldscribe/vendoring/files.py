@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.plain import for_code
-from fieldscribe.records import dataclass, replace
 from fieldscribe.targets.heads import LEFT_OUT
 
 if TYPE_CHECKING:

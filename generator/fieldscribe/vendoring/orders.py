@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from hashlib import sha256
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -10,7 +11,6 @@ from fieldscribe.asked import UnclearError
 from fieldscribe.output.manifests import VENDORED, Manifests
 from fieldscribe.output.plan import plan_of
 from fieldscribe.reading import read_regular
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -12,7 +13,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.language.scalars import as_yaml
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

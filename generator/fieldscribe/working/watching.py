@@ -7,6 +7,7 @@ folder of five devices costs a thousandth of a processor.
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -15,7 +16,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.output.generation import Generation
 from fieldscribe.pipeline import find_devices
 from fieldscribe.reading import state_of
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

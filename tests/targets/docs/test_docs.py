@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from dataclasses import replace as replace_record
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -23,7 +24,6 @@ from fieldscribe.model import (
     Source,
     Special,
 )
-from fieldscribe.records import replace as replace_record
 from fieldscribe.render import render
 from fieldscribe.targets.docs import bus, outputs
 from fieldscribe.targets.docs.cells import anchor, link, narrow, target

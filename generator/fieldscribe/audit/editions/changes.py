@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,6 @@ from fieldscribe.audit.editions.parting import are_unlike, parted
 from fieldscribe.audit.editions.reading_order import ReadingOrder
 from fieldscribe.audit.editions.words import Words, pressed, unspaced
 from fieldscribe.audit.pages import page_lines_of_both, pattern
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

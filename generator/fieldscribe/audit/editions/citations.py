@@ -7,6 +7,7 @@ the new one. Which of them a subject means is where more of its facts stand.
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeVar
 
 from fieldscribe.audit.citing import Claim, spans_of
@@ -14,7 +15,6 @@ from fieldscribe.audit.claims import by_line, claims_of, listed_in
 from fieldscribe.audit.editions.tracing import Trace
 from fieldscribe.audit.places import Asked
 from fieldscribe.audit.printed_errata import PrintedErratum, printed_errata_of
-from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import Counter
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,6 @@ from fieldscribe.audit.editions.vocabulary import Vocabulary
 from fieldscribe.audit.editions.words import LINE_BREAK, Words
 from fieldscribe.audit.manual import Manual
 from fieldscribe.audit.wordings import Wordings
-from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

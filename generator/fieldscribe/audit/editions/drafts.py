@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,7 +16,6 @@ from fieldscribe.importing import Wishes, draft
 from fieldscribe.importing.draft_text import point_lines
 from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.importing.text_tables import read_text
-from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

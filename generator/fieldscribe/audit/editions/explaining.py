@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -13,7 +14,6 @@ from fieldscribe.audit.editions.holding import Holding, borne_by
 from fieldscribe.audit.editions.telling import is_code, is_of_edition, is_prose, is_reference, is_title, turned
 from fieldscribe.audit.editions.vocabulary import is_name, is_one_spelling, is_respelled
 from fieldscribe.audit.editions.words import Words
-from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

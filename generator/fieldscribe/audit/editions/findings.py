@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.records import dataclass, field, values_of
+from dataclasses import asdict, dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Reason:
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
-        return {**values_of(self), "text": self.text}
+        return {**asdict(self), "text": self.text}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,13 +135,13 @@ class Finding:
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
-        data = values_of(self)
-        data["places"] = [values_of(place) for place in self.places]
+        data = asdict(self)
+        data["places"] = [asdict(place) for place in self.places]
         data["words"] = [{"old": old, "new": new} for old, new in self.words]
-        data["cited_by"] = [values_of(cite) for cite in self.cited_by]
+        data["cited_by"] = [asdict(cite) for cite in self.cited_by]
         data["reasons"] = [reason.as_data() for reason in self.reasons]
-        data["drafts"] = [values_of(draft) for draft in self.drafts]
-        data["void"] = [values_of(void) for void in self.void]
+        data["drafts"] = [asdict(draft) for draft in self.drafts]
+        data["void"] = [asdict(void) for void in self.void]
         return {**data, "explained": self.explained}
 
 
@@ -217,8 +217,8 @@ class Comparison:
             "remarks": [remark.as_data() for remark in self.remarks],
             "elsewhere": [reason.as_data() for reason in self.elsewhere],
             "void_errata": [
-                values_of(void) for void in (*self.void, *(void for finding in self.findings for void in finding.void))
+                asdict(void) for void in (*self.void, *(void for finding in self.findings for void in finding.void))
             ],
-            "doubtful_errata": [values_of(doubt) for doubt in self.doubts],
-            "notes": [{**values_of(note), "said": dict(note.said)} for note in self.notes],
+            "doubtful_errata": [asdict(doubt) for doubt in self.doubts],
+            "notes": [{**asdict(note), "said": dict(note.said)} for note in self.notes],
         }

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from typing import TYPE_CHECKING
-
-from fieldscribe.records import replace
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -160,7 +159,7 @@ def _in_one(above: Finding, below: Finding) -> Finding:
     )
 
 
-def _told_of_both(finding: Finding, other: Finding) -> dict[str, object]:
+def _told_of_both(finding: Finding, other: Finding) -> dict[str, Any]:
     return {
         "cited_by": tuple(dict.fromkeys((*finding.cited_by, *other.cited_by))),
         "reasons": said_once((*finding.reasons, *other.reasons)),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.citing import OWN_PRINTED
 from fieldscribe.importing.yaml_text import printed as written
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

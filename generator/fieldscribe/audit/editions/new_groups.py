@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.importing import yaml_text
 from fieldscribe.importing.naming import snake
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.citations import span_there
 from fieldscribe.audit.editions.places import UnclearPlaceError, citations_in, lines_in_comments
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import remarks
@@ -11,7 +12,6 @@ from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Asked, Recogniser, senders
 from fieldscribe.families.decoded_frame import DecodedFrame, FrameBytes, FrameDecoder, Piece, RecentlyUsed, Word
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.records import replace
 from fieldscribe.wording.buses import strange_unit
 from fieldscribe.wording.exact import hex_text
 

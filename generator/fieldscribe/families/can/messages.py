@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,6 @@ from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.numbers import NumberError, parse_integer, shown
 from fieldscribe.model import Bus, Message, Role
-from fieldscribe.records import dataclass
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import bits_named, formula_finding

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.asked import UnclearError, quoted
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.can.frames import carried, parse
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,6 +6,7 @@ these bytes is worked out once and remembered.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.frames import (
@@ -20,7 +21,6 @@ from fieldscribe.families.can.frames import (
     unit_of,
 )
 from fieldscribe.families.decoded_frame import BoundedMemo
-from fieldscribe.records import dataclass
 from fieldscribe.wording.buses import check_text
 
 if TYPE_CHECKING:

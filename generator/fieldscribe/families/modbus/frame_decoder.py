@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, FrameBytes, Span
@@ -13,7 +14,6 @@ from fieldscribe.families.modbus.recognition import frames_in, recognise
 from fieldscribe.families.modbus.replies import Reply, done_in, reply_in
 from fieldscribe.families.modbus.requests import Request, request_in
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.records import replace
 from fieldscribe.wording.buses import no_answer_text, words_text
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE
-from fieldscribe.records import dataclass
 
 LEAST = {"rtu": 4, "tcp": 8}
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import of_bus
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

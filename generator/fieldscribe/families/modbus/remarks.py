@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import FAMILY
 from fieldscribe.families.modbus.functions import BROADCAST, READS, SPACE_OF, profile_of
-from fieldscribe.records import values_of
 from fieldscribe.text import line
 from fieldscribe.wording.buses import (
     check_text,
@@ -76,7 +76,7 @@ def flaw_text(flaw: Flaw) -> str:
     """Why bytes are no frame, or no request."""
     if flaw.status == "short_frame":
         return too_short(_LEAST[flaw.due], flaw.due, flaw.here)
-    return "the bytes of the checksum are swapped" if flaw.swapped else _FLAWS[flaw.status].format(**values_of(flaw))
+    return "the bytes of the checksum are swapped" if flaw.swapped else _FLAWS[flaw.status].format(**asdict(flaw))
 
 
 def frame_faults(unwrapped: Unwrapped) -> tuple[str, ...]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.frames import Unwrapped, data_size, reply_length, unwrap, values_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE
 from fieldscribe.families.modbus.requests import Request
-from fieldscribe.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

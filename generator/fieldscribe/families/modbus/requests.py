@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped, data_size, frame, pack_bits, unwrap, values_in
 from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READS, SINGLE, Profile
-from fieldscribe.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, Element, FrameDecoder, Masks, ProcessData
@@ -23,7 +24,6 @@ from fieldscribe.families.uss.parts import (
 )
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.records import replace
 from fieldscribe.wording.buses import element_text, no_answer_text
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.asked import UnclearError
 from fieldscribe.families.uss.facts import of_bus
 from fieldscribe.families.uss.parts import VARIABLE, Link
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from fieldscribe.asked import Options

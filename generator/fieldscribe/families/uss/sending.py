@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
@@ -12,7 +13,6 @@ from fieldscribe.families.uss.links import asked, link_of
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, write_task
 from fieldscribe.families.uss.remarks import titled_code, words_printed
 from fieldscribe.families.uss.telegrams import Request, build
-from fieldscribe.records import replace
 from fieldscribe.text import line
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import spaced

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache, reduce
 from operator import xor
 from typing import TYPE_CHECKING
@@ -21,7 +22,6 @@ from fieldscribe.families.uss.parts import (
     part_of,
     split,
 )
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,7 +12,6 @@ from fieldscribe.language.formula.meant import condition_meant
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import Name
 from fieldscribe.language.formula.tokens import Token, number
-from fieldscribe.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

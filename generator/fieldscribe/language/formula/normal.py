@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple, NoReturn
@@ -14,7 +15,6 @@ from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate
 from fieldscribe.language.formula.terms import LINEAR_ONLY, Symbol, Term, add, multiply, number, reciprocal, scaled
 from fieldscribe.language.numbers import MOST_EXPONENT
 from fieldscribe.model import Factor, Linear
-from fieldscribe.records import replace
 
 
 class Affine(NamedTuple):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from fieldscribe.language.formula.errors import FormulaError
-from fieldscribe.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
 from fieldscribe.names import upper
-from fieldscribe.records import dataclass
 from fieldscribe.targets.c.conformance_cases import StructView, cases_of, structs_of
 from fieldscribe.targets.c.families import frames_of
 from fieldscribe.targets.c.fold import folded

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.records import dataclass
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.defines import shares_values
 from fieldscribe.targets.c.literals import raw_type

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.model import Version
 from fieldscribe.names import upper
-from fieldscribe.records import replace
 from fieldscribe.targets.c.comments import comment_text, laid_out
 from fieldscribe.targets.c.defines import defines, place_defines
 from fieldscribe.targets.c.fold import folded, framed

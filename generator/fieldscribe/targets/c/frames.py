@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.records import dataclass
 from fieldscribe.targets.c.device import old_items
 from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.kinds import Texts

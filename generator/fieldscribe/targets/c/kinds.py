@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.model import Shape
 from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.records import dataclass
 from fieldscribe.targets.c.points import point_view
 from fieldscribe.targets.c.words import Filling, Limits, Words, filling_of, limits_of, stand_ins, widths_of
 

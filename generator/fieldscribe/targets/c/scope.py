@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 from zlib import crc32
 
 from fieldscribe.lowered import lower
 from fieldscribe.names import upper
-from fieldscribe.records import dataclass, field
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:

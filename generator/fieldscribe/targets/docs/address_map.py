@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.bus import part_of
 from fieldscribe.targets.docs.cells import LINE_BREAK, anchor, by_rows, cell, link, number_cell
 from fieldscribe.targets.docs.commands import wanted_text

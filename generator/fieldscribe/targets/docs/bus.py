@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import by_rows, cell, code, link, paragraph, source_cell, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import LINE_BREAK, anchor, by_rows, cell, code, link, narrow, narrow_link
 
 if TYPE_CHECKING:

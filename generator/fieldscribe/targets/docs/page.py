@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.model import Named
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.address_map import MapView, map_views
 from fieldscribe.targets.docs.bus import BusView, bus_view, part_of
 from fieldscribe.targets.docs.cells import (

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
     anchor,

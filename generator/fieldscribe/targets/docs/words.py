@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.records import dataclass
 from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, by_rows, cell, code, target
 
 if TYPE_CHECKING:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.patterns import Pattern
-from fieldscribe.records import dataclass
 from fieldscribe.targets.python.existence import only_for, uncertain
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.forms import NUMBERED, addresses_of, allowed, form, place

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
-from fieldscribe.records import dataclass
 from fieldscribe.targets.python.families import RUNTIME, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.records import dataclass
 from fieldscribe.targets.python.identifiers import word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.records import dataclass
 from fieldscribe.targets.python.layout import Node, call
 from fieldscribe.text import python_string
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, fields
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from fieldscribe.model import Shape, Terms
-from fieldscribe.records import dataclass, field, names_of
 from fieldscribe.targets.python.forms import NUMBERED, is_limited
 from fieldscribe.wording import codes_text, condition_text, range_text
 
@@ -24,9 +24,9 @@ _RANGED = ("scaled", "float", "integer")
 """The forms whose docstring says the range."""
 
 _shape_facts = attrgetter(
-    *[name for name in names_of(Shape) if name not in ("enum", "flags", "specials", "digits")], "form"
+    *[each.name for each in fields(Shape) if each.name not in ("enum", "flags", "specials", "digits")], "form"
 )
-_terms_facts = attrgetter(*[name for name in names_of(Terms) if name != "group"])
+_terms_facts = attrgetter(*[each.name for each in fields(Terms) if each.name != "group"])
 
 
 class Limits(NamedTuple):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import textwrap
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass, replace
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import textwrap
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
-from fieldscribe.records import dataclass, field
 from fieldscribe.targets.python.attributes import Attributes, places
 from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import float_literal, value_name
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, Lines, binding, calls
 from fieldscribe.targets.rust.literals import mask, raw_literal, type_name

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.lowered import lower
-from fieldscribe.records import dataclass, replace
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:

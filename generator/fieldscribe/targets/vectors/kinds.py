@@ -8,11 +8,10 @@ line. A runner compares every field with something, except notes.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from operator import call
 from struct import Struct
 from typing import TYPE_CHECKING
-
-from fieldscribe.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

@@ -5,10 +5,10 @@ The first of all that are computed alike is tried in depth, the others only with
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Limit
-from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Hashable

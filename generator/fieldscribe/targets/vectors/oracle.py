@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, float_of_bits, half_away, quotient
 
 if TYPE_CHECKING:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, nan, nextafter
 from typing import TYPE_CHECKING
 
-from fieldscribe.records import dataclass
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.conversions import INT32, Conversions, Encoding
 from fieldscribe.targets.vectors.numbers import quotient

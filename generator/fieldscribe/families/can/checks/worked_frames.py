@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_sum
@@ -16,7 +17,6 @@ from fieldscribe.families.can.frames import (
     telegram_words,
     unit_of,
 )
-from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.lines import SAME
-from fieldscribe.records import dataclass
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule
 

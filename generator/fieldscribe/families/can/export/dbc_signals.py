@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import ExportError
 from fieldscribe.families.can.export.dbc_points import Meaning, signals_of_point
-from fieldscribe.records import dataclass, field, replace
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import (
@@ -20,7 +21,6 @@ from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.families.modbus.replies import parse_reply
 from fieldscribe.families.modbus.requests import build, parse_request
 from fieldscribe.language.nodes import Map
-from fieldscribe.records import replace
 from fieldscribe.resolve.subject import Printed, Subject
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.facts import of_bus
 from fieldscribe.families.modbus.functions import framings_of
 from fieldscribe.names import upper
-from fieldscribe.records import dataclass
 from fieldscribe.targets.c.frames import (
     Descriptor,
     Frame,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.functions import FRAMINGS, FUNCTIONS, Profile, profile_of
 from fieldscribe.families.modbus.replies import Reply, parse_reply
 from fieldscribe.families.modbus.requests import Request, build, parse_request
-from fieldscribe.records import replace
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_addresses
 

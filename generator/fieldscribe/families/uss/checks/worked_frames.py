@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
@@ -27,7 +28,6 @@ from fieldscribe.families.uss.telegrams import (
     parse,
     request_in,
 )
-from fieldscribe.records import dataclass, replace
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
