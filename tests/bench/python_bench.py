@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import cantools.database
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can.export.dbc import export_dbc
+from fieldscribe.families.can.dbc import export_dbc
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir, templates_dir

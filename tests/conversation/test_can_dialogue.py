@@ -15,10 +15,9 @@ from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.options import refuse_foreign
 from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.texts import shown
-from fieldscribe.families.can.frame_decoder import CanFrameDecoder
+from fieldscribe.families.can.frame_decoder import CanFrameDecoder, Recogniser
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
-from fieldscribe.families.can.recognition import Recogniser
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.model import Role
 from fieldscribe.wording.samples import sample_raw

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.conversation.listener import decode
-from fieldscribe.families.modbus import requests as modbus
-from fieldscribe.families.modbus.functions import profile_of
+from fieldscribe.families.modbus import exchange as modbus
+from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.families.uss.parts import Link
 from fieldscribe.targets.vectors.collection import collect

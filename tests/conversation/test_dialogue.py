@@ -12,9 +12,9 @@ from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.frame_results import refused
+from fieldscribe.families.modbus.frame_builder import words_of, write_request
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16
-from fieldscribe.families.modbus.sending import words_of, write_request
 from fieldscribe.model import Code, Place
 from fieldscribe.pasted_numbers import typed_bytes
 from hypothesis import given

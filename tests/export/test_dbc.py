@@ -16,9 +16,9 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
 from fieldscribe.export import export_form
 from fieldscribe.export.rules import ExportError
-from fieldscribe.families.can.export.dbc import export_dbc
-from fieldscribe.families.can.export.dbc_points import decimal, signals_of_point
-from fieldscribe.families.can.facts import of_bus
+from fieldscribe.families.can import of_bus
+from fieldscribe.families.can.dbc import export_dbc
+from fieldscribe.families.can.dbc_points import decimal, signals_of_point
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.families import family
-from fieldscribe.families.contract import BusKeys, Family
+from fieldscribe.families import BusKeys, Family, family
 
 
 def test_a_family_has_only_what_it_says() -> None:
@@ -20,7 +19,7 @@ def test_a_family_has_only_what_it_says() -> None:
         None,
     )
     assert ("units" in bare.bus, "bitrate" in bare.bus) == (True, False)
-    assert bare.part("export") is None
+    assert bare.part("bus_facts") is None
 
 
 CAN_DO: dict[str, dict[str, object]] = {

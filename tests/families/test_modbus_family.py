@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.existence import Comparison, Condition
-from fieldscribe.families.modbus.blocks import plan_blocks
-from fieldscribe.families.modbus.facts import ModbusBus
+from fieldscribe.families.modbus import FUNCTIONS, PROTOCOL_MOST, ModbusBus, Profile, profile_of
+from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
-from fieldscribe.families.modbus.functions import FUNCTIONS, PROTOCOL_MOST, Profile, profile_of
+from fieldscribe.families.modbus.reading import plan_blocks
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
-from fieldscribe.families.modbus.replies import parse_reply
-from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Bus, Code, Own, Point, Variant
 from hypothesis import given

@@ -107,17 +107,17 @@ def test_a_part_that_is_missing_is_none_and_one_that_breaks_says_so(
     (tmp_path / "choir/targets").mkdir(parents=True)
     for name, text in {
         "__init__": "",
-        "facts": "VOICES = 4",
-        "speech": "import nowhere_at_all",
+        "notes": "HIGHEST = 81",
+        "frame_decoder": "import nowhere_at_all",
         "targets/c": "",
     }.items():
         (tmp_path / f"choir/{name}.py").write_text(text, "utf-8")
     monkeypatch.syspath_prepend(tmp_path)
     choir = replace(family("modbus"), folder="choir")
-    assert choir.part("facts").VOICES == 4
-    assert (choir.part("frames"), choir.part("targets.docs"), choir.part("checks.one")) == (None, None, None)
+    assert choir.part("notes").HIGHEST == 81
+    assert (choir.part("frames"), choir.part("bus_facts"), choir.part("checks.one")) == (None, None, None)
     with pytest.raises(ModuleNotFoundError, match="nowhere_at_all"):
-        choir.part("speech")
+        choir.part("frame_decoder")
     monkeypatch.setattr(targets, "family", lambda _: choir)
     knowing = {name: targets.knows(name, sample_device()) for name in targets.TARGETS}
     assert knowing == {"c": True, "python": False, "rust": False, "docs": True, "vectors": True}

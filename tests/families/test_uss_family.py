@@ -6,9 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.families.uss.facts import UssBus, of_bus
-from fieldscribe.families.uss.links import default_link
-from fieldscribe.families.uss.parts import Link, parameter_words
+from fieldscribe.families.uss import UssBus, of_bus
+from fieldscribe.families.uss.parts import Link, default_link, parameter_words
 from fieldscribe.families.uss.telegrams import Request, broadcast, build, check_byte, parse, telegram
 from fieldscribe.model import Bus, Code
 from hypothesis import given

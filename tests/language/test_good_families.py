@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
-from fieldscribe.families.can.facts import identifier_of
-from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.can import identifier_of
+from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
 from fieldscribe.plain import digest, for_code
 from fieldscribe.wording import default_text

@@ -12,7 +12,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.export import export_model
-from fieldscribe.families.can.export.dbc import export_dbc
+from fieldscribe.families.can.dbc import export_dbc
 from fieldscribe.model import Special
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, python, rust

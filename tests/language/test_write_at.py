@@ -12,8 +12,8 @@ from fieldscribe.conversation.listener import decode
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.requests import write_text
 from fieldscribe.export.points import export_point
+from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16
-from fieldscribe.families.modbus.sending import write_request
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust
 from support.described import kitchen_sink

@@ -6,7 +6,7 @@ from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
-from fieldscribe.families.modbus.facts import ModbusBus
+from fieldscribe.families.modbus import ModbusBus
 from fieldscribe.model import (
     NOWHERE,
     TYPES,

@@ -9,8 +9,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.existence import Comparison, Condition
-from fieldscribe.families.can.facts import CanBus
-from fieldscribe.families.uss.facts import UssBus
+from fieldscribe.families.can import CanBus
+from fieldscribe.families.uss import UssBus
 from fieldscribe.model import (
     Bus,
     Code,

@@ -6,8 +6,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.facts import CanBus
-from fieldscribe.families.uss.facts import UssBus
+from fieldscribe.families.can import CanBus
+from fieldscribe.families.uss import UssBus
 from fieldscribe.model import (
     Bus,
     Code,

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.families.can import facts as can
-from fieldscribe.families.modbus import facts as modbus
-from fieldscribe.families.uss import facts as uss
+from fieldscribe.families import can, modbus, uss
 
 from support.second_reading_points import LONG, entries_of, enum_of, of_point, place_of
 

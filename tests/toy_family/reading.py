@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.resolve.families import Reading
 
-from toy_family.facts import BellBus
+from toy_family import BellBus
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map

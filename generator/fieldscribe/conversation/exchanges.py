@@ -12,7 +12,7 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.families.contract import Codes
+    from fieldscribe.families import Codes
     from fieldscribe.model import Code, Device, Message
 
 Answer = tuple[str, str, list[tuple[str, str]]]

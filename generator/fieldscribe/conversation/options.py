@@ -11,7 +11,7 @@ from fieldscribe.families import families, family
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.families.contract import Family
+    from fieldscribe.families import Family
     from fieldscribe.model import Device
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def part_of(device: Device, name: str) -> Any:
-    """A part of the device's family, such as `sending`. Raises UnclearError."""
+    """A part of the device's family, such as `frame_builder`. Raises UnclearError."""
     part = family(device.family).part(name)
     if part is None:
         message = f"frames of the family {device.family} are not known here"
@@ -26,19 +26,19 @@ def part_of(device: Device, name: str) -> Any:
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
     """The frames that write a raw number. Raises RefusedError, UnclearError."""
-    sent: BuiltFrames = part_of(device, "sending").frames_for(device, point, raw, settings, options)
+    sent: BuiltFrames = part_of(device, "frame_builder").frames_for(device, point, raw, settings, options)
     return sent
 
 
 def read_text(device: Device, point: Point) -> str:
     """How the point is read, with an example; empty if it cannot be read."""
-    part = family(device.family).part("explaining")
+    part = family(device.family).part("frame_builder")
     return str(part.read_text(device, point)) if part and point.readable and point.addresses else ""
 
 
 def write_text(device: Device, point: Point) -> str:
     """How the point is written, with an example; empty if it cannot be written."""
-    part = family(device.family).part("explaining")
+    part = family(device.family).part("frame_builder")
     way: WriteMethod | None = part.way_to_write(device, point) if part and point.writable and point.addresses else None
     if way is None:
         return ""

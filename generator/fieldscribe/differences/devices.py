@@ -162,7 +162,7 @@ _SECTIONS = {"functions": "function", "exceptions": "exception", "responses": "r
 @cache
 def table_of(family_name: str) -> Table:
     """The facts of a device of that family, those that only its family has among them."""
-    part = family(family_name).part("export")
+    part = family(family_name).part("bus_facts")
     limits: dict[str, str] = getattr(part, "LIMIT_CLASSES", {})
     frame: dict[str, str] = getattr(part, "FRAME_CLASSES", {})
     emitted = {codes.section for codes in family(family_name).codes if codes.emitted}

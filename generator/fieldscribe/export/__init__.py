@@ -30,7 +30,7 @@ def export_model(device: Device) -> dict[str, object]:
     """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`."""
     by_name: PointsByName = {name: point for point in device.points for name in (point.item, point.name)}
     directions = {telegram.name: telegram.direction for telegram in device.telegrams}
-    tasks = getattr(family(device.family).part("export"), "tasks", None)
+    tasks = getattr(family(device.family).part("bus_facts"), "tasks", None)
     return {
         "format": FORMAT,
         "device": device.id,
@@ -60,7 +60,7 @@ def export_form(form: str, device: Device, unit: int | None) -> bytes:
     if form not in own_family.exports:
         takers = " and ".join(family.name for family in families() if form in family.exports)
         raise ExportError(f"a {form.upper()} is for {takers} devices, {device.id} is a {device.family} device")
-    exported: bytes = own_family.part("export").export(form, device, unit)
+    exported: bytes = own_family.part("bus_facts").export(form, device, unit)
     return exported
 
 
@@ -103,7 +103,7 @@ def _own_facts(kind: str, own_family: str, thing: object) -> dict[str, object]:
     """What families alone know of a thing; keys of other families stand there empty."""
     facts: dict[str, object] = {}
     for each_family in sorted(families(), key=lambda each_family: each_family.name == own_family):
-        facts_of = getattr(each_family.part("export"), kind, None)
+        facts_of = getattr(each_family.part("bus_facts"), kind, None)
         if facts_of is not None:
             facts |= facts_of(thing if each_family.name == own_family else None)
     return facts

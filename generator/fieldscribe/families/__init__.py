@@ -1,16 +1,35 @@
-"""Bus families: addressing and framing rules that many devices share. Each family is one folder and one line below.
+"""Bus families: addressing and framing rules that many devices share.
 
-The `facts.py` of a folder defines `FAMILY`, a `contract.Family`. No code outside the folders names a family.
+A family is one folder here and one line in `FAMILIES`. No code outside the folder names the family; the stages ask
+`family(name)` for its facts and for the parts of its folder. What a folder holds:
+
+- `__init__.py` defines `FAMILY`, a `Family`, and the numbers of the protocol: functions, spaces, limits.
+- `description.py`: the keys that only this family has (`KEYS`), and the text of a new description.
+- `reading.py`: `READING` turns these keys into facts of the model.
+- `checks.py`: `CHECKS` report what only this family can get wrong; `read` reads a worked example.
+- `frames.py` (USS: `telegrams.py` and `parts.py`) and what stands on it build and parse bytes; pure functions.
+- `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has its sentences.
+- `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
+- `bus_facts.py`: what the documentation and exports say of the bus.
+- `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
+
+To add a function of a bus (Modbus function 17h, a USS task): its number, space and limits go into the tables of
+`__init__.py` (USS: of `parts.py`), its bytes into `frames.py` and the parsers beside it, its name for people into
+`remarks.py`, and its examples into `targets/vectors.py`. The generated code follows from the tables; the runtimes in
+`templates/<target>/runtime` need the bytes once more in their language, and the vectors show when they differ.
+A part that a family does not have is left out; whoever asks for a part says what it must offer.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from fieldscribe.families.contract import Family
+    from collections.abc import Mapping
 
 FAMILIES: dict[str, str] = {
     "modbus": "fieldscribe.families.modbus",
@@ -19,24 +38,124 @@ FAMILIES: dict[str, str] = {
 }
 """The package of each family, by the name of the family."""
 
+_OF_ALL = frozenset(
+    {"units", "exceptions", "timing", "serial", "note", "source", "line", "lines", "words", "gaps", "broadcast"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class BusKeys:
+    """The keys of a family under `bus` (required ones, and those shared with some other families), and its limits.
+
+    `codes` is the range of its numbered codes. `broadcast` is the unit number that addresses all units, if it is fixed.
+    """
+
+    needed: tuple[str, ...] = ()
+    shared: frozenset[str] = frozenset()
+    codes: tuple[int, int] = (0, 255)
+    last_exception: int = 255
+    last_unit: int = 255
+    broadcast: int | None = None
+
+    def __contains__(self, key: object) -> bool:
+        """Return True if the family accepts this key under `bus`; the keys of its own `description` do not count."""
+        return key in self.needed or key in self.shared or key in _OF_ALL
+
+
+@dataclass(frozen=True, slots=True)
+class Codes:
+    """One list of numbered codes: its key under `bus`, the word that errata use for a code, and the word for people."""
+
+    section: str
+    key: str
+    kind: str
+    belongs_to: str | None = None
+    """The section whose codes these codes refer to."""
+    emitted: bool = True
+    """True if generated code defines names for these codes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A command-line option that only this family uses; without a type it is a switch."""
+
+    name: str
+    help: str
+    commands: tuple[str, ...]
+    type: type | None = None
+    metavar: str | None = None
+    choices: tuple[str, ...] | None = None
+
+    @property
+    def flag(self) -> str:
+        """The option as it is typed."""
+        return f"--{self.name.replace('_', '-')}"
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """The facts of a family that every stage may read; whatever needs code is a module of its folder, a part."""
+
+    name: str
+    folder: str
+    """The name of the package."""
+    spaces: Mapping[str, str]
+    """What one address of a space holds: `bit` or `word`."""
+    last_address: int
+    bus: BusKeys
+    framings: tuple[str, ...]
+    """The framings of worked examples, the usual one first."""
+    codes: tuple[Codes, ...] = ()
+    indexed: frozenset[str] = frozenset()
+    """The spaces where an index travels with the address."""
+    words: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+    """The spaces whose numbers travel one at a time, with the most words that a number may have."""
+    frame_keys: tuple[str, ...] = ()
+    """The keys of a worked example that only this family knows."""
+    lays_out_messages: bool = False
+    """True if descriptions lay out the messages of the device byte by byte."""
+    commands_in: str | None = None
+    """The space of commands that do not name one; None where the family has no commands."""
+    writes_elsewhere: bool = False
+    """True if a point may be written at another address than it is read from."""
+    chooses_memory: bool = False
+    """True if a request chooses the memory in which the device keeps the value."""
+    options: tuple[Option, ...] = ()
+    exports: tuple[str, ...] = ()
+    """Forms of export that only this family has."""
+
+    def widest(self, space: str) -> int:
+        """Return the number of bits of the widest number in the space."""
+        return 16 * self.words.get(space, 4)
+
+    def part(self, name: str) -> Any:
+        """Return a module of the folder, imported on first use; None if the family does not have it."""
+        path = f"{self.folder}.{name}"
+        try:
+            return import_module(path)
+        except ModuleNotFoundError as error:
+            if error.name is None or not f"{path}.".startswith(f"{error.name}."):
+                raise
+            return None
+
 
 def family(name: str) -> Family:
-    """The family of that name; its package is imported when it is first asked for."""
-    return _offered(FAMILIES[name])
+    """Return the family of that name; its package is imported on first use."""
+    return _load(FAMILIES[name])
 
 
 def families() -> tuple[Family, ...]:
-    """All families, in the order of the registry."""
+    """Return all families in the order of the registry."""
     return tuple(family(name) for name in FAMILIES)
 
 
 def sections_of_codes() -> dict[str, str]:
-    """The sections of numbered codes under `bus`, by what errata call such a code."""
+    """Return the sections of numbered codes under `bus`, by the word that errata use for such a code."""
     return {codes.key: codes.section for each_family in families() for codes in each_family.codes}
 
 
 @cache
-def _offered(package: str) -> Family:
-    module: Any = import_module(f"{package}.facts")
-    offered: Family = module.FAMILY
-    return offered
+def _load(package: str) -> Family:
+    module: Any = import_module(package)
+    loaded: Family = module.FAMILY
+    return loaded

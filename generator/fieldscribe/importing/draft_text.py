@@ -79,7 +79,7 @@ def _bus(family_name: str, spaces: set[str]) -> list[str]:
     """What the family starts with; one that has nothing to start with is left to `check`."""
     from fieldscribe.families import family
 
-    bus_of = getattr(family(family_name).part("starting"), "bus_of", None)
+    bus_of = getattr(family(family_name).part("description"), "bus_of", None)
     return list(bus_of(spaces)) if bus_of is not None else ["units: 1..31"]
 
 

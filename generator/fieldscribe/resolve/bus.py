@@ -18,7 +18,7 @@ from fieldscribe.resolve.values import integer, interval
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.families.contract import BusKeys, Family
+    from fieldscribe.families import BusKeys, Family
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
 _LAST_UNIT = 255

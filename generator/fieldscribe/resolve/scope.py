@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.families.contract import Family
+    from fieldscribe.families import Family
     from fieldscribe.language.files import Files
     from fieldscribe.resolve.drafts import Draft
 

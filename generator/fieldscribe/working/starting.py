@@ -70,7 +70,7 @@ class NotStartedError(Exception):
 
 def startable() -> dict[str, str]:
     """The families that a description can start with, each with what it serves."""
-    parts = {name: family(name).part("starting") for name in FAMILIES}
+    parts = {name: family(name).part("description") for name in FAMILIES}
     return {name: part.SERVES for name, part in parts.items() if part is not None}
 
 
@@ -152,6 +152,6 @@ def is_schema(place: Path) -> bool:
 
 def _texts(answers: Mapping[str, str]) -> dict[str, str]:
     """The files of the description by name, without their first lines."""
-    family_says = family(answers["family"]).part("starting")
+    family_says = family(answers["family"]).part("description")
     head = _HEAD.format_map({name: as_yaml(answer) for name, answer in answers.items()})
     return {DEVICE_FILE: head + family_says.DEVICE, "main.yaml": family_says.GROUP}

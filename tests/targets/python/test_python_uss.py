@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Fixed, Variant
 from support.python_families import AsyncUssDrive, UssDrive, uss_device, word
 from support.python_package import error, imported, typed_findings, write_package

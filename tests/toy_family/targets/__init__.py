@@ -1,1 +1,1 @@
-"""What targets know of bells: the documentation and the vectors do."""
+"""What targets know of bells: only the vectors do."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors.bus import add_limits
 
-from toy_family.facts import of_bus
+from toy_family import of_bus
 from toy_family.frames import strike
 
 if TYPE_CHECKING:

@@ -1,1 +1,64 @@
 """The CAN family: a maker's own messages, laid out byte by byte in the description, and multiplexed telegrams."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families import BusKeys, Codes, Family, Option
+from fieldscribe.model import Own
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus, Frame
+
+
+USUAL_BITS = 11
+"""The bits of an identifier where the description does not give them."""
+
+FAMILY = Family(
+    name="can",
+    folder=__package__,
+    spaces={"parameter": "word", "telegram": "word"},
+    last_address=0xFFFF,
+    bus=BusKeys((), frozenset({"bitrate"}), (0, 0)),
+    framings=("can",),
+    codes=(Codes("exceptions", "exception", "exception"),),
+    words={"parameter": 1},
+    frame_keys=("can_id",),
+    lays_out_messages=True,
+    options=(
+        Option("can_id", "the identifier of frames without one, in hexadecimal", ("decode",), str, "ID"),
+        Option("with_word", "the word that a bit group is put into, as in 1234h", ("encode",), str, "WORD"),
+    ),
+    exports=("dbc",),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CanBus(Own):
+    """The speed of the bus and the bits of its identifiers; None where the description does not give them."""
+
+    bitrate: int | None = None
+    identifier_bits: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CanExample(Own):
+    """The identifier of a worked example; None after a finding."""
+
+    identifier: int | None = None
+
+
+def of_bus(bus: Bus) -> CanBus:
+    """What the family alone knows of a bus."""
+    return bus.own if isinstance(bus.own, CanBus) else CanBus()
+
+
+def identifier_bits(bus: Bus) -> int:
+    """How many bits an identifier has."""
+    return of_bus(bus).identifier_bits or USUAL_BITS
+
+
+def identifier_of(frame: Frame) -> int | None:
+    """The identifier of a worked example."""
+    return frame.own.identifier if isinstance(frame.own, CanExample) else None

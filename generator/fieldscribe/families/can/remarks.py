@@ -13,8 +13,8 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from fieldscribe.families.can.frame_decoder import Asked, Head
     from fieldscribe.families.can.notation import Pasted
-    from fieldscribe.families.can.recognition import Asked, Head
     from fieldscribe.model import Bus, Device, Message, Telegram
 
 DAMAGED = "its words are not read, for the frame is damaged"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.modbus.functions import PROTOCOL_MOST, READ_BITS, READS, SINGLE
+from fieldscribe.families.modbus import PROTOCOL_MOST, READ_BITS, READS, SINGLE
 
 LEAST = {"rtu": 4, "tcp": 8}
 

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.blocks import plan_blocks
-from fieldscribe.families.modbus.facts import ModbusBus
-from fieldscribe.families.modbus.functions import BROADCAST, PROTOCOL_MOST, SPACES
+from fieldscribe.families.modbus import BROADCAST, PROTOCOL_MOST, SPACES, ModbusBus, profile_of
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import Block, Variant
 from fieldscribe.resolve.families import Reading
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Block, Bus, Code, Point
+    from fieldscribe.model import Bus, Code, Point
     from fieldscribe.resolve.scope import Scope
 
 
@@ -65,3 +66,103 @@ def _places(node: Map, key: str) -> Mapping[str, Span]:
 
 
 READING = ModbusReading()
+
+
+_Stand = tuple[str, str, tuple[int, ...]]
+"""The name of a point, its space, and the addresses where it is read."""
+
+
+@dataclass(slots=True)
+class _Lane:
+    """What one function reads in one space: `spans` of points (low, end, name), and `crossable` addresses.
+
+    A block may cross an address if every device has a readable point there.
+    """
+
+    spans: list[tuple[int, int, str]] = field(default_factory=list)
+    crossable: set[int] = field(default_factory=set)
+
+
+def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
+    """The reads that fetch all generated readable points, ordered by space, then by address.
+
+    A block covers only addresses with a readable point (also a reserved one) and none of the gaps of the bus. It holds
+    whole points, and at most as many items as the device allows. A point that some devices lack (by a condition, a
+    firmware or a variant) has a block of its own, for a device refuses a whole read if one address is missing. A point
+    that no single read can fetch (no allowed function, too many words, words that are not neighbours) is in no block.
+    """
+    most = profile_of(bus).most
+    blocks: list[Block] = []
+    for (space, function), lane in _lanes(points, variants).items():
+        if function in most:
+            blocks.extend(_blocks_of_lane(space, function, lane, bus.gaps.get(space, ()), most[function]))
+    order = {space: index for index, space in enumerate(SPACES)}
+    blocks.sort(key=lambda block: (order[block.space], block.address, block.function))
+    return tuple(blocks)
+
+
+def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[tuple[str, int], _Lane]:
+    lanes: defaultdict[tuple[str, int], _Lane] = defaultdict(_Lane)
+    values = _variants_with_place(points)
+    for point in points:
+        addresses, space = point.place.addresses, point.terms.space
+        if not point.shape.readable or not addresses or space not in SPACES:
+            continue
+        lane = lanes[space, SPACES[space].read]
+        if _always_there(point, values, variants):
+            lane.crossable.update(addresses)
+        low, end = min(addresses), max(addresses) + 1
+        if point.generated and end - low == len(addresses):
+            lane.spans.append((low, end, point.name))
+    return lanes
+
+
+def _variants_with_place(points: Iterable[Point]) -> dict[_Stand, set[Variant]]:
+    """The variants that have a readable point of this name in this space at these addresses."""
+    variants: dict[_Stand, set[Variant]] = {}
+    for point in points:
+        if point.variant is not None and point.readable:
+            variants.setdefault(_stand(point), set()).add(point.variant)
+    return variants
+
+
+def _stand(point: Point) -> _Stand:
+    return point.name, point.space, point.addresses
+
+
+def _always_there(point: Point, values: Mapping[_Stand, set[Variant]], variants: Mapping[str, tuple[str, ...]]) -> bool:
+    """Whether every device has this point at the place that it is read from."""
+    terms = point.terms
+    if terms.when is not None or terms.since is not None or terms.until is not None:
+        return False
+    if point.variant is None:
+        return True
+    axis = point.variant.axis
+    return {Variant(axis, value) for value in variants.get(axis, ())} <= values[_stand(point)]
+
+
+def _blocks_of_lane(
+    space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ...], most: int
+) -> Iterable[Block]:
+    """The blocks of a lane: its spans, joined as far as holes, gaps and the largest count allow."""
+    crossable = lane.crossable
+    for low, high in gaps:
+        crossable = {address for address in crossable if not low <= address <= high}
+    begin = end = 0
+    names: dict[str, None] = {}
+    alone: dict[tuple[int, int], dict[str, None]] = {}
+    for low, stop, name in sorted(span for span in lane.spans if span[1] - span[0] <= most):
+        if not lane.crossable.issuperset(range(low, stop)):
+            alone.setdefault((low, stop), {})[name] = None
+            continue
+        joins = stop - begin <= most and crossable.issuperset(range(end, stop))
+        if names and not joins:
+            yield Block(space, function, begin, end - begin, tuple(names))
+        if not names or not joins:
+            begin, end, names = low, stop, {}
+        end = max(end, stop)
+        names[name] = None
+    if names:
+        yield Block(space, function, begin, end - begin, tuple(names))
+    for (low, stop), own in alone.items():
+        yield Block(space, function, low, stop - low, tuple(own))

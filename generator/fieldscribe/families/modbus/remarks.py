@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.facts import FAMILY
-from fieldscribe.families.modbus.functions import BROADCAST, READS, SPACE_OF, profile_of
+from fieldscribe.families.modbus import BROADCAST, FAMILY, READS, SPACE_OF, profile_of
 from fieldscribe.text import line
 from fieldscribe.wording.buses import (
     check_text,
@@ -22,9 +21,9 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from fieldscribe.families.modbus import Profile
+    from fieldscribe.families.modbus.exchange import Request
     from fieldscribe.families.modbus.frames import Flaw, Unwrapped
-    from fieldscribe.families.modbus.functions import Profile
-    from fieldscribe.families.modbus.requests import Request
     from fieldscribe.model import Device
 
 _FUNCTIONS: Mapping[int, str] = {

@@ -1,1 +1,82 @@
 """The USS family: telegrams with a parameter part (PKW) and process data (PZD)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families import BusKeys, Codes, Family, Option
+from fieldscribe.model import Own
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus, Code, Frame, Variant
+
+
+_BOTH = ("decode", "encode")
+
+FAMILY = Family(
+    name="uss",
+    folder=__package__,
+    spaces={"parameter": "word", "telegram": "word"},
+    last_address=31999,
+    bus=BusKeys(("pkw", "pzd", "functions", "responses"), frozenset({"bitrate"}), (0, 15), last_unit=31, broadcast=32),
+    framings=("uss", "pkw", "pzd", "broadcast"),
+    codes=(
+        Codes("functions", "function", "task", "responses"),
+        Codes("responses", "response", "response", "functions"),
+        Codes("exceptions", "exception", "error", "functions"),
+    ),
+    indexed=frozenset({"parameter"}),
+    words={"parameter": 2},
+    frame_keys=("pkw",),
+    chooses_memory=True,
+    options=(
+        Option("pkw", "words of the parameter part (P2013; default: 127)", _BOTH, int, "N"),
+        Option("pzd", "words of process data (P2012; default: 2)", _BOTH, int, "N"),
+        Option(
+            "single_first",
+            "single words stand in the first value word although --pkw is 4 (some firmware)",
+            _BOTH,
+        ),
+        Option(
+            "direction",
+            "what frames are (default: an answer follows a request to the same unit)",
+            ("decode",),
+            str,
+            choices=("request", "response"),
+        ),
+        Option("keep", "write to the EEPROM, not to the RAM alone", ("encode",)),
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class UssBus(Own):
+    """The response ids, and the lengths that the parts of a telegram may have.
+
+    `pkw` are the lengths in words that the parameter part may have (127 is variable), `pzd` how many words of process
+    data there may be; `variant_pzd` has variants that take at most so many.
+    """
+
+    responses: tuple[Code, ...] = ()
+    pkw: tuple[int, ...] = ()
+    pzd: tuple[int, int] = (0, 0)
+    variant_pzd: tuple[tuple[Variant, int], ...] = ()
+    bitrate: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class UssFrame(Own):
+    """`pkw`: the words of the parameter part, as set for the link (127 is variable); None without such a part."""
+
+    pkw: int | None = None
+
+
+def of_bus(bus: Bus) -> UssBus:
+    """What the family alone knows of a bus."""
+    return bus.own if isinstance(bus.own, UssBus) else UssBus()
+
+
+def of_frame(frame: Frame) -> UssFrame:
+    """What the family alone knows of a worked example."""
+    return frame.own if isinstance(frame.own, UssFrame) else UssFrame()

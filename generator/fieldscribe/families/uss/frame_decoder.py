@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, Element, FrameDecoder, Masks, ProcessData
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.families.uss import remarks
-from fieldscribe.families.uss.facts import of_bus
-from fieldscribe.families.uss.links import asked as said_of
-from fieldscribe.families.uss.links import link_of
+from fieldscribe.families.uss import of_bus, remarks
 from fieldscribe.families.uss.parts import (
     MASKS,
     NO_RIGHTS,
@@ -19,9 +16,11 @@ from fieldscribe.families.uss.parts import (
     SIZE,
     Link,
     Part,
+    link_of,
     part_of,
     split,
 )
+from fieldscribe.families.uss.parts import asked as said_of
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.wording.buses import element_text, no_answer_text

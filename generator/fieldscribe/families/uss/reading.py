@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.uss.facts import UssBus, UssFrame, of_bus
+from fieldscribe.families.uss import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.parts import VARIABLE
 from fieldscribe.model import Variant
 from fieldscribe.resolve.bus import codes_under, ends_of

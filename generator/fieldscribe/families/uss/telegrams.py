@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.decoded_frame import cut_apart
-from fieldscribe.families.uss.facts import FAMILY, of_bus
+from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import (
     DOUBLE_RESPONSES,
     MASKS,

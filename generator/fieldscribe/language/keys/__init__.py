@@ -1,7 +1,7 @@
 """The one table of keys; JSON Schema, KEYS.md, the checks of files and all lists of keys come from it.
 
-A new key is one `Key` in one of the modules here, or in the part `keys` of a family that alone has it. What it is
-written in stands in `fieldscribe/kinds.py`.
+A new key is one `Key` in one of the modules here, or in the part `description` of a family that alone has it. What it
+is written in stands in `fieldscribe/kinds.py`.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from fieldscribe.kinds import Items, Place
 from fieldscribe.language.keys import bus, files, frames, meaning, points, within
 
 if TYPE_CHECKING:
-    from fieldscribe.families.contract import Family
+    from fieldscribe.families import Family
     from fieldscribe.kinds import Key
 
 
 def keys_of_family(bus_family: Family) -> tuple[Key, ...]:
     """The keys that only this family has."""
-    part = bus_family.part("keys")
+    part = bus_family.part("description")
     return () if part is None else tuple(part.KEYS)
 
 

@@ -56,12 +56,12 @@ def bus_view(device: Device) -> BusView:
 
 def part_of(device: Device) -> OfFamily:
     """What the family of a device says of itself in the documentation."""
-    part: OfFamily = family(device.family).part("targets.docs") or OfFamily()
+    part: OfFamily = family(device.family).part("bus_facts") or OfFamily()
     return part
 
 
 class OfFamily:
-    """The part `targets.docs` of a family. These are the defaults."""
+    """The part `bus_facts` of a family. These are the defaults."""
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
         """Facts about the line, with their labels."""

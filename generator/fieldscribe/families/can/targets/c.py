@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of

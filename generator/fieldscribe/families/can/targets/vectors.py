@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.facts import identifier_bits, of_bus
+from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import CanFrame, build, checksum, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.targets.vectors.bus import add_limits

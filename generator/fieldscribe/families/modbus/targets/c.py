@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.facts import of_bus
-from fieldscribe.families.modbus.functions import framings_of
+from fieldscribe.families.modbus import framings_of, of_bus
 from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.facts import of_bus
-from fieldscribe.families.modbus.functions import BROADCAST, FRAMINGS, profile_of
+from fieldscribe.families.modbus import BROADCAST, FRAMINGS, of_bus, profile_of
 from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string

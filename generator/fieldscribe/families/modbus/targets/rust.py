@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus.facts import of_bus
-from fieldscribe.families.modbus.functions import framings_of
+from fieldscribe.families.modbus import framings_of, of_bus
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import OfFamily
 from fieldscribe.targets.rust.families.numbers import code_names

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, Profile, profile_of
+from fieldscribe.families.modbus.exchange import Reply, Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
-from fieldscribe.families.modbus.functions import FRAMINGS, FUNCTIONS, Profile, profile_of
-from fieldscribe.families.modbus.replies import Reply, parse_reply
-from fieldscribe.families.modbus.requests import Request, build, parse_request
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
 from fieldscribe.targets.vectors.exchanges import codes, writing_addresses
 

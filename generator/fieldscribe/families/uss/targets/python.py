@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.families.uss import of_bus
 from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, no_blocks, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.facts import of_bus
+from fieldscribe.families.uss import of_bus
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance_rows import change_of, of_all, of_scale
 from fieldscribe.targets.rust.families import OfFamily

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.facts import of_bus, of_frame
+from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.families.uss.parts import DOUBLE_RESPONSES, VARIABLE, Link, parameter_words
 from fieldscribe.families.uss.telegrams import LAST_PARAMETER, START, Request, broadcast, build, parse, telegram
 from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits

@@ -1,0 +1,74 @@
+"""The keys that only this family has."""
+
+from __future__ import annotations
+
+from fieldscribe.kinds import Key, Shape, Text, Whole, by
+from fieldscribe.language.keys import forms
+from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
+from fieldscribe.language.keys.shapes import DIRECTION, NAMED
+
+KEYS = (
+    Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),
+    Key(
+        "direction",
+        MESSAGE,
+        "Who sends it: the master (request), the device when asked (response), the device by itself (cyclic).",
+        ["request"],
+        DIRECTION,
+        required=True,
+    ),
+    Key("answers", MESSAGE, "The message that this one answers.", ["read_request"], NAMED),
+    Key(
+        "can_id",
+        MESSAGE,
+        "The identifier: a number, or a number `+ unit`.",
+        ["33Fh", "320h + unit"],
+        Whole(),
+        Text(80),
+        required=True,
+    ),
+    Key(
+        "layout",
+        MESSAGE,
+        "What the bytes hold, by number: a constant, `unit`, `address`, `raw`, `multiplexer`, `telegram`, or "
+        "`xor 0..5`, the high byte first.",
+        [{"0": "FFh", "1": "unit", "2..3": "address", "4..5": "raw", "6..7": "xor 0..5"}],
+        by(forms.BITS, Shape("What these bytes hold.", ["FFh", "xor 0..5"], Whole(), Text(40)), least=1),
+        required=True,
+    ),
+    Key("can_id", FRAME, "CAN: the identifier of the frame.", ["33Fh"], Whole(), Text(40)),
+)
+
+
+SERVES = "a maker's own messages on CAN, laid out byte by byte"
+DEVICE = """\
+bus: {bitrate: 125000, identifier_bits: 11, units: 0..30}
+messages:
+- name: read_request
+  direction: request               # request (by the master), response, cyclic (by the device)
+  can_id: 33Fh
+  layout: {0: FFh, 1: unit, 2..3: address, 4..5: 0, 6..7: xor 0..5}
+- name: read_answer
+  direction: response
+  answers: read_request
+  can_id: 320h + unit
+  layout: {0: FFh, 1: unit, 2..3: address, 4..5: raw, 6..7: xor 0..5}
+frames:                            # frames that the manual prints: each is held against the messages and points
+- {name: read_first, direction: request, can_id: 33Fh, bytes: FF 05 00 01 00 00 FF 04}
+- {name: read_first_answer, direction: response, can_id: 325h, answers: read_first,
+   bytes: FF 05 00 01 01 F4 FE F0, says: {first_value: 50.0}}
+"""
+GROUP = """\
+group: main
+title: {en: Main}
+space: parameter                   # parameter, or telegram for the words of a cyclic message
+access: r                          # r, w, rw, none; a point may say otherwise
+source: {document: manual, section: "1"}
+points:
+- name: first_value                # replace it by the manual's first parameter
+  title: {en: First value}
+  at: 1                            # the id of the parameter
+  range: 0..1000                   # raw, as it travels
+  scale: value = raw * 0.1
+  unit: "%"
+"""
