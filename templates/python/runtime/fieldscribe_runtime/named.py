@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""Numbers that a manual names, and all others beside them: the enums of generated devices."""
+"""The enums of generated devices: they name the numbers that a manual names, and hold any other number too."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 class NamedNumber(enum.IntEnum):
-    """An enum that is open: `RunSource(77)` is a `RunSource` too, though no manual names it.
+    """An open enum: `RunSource(77)` is a `RunSource` even if the manual does not name 77.
 
-    So what a device sends keeps its type and its number. It compares and hashes as that number.
+    What a device sends keeps its type and its number. A member compares and hashes as its number.
     """
 
     @classmethod
     def _missing_(cls, value: object) -> Self | None:
-        """A member for a number without a name; it is in no list of members."""
+        """Return a member for a number without a name; iterating over the enum does not yield it."""
         if not isinstance(value, int):
             return None
         member = int.__new__(cls, value)
@@ -27,9 +27,13 @@ class NamedNumber(enum.IntEnum):
         member._value_ = int(value)
         return member
 
+    def __reduce_ex__(self, protocol: object) -> tuple[type[Self], tuple[int]]:
+        """Copy and pickle by number: Python 3.11.2 does it by name, and a number without a name has none."""
+        return type(self), (int(self),)
+
     @property
     def is_named(self) -> bool:
-        """Whether the manual names this number."""
+        """True if the manual names this number."""
         return self._name_ in type(self).__members__
 
     def __repr__(self) -> str:
@@ -43,7 +47,7 @@ class NamedNumber(enum.IntEnum):
 
 
 def renamed_classes(module: str, **classes: type) -> Callable[[str], Any]:
-    """What a module does for a name that it lacks: the classes by their old names, with a warning."""
+    """Return a module's `__getattr__` that finds renamed classes by their old names, with a DeprecationWarning."""
 
     def renamed_class(name: str) -> Any:
         if name not in classes:
