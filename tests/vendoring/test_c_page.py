@@ -19,7 +19,7 @@ from support.toolchains import succeed, tool
 if TYPE_CHECKING:
     from pathlib import Path
 
-PAGE = ROOT / "descriptions/using/c.md"
+PAGES = ("c", "c-points", "c-uss-can")
 BOARD = ROOT / "tests/firmware"
 MANUAL = ROOT / "descriptions/hitachi_l200/bus.yaml"
 LINES = 35
@@ -48,7 +48,7 @@ class Page(NamedTuple):
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Page:
     folder = tmp_path_factory.mktemp("page")
-    text = PAGE.read_text("utf-8")
+    text = "\n".join((ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in PAGES)
     before = os.getcwd()
     os.chdir(folder)
     try:

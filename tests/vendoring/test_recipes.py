@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-PAGE = ROOT / "descriptions/using/c.md"
+PAGE = ROOT / "descriptions/using/c-builds.md"
 BLOCK = re.compile(
     r"`([\w./]+)`[^\n]*:\n\n```(?:make|cmake|meson|ini|python|yaml|kconfig)\n(.*?)^```$", re.MULTILINE | re.DOTALL
 )

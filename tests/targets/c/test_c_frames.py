@@ -1238,30 +1238,3 @@ def test_the_drive_is_small() -> None:
         header = next(text for path, text in outputs if path.endswith((f"{name}_modbus.h", "_can.h")))
         assert header.count("\n") <= lines
         assert len(header.encode()) <= size
-
-
-README_USE = """
-uint16_t words[2];
-fieldscribe_modbus_request request;
-fieldscribe_modbus_status status;
-fieldscribe_modbus_line line;
-uint32_t raw;
-bool fits;
-int use(void);
-int use(void)
-{
-@CALLS@
-    return (status == FIELDSCRIBE_MODBUS_OK && fits) ? 0 : 1;
-}
-"""
-
-
-def test_the_frames_of_the_readme_compile(tmp_path: Path) -> None:
-    readme = (ROOT / "README.md").read_text("utf-8")
-    [calls] = re.findall(r'```c\n#define FIELDSCRIBE_IMPLEMENTATION.*\n#include "(?s:.*?)\n\n(?s:(.*?))```', readme)
-    device = shipped("hitachi_l200")
-    write_headers(device, tmp_path)
-    calls = calls.replace("uint16_t words[2];\n", "")
-    head = '#define FIELDSCRIBE_IMPLEMENTATION\n#include "hitachi_l200_modbus.h"\n'
-    (tmp_path / "use.c").write_text(head + README_USE.replace("@CALLS@", calls), "utf-8")
-    succeed([tool("gcc"), "-std=c99", *WARNINGS, f"-I{tmp_path / 'c'}", "-c", "-o", tmp_path / "o", tmp_path / "use.c"])

@@ -18,7 +18,9 @@ from support.python_package import imported
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-PAGE = (ROOT / "descriptions/using/python.md").read_text("utf-8")
+PAGE = "\n".join(
+    (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("python", "python-transports")
+)
 GENERATED = ROOT / "generated/python"
 
 
@@ -55,7 +57,7 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str]) -> None:
     stop.set()
     speaker.join(2)
     far.shutdown()
-    first, watch, client, gateway, _, many, rest, raw, failing, uss_block, bus = printed
+    first, many, rest, raw, failing, watch, client, gateway, _, uss_block, bus = printed
     assert first == ["0.1 Hz"]
     assert watch == client == gateway == ["0.1"]
     assert [line[0] for line in many] == ["{", "{"]

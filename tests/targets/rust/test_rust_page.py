@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-PAGE = (ROOT / "descriptions/using/rust.md").read_text("utf-8")
+PAGE = "\n".join(
+    (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("rust", "rust-transports", "rust-builds")
+)
 BLOCK = re.compile(r"(?:`(?P<name>[\w./]+)`:\n\n)?^```(?P<kind>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 BLOCKS = {
     kind: [match for match in BLOCK.finditer(PAGE) if match["kind"] == kind and not match["name"]]
@@ -159,7 +161,7 @@ def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyP
             with serial_line(rtu) as path:  # programs keep a port to themselves
                 monkeypatch.setenv("TTY", path)
                 printed.append(succeed([place]).splitlines())
-    first, serial, gateway, shared, own, tokio, anew, many, values, by_address, by_name, failing, uart, genset = printed
+    first, serial, many, values, by_address, by_name, failing, gateway, shared, own, tokio, anew, uart, genset = printed
     assert first == serial == anew == ["0.1 Hz"]
     assert shared == ["0.1", "0.1"]
     assert gateway == tokio == ["0.1"]
