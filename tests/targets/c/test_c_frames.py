@@ -14,7 +14,6 @@ from support import wrong_bytes
 from support.c_device import SANITIZERS, SANITIZING, STANDARDS, WARNINGS, driver, write_headers
 from support.described import made, shipped
 from support.models import changed
-from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:

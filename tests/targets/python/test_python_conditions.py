@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -103,7 +104,8 @@ def test_a_condition_may_name_two_axes(tmp_path: Path) -> None:
     for package in imported(write_package(for_code(device), tmp_path / "package"), "two_axes"):
         slave = Slave()
         assert package.TwoAxes(slave, 1, model="a", link_="t").both.read() == 0
-        assert "exists only for model a" in str(error(lambda: package.TwoAxes(slave, 1, model="b").both))
+        other = package.TwoAxes(slave, 1, model="b")
+        assert "exists only for model a" in str(error(partial(getattr, other, "both")))
         package.TwoAxes(slave, 1, model="a").read_many("main")
         assert slave.log == [(3, 2, 1), (3, 1, 1), (3, 2, 1), (3, 3, 1)]
 
