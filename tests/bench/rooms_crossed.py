@@ -4,8 +4,8 @@
 
 The device has one point, as A020 (`base_frequency`) of the L200 is described. Its address and the number in its scale
 occur nowhere else. The compiler runs under `sys.setprofile` until the header is rendered. A call belongs to the way of
-a fact if the number is in one of its arguments or in its result: as an integer, a fraction or a text, or in a value of at
-most FIELDS parts (a tuple, list or record). Larger objects carry many facts and are not followed.
+a fact if the number is in one of its arguments or in its result: as an integer, a fraction or a text, or in a value of
+at most FIELDS parts (a tuple, list or record). Larger objects carry many facts and are not followed.
 
 A room is the first folder below `fieldscribe/`; the modules that lie directly in `fieldscribe/` are one room together.
 The script prints the rooms in the order of the calls, equal neighbours once, and the number of changes; `--calls` also
