@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import UnclearError
 from fieldscribe.text import line
+from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

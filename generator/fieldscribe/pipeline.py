@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.reading import shown_path
+from fieldscribe.safe_files import shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from fieldscribe.language.files import Files
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device
-    from fieldscribe.reading import Inputs
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.subject import Subject
+    from fieldscribe.safe_files import Inputs
     from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"

@@ -12,7 +12,6 @@ import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.rounding import half_away
-from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.conversation.refusals import amount
@@ -20,6 +19,7 @@ from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings, read_value
 from fieldscribe.model import Special
 from fieldscribe.pasted_numbers import HexError, parse_hex
+from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import (

@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
@@ -20,6 +19,7 @@ from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.model import Role
+from fieldscribe.user_errors import Options, RefusedError, UnclearError
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st

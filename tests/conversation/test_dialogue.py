@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.listener import Listener
 from fieldscribe.conversation.requests import read_text
 from fieldscribe.families.frame_results import refused
@@ -17,6 +16,7 @@ from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.model import Code, Place
 from fieldscribe.pasted_numbers import typed_bytes
+from fieldscribe.user_errors import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import changed, named, sample_device, titles

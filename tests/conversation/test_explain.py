@@ -6,11 +6,11 @@ import json
 from dataclasses import replace
 
 import pytest
-from fieldscribe.asked import quoted
 from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.pasted_numbers import number_of
+from fieldscribe.user_errors import quoted
 from support.models import changed, named, point, sample_device
 
 DEVICE = sample_device()

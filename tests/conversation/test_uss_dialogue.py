@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.explain_other_items import explain_others
 from fieldscribe.conversation.explanation import explain_point
@@ -20,6 +19,7 @@ from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.telegrams import Request, parse, telegram
+from fieldscribe.user_errors import Options, RefusedError, UnclearError
 from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st

@@ -6,7 +6,6 @@ import re
 from typing import Any
 
 import pytest
-from fieldscribe.asked import Options
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.listener import decode
 from fieldscribe.conversation.lookup import find
@@ -16,6 +15,7 @@ from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust
+from fieldscribe.user_errors import Options
 from support.described import kitchen_sink
 from support.models import named
 

@@ -15,7 +15,7 @@ from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.depfile import write_depfile
 from fieldscribe.pipeline import find_devices
-from fieldscribe.reading import UnfitFileError
+from fieldscribe.safe_files import UnfitFileError
 from support.places import ROOT
 from support.strange_files import KINDS, put
 from support.toolchains import succeed, tool

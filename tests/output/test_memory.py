@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.output.cache import cache_dir
-from fieldscribe.reading import state_of
+from fieldscribe.safe_files import state_of
 from support.places import TESTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 DEVICES = TESTS / "devices"
 COMMAND = ["generate", "device", "--out", "made", "--target", "c,docs"]

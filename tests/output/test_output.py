@@ -12,7 +12,7 @@ from fieldscribe.output.manifests import Manifests
 from fieldscribe.output.plan import Plan, changed_since, plan_of
 from fieldscribe.output.spool import Spool, kept
 from fieldscribe.output.writing import carry_out
-from fieldscribe.reading import state_of
+from fieldscribe.safe_files import state_of
 from support.strange_files import KINDS, put
 
 if TYPE_CHECKING:

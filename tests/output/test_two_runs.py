@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
-from fieldscribe.reading import UnfitFileError
+from fieldscribe.safe_files import UnfitFileError
 from support.places import TESTS
 
 if TYPE_CHECKING:

@@ -24,7 +24,8 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        "__init__ asked pasted_numbers text names patterns diagnostics kinds reading records report resources render",
+        """__init__ user_errors pasted_numbers text names patterns
+        diagnostics schema_types safe_files report resources render""",
     ),
     ("the neutral model", "existence model plain"),
     ("exact arithmetic", "arithmetic"),

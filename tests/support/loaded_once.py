@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.model import Device
-    from fieldscribe.reading import Inputs
+    from fieldscribe.safe_files import Inputs
 
 _load = pipeline.load_device
 

@@ -9,11 +9,11 @@ from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.asked import UnclearError
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.manifests import VENDORED, carries_head
 from fieldscribe.pipeline import load_device
+from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.choosing import chosen
 from fieldscribe.vendoring.files import LANGUAGES, LICENCE, Wish, files_of
 from support.c_device import WARNINGS

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.kinds import NUMBERS, WHOLE_NUMBERS
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
+from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
 
 if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft

@@ -114,7 +114,7 @@ def _dispatch(argv: list[str]) -> int:
 
 def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:
     """The message for words that mean nothing, with options that are near them."""
-    from fieldscribe.asked import did_you_mean
+    from fieldscribe.user_errors import did_you_mean
 
     options = [name for action in parser._actions for name in action.option_strings]  # argparse tells them nowhere else
     message = f"unrecognized arguments: {' '.join(unknown)}"

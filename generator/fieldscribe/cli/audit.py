@@ -120,7 +120,7 @@ def _keep(arguments: Namespace) -> None:
     from fieldscribe.cli.common import StopError
     from fieldscribe.cli.fingerprints import keeping, place_of
     from fieldscribe.cli.rewriting import rewrite
-    from fieldscribe.reading import shown_path
+    from fieldscribe.safe_files import shown_path
 
     subject = opened(arguments)
     path, document = manual_of(subject, arguments.manual)
@@ -154,7 +154,7 @@ def text_of(path: Path) -> tuple[str, str, str]:
     from hashlib import sha256
 
     from fieldscribe.cli.common import StopError
-    from fieldscribe.reading import read_regular
+    from fieldscribe.safe_files import read_regular
 
     data = read_regular(path, _MOST_BYTES).data
     try:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
-    from fieldscribe.reading import Inputs
     from fieldscribe.report import ReadLines
+    from fieldscribe.safe_files import Inputs
 
 HERE, LOCAL = Path(), Path("descriptions")
 """Where the device of an id is looked for first: what is beside the user is never passed over for what is shipped."""
@@ -54,7 +54,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Say that there is no such command; the exit code."""
-    from fieldscribe.asked import quoted
+    from fieldscribe.user_errors import quoted
 
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
@@ -174,10 +174,10 @@ def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
 
     `inputs` remembers the files that were read.
     """
-    from fieldscribe.asked import UnclearError
     from fieldscribe.conversation.selection import choose_variants
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_device
+    from fieldscribe.user_errors import UnclearError
 
     report = Report()
     device = load_device(device_file(arguments), report, inputs)
@@ -261,8 +261,8 @@ def _near(name: str, known: list[str]) -> str:
 def _reader() -> ReadLines:
     """A reader of the files that findings name; it keeps each text."""
     from fieldscribe.language.source import MOST_BYTES
-    from fieldscribe.reading import read_regular
     from fieldscribe.report import split_lines
+    from fieldscribe.safe_files import read_regular
 
     known: dict[str, list[str] | None] = {}
 
@@ -279,8 +279,8 @@ def _reader() -> ReadLines:
 
 def settings_of(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
     """The settings of other points that `--with` gives. Raises StopError."""
-    from fieldscribe.asked import RefusedError, UnclearError
     from fieldscribe.conversation.typed_values import read_settings
+    from fieldscribe.user_errors import RefusedError, UnclearError
 
     try:
         return read_settings(device, pairs)

@@ -9,10 +9,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from typing import IO
 
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli.heard import Shown
     from fieldscribe.conversation.listener import Listener
     from fieldscribe.families.frame_results import FrameResult
+    from fieldscribe.user_errors import UnclearError
 
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
@@ -73,11 +73,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Decode; the exit code: 1 when there is a fault or a finding."""
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli.common import StopError, open_device, settings_of
     from fieldscribe.cli.heard import shown_as
     from fieldscribe.cli.link import options_of
     from fieldscribe.conversation.listener import Listener, decoder_of
+    from fieldscribe.user_errors import UnclearError
 
     if not arguments.frames and not arguments.log:
         raise StopError("there is nothing to decode", "give frames, - for standard input, or --log FILE")
@@ -140,8 +140,8 @@ class _Telling:
         import gc
         import sys
 
-        from fieldscribe.asked import UnclearError
         from fieldscribe.cli.lines import lines_of
+        from fieldscribe.user_errors import UnclearError
 
         gc.set_threshold(_OBJECTS)
         gc.enable()  # it may last for days

@@ -55,7 +55,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Encode; the exit code: 1 when the value is refused."""
-    from fieldscribe.asked import RefusedError, UnclearError
     from fieldscribe.cli import FINDINGS, FINE, USAGE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
@@ -63,6 +62,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.conversation.options import asks_for_frames
     from fieldscribe.conversation.requests import frames_for
     from fieldscribe.conversation.selection import choose_point
+    from fieldscribe.user_errors import RefusedError, UnclearError
 
     device = open_device(arguments)
     options = options_of(device, arguments)

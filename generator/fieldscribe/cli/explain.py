@@ -45,12 +45,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Explain; the exit code."""
-    from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
     from fieldscribe.conversation.explain_other_items import explain_others
     from fieldscribe.conversation.lookup import near
     from fieldscribe.pasted_numbers import number_of
+    from fieldscribe.user_errors import did_you_mean, quoted
 
     device = open_device(arguments)
     matches = _matches(device, arguments.what)
@@ -73,8 +73,8 @@ def run(arguments: Namespace) -> int:
 
 def _no_unit(symbol: str) -> tuple[str, str]:
     """The message and the hint for a unit that is neither the description's nor a shipped one."""
-    from fieldscribe.asked import quoted
     from fieldscribe.language.units import unit_hint
+    from fieldscribe.user_errors import quoted
 
     return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
 
@@ -111,8 +111,8 @@ def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[
 
 
 def _print(explanations: list[tuple[list[str], Explanation]], what: str) -> None:
-    from fieldscribe.asked import quoted
     from fieldscribe.cli.terminal import print_lines, print_rows
+    from fieldscribe.user_errors import quoted
 
     if len(explanations) > 1:
         print_lines([[("strong", f"`{quoted(what)}` can mean {len(explanations)} things.")], []])

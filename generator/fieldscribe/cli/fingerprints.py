@@ -40,7 +40,7 @@ def _read(place: Path) -> tuple[str | None, Fingerprint | None]:
     from fieldscribe.audit.layout import Fingerprint, FingerprintError
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import StopError
-    from fieldscribe.reading import read_regular, shown_path
+    from fieldscribe.safe_files import read_regular, shown_path
 
     shown = shown_path(place)
     if place.is_symlink():

@@ -135,7 +135,7 @@ def _head(arguments: Namespace, drafted: Drafted) -> Head | None:
     from fieldscribe.families import families
     from fieldscribe.importing.draft_text import Head
     from fieldscribe.importing.tables import MOST_BYTES
-    from fieldscribe.reading import read_regular
+    from fieldscribe.safe_files import read_regular
 
     if arguments.device is None:
         return None

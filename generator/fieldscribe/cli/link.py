@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.asked import Options
     from fieldscribe.model import Device
+    from fieldscribe.user_errors import Options
 
 
 def add_with(parser: ArgumentParser) -> None:
@@ -58,10 +58,10 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     """The options that were given. Raises StopError for one that the device's family does not take."""
     from dataclasses import fields
 
-    from fieldscribe.asked import Options, UnclearError
     from fieldscribe.cli.common import StopError
     from fieldscribe.conversation.options import refuse_foreign
     from fieldscribe.families import families
+    from fieldscribe.user_errors import Options, UnclearError
 
     common = {each.name: getattr(arguments, each.name) for each in fields(Options) if hasattr(arguments, each.name)}
     names = dict.fromkeys(option.name for family in families() for option in family.options)

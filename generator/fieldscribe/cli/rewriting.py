@@ -51,7 +51,7 @@ def _new(place: Path, text: str) -> tuple[Path, Path, None]:
 def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
     """The new file beside the old one, with its mode; and the bytes of the old one."""
     from fieldscribe.language.source import MOST_BYTES
-    from fieldscribe.reading import read_regular
+    from fieldscribe.safe_files import read_regular
 
     data = read_regular(place, MOST_BYTES).data
     if data.decode("utf-8-sig", "replace") != before:

@@ -45,10 +45,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Search; the exit code."""
-    from fieldscribe.asked import did_you_mean, quoted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import print_json, usage_error
     from fieldscribe.search.matching import near_words, search
+    from fieldscribe.user_errors import did_you_mean, quoted
 
     things = _things(arguments)
     words = [word for text in arguments.words for word in text.split()]

@@ -46,10 +46,10 @@ def run(arguments: Namespace) -> int:
 
 def _chosen(known: Sequence[Known], words: Sequence[str]) -> tuple[list[Known], int]:
     """The units that the words name, and the exit code; reports words that name none."""
-    from fieldscribe.asked import quoted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import usage_error
     from fieldscribe.language.units import shipped_unit, unit_hint
+    from fieldscribe.user_errors import quoted
 
     chosen: dict[str, Known] = {}
     code = FINE

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.diagnostics import Report
-    from fieldscribe.reading import Inputs
+    from fieldscribe.safe_files import Inputs
     from fieldscribe.vendoring.files import Wish
     from fieldscribe.vendoring.orders import Delivery, Order
     from fieldscribe.vendoring.project import Wanted
@@ -65,7 +65,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS
     from fieldscribe.cli.common import report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.reading import Inputs
+    from fieldscribe.safe_files import Inputs
 
     report, inputs = Report(), Inputs()
     orders = _orders(arguments, report, inputs)
@@ -85,8 +85,8 @@ def run(arguments: Namespace) -> int:
 
 def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool) -> list[Delivery]:
     """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli.common import StopError
+    from fieldscribe.user_errors import UnclearError
     from fieldscribe.vendoring.orders import refuse_doubles
 
     deliveries: list[Delivery] = []
@@ -105,9 +105,9 @@ def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check
 
 
 def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
-    from fieldscribe.asked import UnclearError
     from fieldscribe.cli.common import StopError
     from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.user_errors import UnclearError
     from fieldscribe.vendoring.orders import compare, deliver
 
     try:
@@ -188,10 +188,10 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
     import re
     from argparse import Namespace as Asked
 
-    from fieldscribe.asked import UnclearError
     from fieldscribe.checks.device_name_is_free import reasons
     from fieldscribe.cli.common import StopError, open_device, usage_error
     from fieldscribe.language.keys.forms import ID
+    from fieldscribe.user_errors import UnclearError
     from fieldscribe.vendoring.choosing import chosen, only_raw
     from fieldscribe.vendoring.orders import Order
 
@@ -241,7 +241,7 @@ def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
     import re
 
     from fieldscribe.cli.common import StopError
-    from fieldscribe.reading import read_regular
+    from fieldscribe.safe_files import read_regular
 
     if said is None:
         return ()

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.meanings import meaning_of, raw_text
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.conversation.writing import rounding_remarks
 from fieldscribe.text import line
+from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import Options, UnclearError
 from fieldscribe.families import families, family
+from fieldscribe.user_errors import Options, UnclearError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

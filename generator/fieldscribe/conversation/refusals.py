@@ -8,9 +8,9 @@ from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.selection import points_by_name
 from fieldscribe.text import line
+from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import number_text
 

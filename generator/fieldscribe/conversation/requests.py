@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.asked import UnclearError
 from fieldscribe.families import family
+from fieldscribe.user_errors import UnclearError
 from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.families.frame_results import BuiltFrames, WriteMethod
     from fieldscribe.model import Device, Point
+    from fieldscribe.user_errors import Options
 
 
 def part_of(device: Device, name: str) -> Any:

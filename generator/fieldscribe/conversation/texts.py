@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import RefusedError
 from fieldscribe.text import line
+from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:

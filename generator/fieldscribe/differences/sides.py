@@ -15,7 +15,7 @@ from fieldscribe.differences.table import Exported, UnfitError
 from fieldscribe.export import export_model
 from fieldscribe.export.contract import ContractError, model_from
 from fieldscribe.pipeline import find_devices, is_new, load_so_far
-from fieldscribe.reading import read_regular, shown_path
+from fieldscribe.safe_files import read_regular, shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

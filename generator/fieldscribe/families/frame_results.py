@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
-from fieldscribe.asked import RefusedError
+from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import units_text
 

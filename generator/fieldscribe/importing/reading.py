@@ -28,7 +28,7 @@ FORMS = {
 def read_tables(path: Path) -> list[Table]:
     """The tables of the file. Raises OSError, UnreadableError and MissingExtraError."""
     from fieldscribe.importing.sheets import read_delimited, read_workbook
-    from fieldscribe.reading import read_regular
+    from fieldscribe.safe_files import read_regular
 
     form = FORMS[path.suffix.lower()]
     data = read_regular(path, MOST_BYTES).data

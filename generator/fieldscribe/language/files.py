@@ -12,13 +12,13 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
-from fieldscribe.reading import shown_path
+from fieldscribe.safe_files import shown_path
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.language.nodes import Map
-    from fieldscribe.reading import Inputs
+    from fieldscribe.safe_files import Inputs
 
 _PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")

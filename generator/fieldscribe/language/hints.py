@@ -14,7 +14,7 @@ from fieldscribe.language.nodes import Map, Seq
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from fieldscribe.kinds import Form
+    from fieldscribe.schema_types import Form
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500

@@ -6,15 +6,15 @@ import json
 import re
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.kinds import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys_page import shown
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.kinds import Key, Kind, Shape
+    from fieldscribe.schema_types import Key, Kind, Shape
 
 SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
 _MARKUP = re.compile(r"[\\*_{}\[\]<>#]")

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
 from fieldscribe.language.scalars import as_yaml
+from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.kinds import Kind, Shape
+    from fieldscribe.schema_types import Kind, Shape
 
 _FEW = 2
 _TYPES = {Items: "list", Place: "mapping", Whole: "whole number", Text: "text"}

@@ -9,17 +9,17 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.shape_checks import ItemsCheck, KeysCheck
 from fieldscribe.language.value_checks import NumberCheck, ShapeCheck, TextCheck
+from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.diagnostics import Report
-    from fieldscribe.kinds import Kind, Shape
     from fieldscribe.language.value_checks import Check
+    from fieldscribe.schema_types import Kind, Shape
 
 _WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
 _PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {

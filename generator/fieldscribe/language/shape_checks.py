@@ -14,8 +14,8 @@ from fieldscribe.language.value_checks import compiled_pattern
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from fieldscribe.kinds import Place, Shape
     from fieldscribe.language.value_checks import Check, ShapeCheck, Test
+    from fieldscribe.schema_types import Place, Shape
 
 _NAMING = ("name", "code", "id")
 _MOST_PLANS = 1000

@@ -10,12 +10,12 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.reading import shown_path
+from fieldscribe.safe_files import shown_path
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.reading import Content, Inputs
+    from fieldscribe.safe_files import Content, Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
@@ -73,7 +73,7 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
 
 
 def _content(path: Path, start: Span, report: Report) -> Content | None:
-    from fieldscribe.reading import UnfitFileError, read_regular
+    from fieldscribe.safe_files import UnfitFileError, read_regular
 
     try:
         return read_regular(path, MOST_BYTES)

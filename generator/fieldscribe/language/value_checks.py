@@ -14,8 +14,8 @@ from fieldscribe.language.numbers import parse_integer
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report
-    from fieldscribe.kinds import Form, Text, Whole
     from fieldscribe.language.nodes import Map, Seq
+    from fieldscribe.schema_types import Form, Text, Whole
 
 _YES_NO = {"yes": True, "no": False}
 _BEYOND = 10**70

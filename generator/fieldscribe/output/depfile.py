@@ -15,8 +15,8 @@ from time import time_ns
 from typing import TYPE_CHECKING
 
 from fieldscribe.output.writing import replace
-from fieldscribe.reading import UnfitFileError, kind_of
 from fieldscribe.resources import compiler_files
+from fieldscribe.safe_files import UnfitFileError, kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.output.result import Result
-from fieldscribe.reading import Inputs, shown_path
+from fieldscribe.safe_files import Inputs, shown_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -14,7 +14,7 @@ import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
 
-from fieldscribe.reading import UnfitFileError, kind_of
+from fieldscribe.safe_files import UnfitFileError, kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

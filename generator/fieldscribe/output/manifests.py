@@ -12,7 +12,7 @@ import re
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.reading import read_regular
+from fieldscribe.safe_files import read_regular
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator, Mapping

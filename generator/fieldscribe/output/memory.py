@@ -16,14 +16,14 @@ from zlib import crc32
 
 from fieldscribe import __version__
 from fieldscribe.output.cache import cache_dir
-from fieldscribe.reading import read_regular, state_of
 from fieldscribe.resources import compiler_files
+from fieldscribe.safe_files import read_regular, state_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
-    from fieldscribe.reading import Inputs, State
+    from fieldscribe.safe_files import Inputs, State
 
 _MOST_BYTES = 64 << 20
 _SETTLED = 2_000_000_000

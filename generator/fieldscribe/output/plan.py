@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.output.manifests import carries_head, made_of, manifest_text
 from fieldscribe.output.spool import Kept, kept
-from fieldscribe.reading import kind_of, read_regular, state_of
+from fieldscribe.safe_files import kind_of, read_regular, state_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
     from fieldscribe.output.manifests import Manifests, Targets
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 Made = dict[str, dict[str, Kept]]
 """The files of each target: path relative to the output folder, and contents."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 
 class Result:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.export import FORMAT
 from fieldscribe.output.manifests import FOLDER
-from fieldscribe.reading import read_regular
+from fieldscribe.safe_files import read_regular
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

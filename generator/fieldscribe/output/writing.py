@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from fieldscribe.output.plan import inside
-from fieldscribe.reading import state_of
+from fieldscribe.safe_files import state_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.output.manifests import Manifests
     from fieldscribe.output.plan import Plan
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 _NEW = ".fieldscribe-new"
 _FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL

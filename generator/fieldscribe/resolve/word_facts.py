@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.kinds import TEXTS
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.enums import entries_of
 from fieldscribe.resolve.values import bits_named, integer
+from fieldscribe.schema_types import TEXTS
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map

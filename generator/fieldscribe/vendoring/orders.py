@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.asked import UnclearError
 from fieldscribe.output.manifests import VENDORED, Manifests
 from fieldscribe.output.plan import plan_of
-from fieldscribe.reading import read_regular
+from fieldscribe.safe_files import read_regular
+from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping

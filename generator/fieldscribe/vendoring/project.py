@@ -14,18 +14,18 @@ import os
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.asked import did_you_mean, quoted
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.reading import read_regular, shown_path
+from fieldscribe.safe_files import read_regular, shown_path
+from fieldscribe.user_errors import did_you_mean, quoted
 from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-    from fieldscribe.reading import Inputs
+    from fieldscribe.safe_files import Inputs
 
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20

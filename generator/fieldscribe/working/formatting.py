@@ -13,13 +13,13 @@ from fieldscribe.language.canonical import canonical
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import OddError, comments, unbroken
 from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
-from fieldscribe.reading import read_regular, shown_path, state_of
+from fieldscribe.safe_files import read_regular, shown_path, state_of
 from fieldscribe.working.starting import is_schema
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _ASIDE = ".fieldscribe-new"

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.diagnostics import Diagnostic
-    from fieldscribe.kinds import Shape
+    from fieldscribe.schema_types import Shape
 
 SCHEMA_FILE = "schema.json"
 """The name of the schema that stands in the folder of a description, or above it."""
@@ -93,9 +93,9 @@ def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
 
 def _shape_of(name: str) -> Shape:
     """The shape of the key that an answer becomes."""
-    from fieldscribe.kinds import Place
     from fieldscribe.language.keys import keys_of
     from fieldscribe.language.keys.places import DEVICE
+    from fieldscribe.schema_types import Place
 
     keys = keys_of(DEVICE)
     if name in keys:

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.generation import Generation
 from fieldscribe.pipeline import find_devices
-from fieldscribe.reading import state_of
+from fieldscribe.safe_files import state_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from fieldscribe.output.result import Result
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 INTERVAL, SETTLING = 0.25, 0.08
 """Seconds between two looks at the files, and between two looks at files that are being saved."""

@@ -10,9 +10,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.asked import Options
 from fieldscribe.conversation.listener import decode
 from fieldscribe.families.can.frames import CanFrame, parse
+from fieldscribe.user_errors import Options
 from support import wrong_bytes
 from support.described import made
 from support.python_families import AsyncCanUnit, CanUnit, can_device

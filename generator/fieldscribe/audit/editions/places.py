@@ -5,20 +5,20 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.kinds import Items, Place
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys.shapes import LINES_OF
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.value_checks import compiled_pattern
+from fieldscribe.schema_types import Items, Place
 from fieldscribe.wording.lines import LINES_NAMED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.diagnostics import Span
-    from fieldscribe.kinds import Shape
     from fieldscribe.language.source import SourceFile
+    from fieldscribe.schema_types import Shape
 
 _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P<last>[0-9]+))?)""")
 SENTENCES = ("note", "printed", "taken", "where", "why")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import Key, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
 from fieldscribe.language.keys.shapes import DIRECTION, NAMED
+from fieldscribe.schema_types import Key, Shape, Text, Whole, by
 
 KEYS = (
     Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),

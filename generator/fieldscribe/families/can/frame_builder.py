@@ -5,18 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
-from fieldscribe.asked import RefusedError, UnclearError, quoted
 from fieldscribe.families.can.frames import CanFrame, build, carries, identifier
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.pasted_numbers import number_of
+from fieldscribe.user_errors import RefusedError, UnclearError, quoted
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.model import Device, Message, Point
+    from fieldscribe.user_errors import Options
 
 
 def request_of(device: Device, *, writes: bool) -> Message | None:

@@ -35,11 +35,11 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from fieldscribe.asked import Options
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.decoded_frame import OpenRequests
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Message, Telegram
+    from fieldscribe.user_errors import Options
 
 
 _KINDS = {"request": "request", "response": "reply"}

@@ -6,9 +6,9 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import UnclearError, quoted
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
+from fieldscribe.user_errors import UnclearError, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

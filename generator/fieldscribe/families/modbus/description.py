@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import FAMILY
-from fieldscribe.kinds import Items, Key, Shape, one_of
 from fieldscribe.language.keys.places import BUS
+from fieldscribe.schema_types import Items, Key, Shape, one_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -5,18 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, split
-from fieldscribe.asked import RefusedError
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.families.modbus import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
+from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import counted, spaced, units_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.model import Device, Point
+    from fieldscribe.user_errors import Options
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

@@ -26,10 +26,10 @@ from fieldscribe.wording.buses import no_answer_text, words_text
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.asked import Options
     from fieldscribe.families.decoded_frame import OpenRequests
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device
+    from fieldscribe.user_errors import Options
 
 
 _MOST = 8192

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import Items, Key, Shape, Text, Whole
 from fieldscribe.language.keys.bus import CODES
 from fieldscribe.language.keys.places import BUS, FRAME
+from fieldscribe.schema_types import Items, Key, Shape, Text, Whole
 
 PKW = Whole(choices=(0, 3, 4, 127))
 

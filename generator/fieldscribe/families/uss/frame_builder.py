@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import insert, with_fixed, words_in, words_of
-from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, asked, default_link, link_of, write_task
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
 from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.text import line
+from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label
 from fieldscribe.wording.buses import spaced
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.model import Device, Point
+    from fieldscribe.user_errors import Options
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

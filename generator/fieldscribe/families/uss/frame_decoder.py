@@ -28,10 +28,10 @@ from fieldscribe.wording.buses import element_text, no_answer_text
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.asked import Options
     from fieldscribe.families.decoded_frame import Content, OpenRequests
     from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device
+    from fieldscribe.user_errors import Options
 
 _CODES = 16
 """How many tasks there may be, and responses: they have four bits."""

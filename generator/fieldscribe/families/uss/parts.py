@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import UnclearError
 from fieldscribe.families.uss import of_bus
+from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.asked import Options
     from fieldscribe.model import Bus, Device
+    from fieldscribe.user_errors import Options
 
 
 VARIABLE = 127

@@ -1,7 +1,7 @@
 """The one table of keys; JSON Schema, KEYS.md, the checks of files and all lists of keys come from it.
 
 A new key is one `Key` in one of the modules here, or in the part `description` of a family that alone has it. What it
-is written in stands in `fieldscribe/kinds.py`.
+is written in stands in `fieldscribe/schema_types.py`.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
-from fieldscribe.kinds import Items, Place
-from fieldscribe.language.keys import bus, files, frames, meaning, points, within
+from fieldscribe.language.keys import bus, files, frames, meaning, nested_keys, points
+from fieldscribe.schema_types import Items, Place
 
 if TYPE_CHECKING:
     from fieldscribe.families import Family
-    from fieldscribe.kinds import Key
+    from fieldscribe.schema_types import Key
 
 
 def keys_of_family(bus_family: Family) -> tuple[Key, ...]:
@@ -29,7 +29,7 @@ TABLE: tuple[Key, ...] = (
     *meaning.KEYS,
     *points.USING,
     *files.SECTIONS,
-    *within.KEYS,
+    *nested_keys.KEYS,
     *bus.KEYS,
     *frames.KEYS,
     *(key for bus_family in families() for key in keys_of_family(bus_family)),

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, CODE
 from fieldscribe.language.keys.shapes import LINES_OF, SEVERAL, WORD_ORDER
 from fieldscribe.model import TYPES
+from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 
 _BY_TYPE = Place("", "", "", ())
 _PRINTED = Place(

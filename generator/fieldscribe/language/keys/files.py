@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from fieldscribe.families import FAMILIES
-from fieldscribe.kinds import NUMBER, Items, Key, Place, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
+from fieldscribe.schema_types import NUMBER, Items, Key, Place, Shape, Text, Whole, by, one_of
 
 _DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}])
 _AXIS = Place("", "", "One axis.", [{"values": {"200V": {}}}])

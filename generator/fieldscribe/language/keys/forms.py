@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import Form
+from fieldscribe.schema_types import Form
 
 _WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
 

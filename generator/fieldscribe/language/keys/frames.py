@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from fieldscribe.families import families
-from fieldscribe.kinds import BOOLEAN, NOTHING, NUMBER, Items, Key, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, TELEGRAM
 from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
+from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Shape, Text, Whole, by, one_of
 
 _SAID = by(forms.ANY, Shape("The value in the unit, or the name of an enum entry.", [50.0], Text(80), NUMBER, BOOLEAN))
 _VALUE = (Text(), NUMBER, Items(PRINTED_NUMBER), NOTHING)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import (
+from fieldscribe.language.keys import forms, places
+from fieldscribe.language.keys.places import FACTS, GROUP
+from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER
+from fieldscribe.model import TYPES
+from fieldscribe.schema_types import (
     NOTHING,
     NUMBER,
     NUMBERS,
@@ -17,10 +21,6 @@ from fieldscribe.kinds import (
     by,
     one_of,
 )
-from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import FACTS, GROUP
-from fieldscribe.language.keys.shapes import NAMED, PRINTED_NUMBER, WORD_ORDER
-from fieldscribe.model import TYPES
 
 _GROUPED = (GROUP, *FACTS)
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NOTHING, Items, Place, Shape, Text, Whole
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.shapes import A_NAME, ANYTHING, PRINTED_NUMBER, in_language
+from fieldscribe.schema_types import NOTHING, Items, Place, Shape, Text, Whole
 
 _PRIVATE = {forms.PRIVATE: ANYTHING}
 

@@ -2,18 +2,6 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import (
-    BOOLEAN,
-    NOTHING,
-    YES_NO,
-    Items,
-    Key,
-    Shape,
-    Text,
-    Whole,
-    by,
-    one_of,
-)
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import (
     CITED,
@@ -28,6 +16,18 @@ from fieldscribe.language.keys.places import (
     VARIANT,
 )
 from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, TITLE
+from fieldscribe.schema_types import (
+    BOOLEAN,
+    NOTHING,
+    YES_NO,
+    Items,
+    Key,
+    Shape,
+    Text,
+    Whole,
+    by,
+    one_of,
+)
 
 _TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
 _NAMED = (places.ENTRY, places.FLAG, places.SPECIAL_CODE, places.CODE, *CITED)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, Items, Shape, Text, Whole, by, one_of
 from fieldscribe.language.keys import forms
+from fieldscribe.schema_types import NUMBER, Items, Shape, Text, Whole, by, one_of
 
 LAST_LINE = 1_000_000_000
 

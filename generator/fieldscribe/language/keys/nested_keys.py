@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fieldscribe.kinds import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import (
     CASE,
@@ -20,6 +19,7 @@ from fieldscribe.language.keys.places import (
 )
 from fieldscribe.language.keys.shapes import LAST_LINE, LINES_OF, NAMED, PRINTED_NUMBER, in_language
 from fieldscribe.model import TYPES as WIRE_TYPES
+from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 
 _FLAG_PRINTED = Place(
     "",

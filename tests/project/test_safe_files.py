@@ -8,15 +8,15 @@ from importlib.util import find_spec, module_from_spec
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe import reading, resources
-from fieldscribe.reading import UnfitFileError, read_regular
+from fieldscribe import resources, safe_files
+from fieldscribe.safe_files import UnfitFileError, read_regular
 from support.files import write_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from fieldscribe.reading import State
+    from fieldscribe.safe_files import State
 
 
 def noted(monkeypatch: pytest.MonkeyPatch, without: int = 0) -> list[int]:
@@ -55,7 +55,7 @@ WINDOWS = {"O_BINARY": 1 << 28, "O_NOINHERIT": 1 << 29}
 @pytest.mark.parametrize(
     ("module", "use"),
     [
-        ("reading", lambda module, path: module.read_regular(path, 9)),
+        ("safe_files", lambda module, path: module.read_regular(path, 9)),
         ("output.writing", lambda module, path: module.replace(path, (b"new",))),
         ("output.lock", lambda module, path: module.only_run(path.parent, None).__enter__()),
     ],
@@ -94,7 +94,7 @@ def test_what_takes_the_place_of_a_file_once_it_was_looked_at_is_refused(
     """Without waiting for whoever may write to a pipe, and before anything is read."""
     (tmp_path / "small").write_bytes(b"1")
     put(tmp_path / "other")
-    monkeypatch.setattr(reading, "_status", lambda _: os.stat(tmp_path / "small"))
+    monkeypatch.setattr(safe_files, "_status", lambda _: os.stat(tmp_path / "small"))
     with pytest.raises(UnfitFileError, match=says) as refused:
         read_regular(tmp_path / "other", 7)
     assert (refused.value.errno, refused.value.filename) == (number, str(tmp_path / "other"))
