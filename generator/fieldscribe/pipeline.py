@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from fieldscribe.language.files import Files
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.safe_files import Inputs
     from fieldscribe.targets import Target
 
@@ -85,8 +85,8 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
 
 def load_undigested(device_file: Path, report: Report) -> Device | None:
     """As `load_device`, but without the digest, which only files need."""
-    subject = _loaded(device_file, report)
-    return None if subject is None else subject.devices[0]
+    analysis = _loaded(device_file, report)
+    return None if analysis is None else analysis.devices[0]
 
 
 def load_models(device_file: Path, report: Report, inputs: Inputs | None = None) -> Models | None:
@@ -94,19 +94,19 @@ def load_models(device_file: Path, report: Report, inputs: Inputs | None = None)
 
     `inputs` remembers the files that were read, each with a checksum.
     """
-    subject = _loaded(device_file, report, inputs)
-    return None if subject is None else Models(*subject.models, subject.scope.header.span("version"))
+    analysis = _loaded(device_file, report, inputs)
+    return None if analysis is None else Models(*analysis.models, analysis.scope.header.span("version"))
 
 
-def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Subject | None:
+def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Analysis | None:
     """The parts of a device without errors, whatever the report holds of others."""
     from fieldscribe.language.files import read_files
 
     own = Report()
     files = read_files(device_file, own, inputs)
-    subject = None if files is None else _checked(files, own)
+    analysis = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if own.has_errors else subject
+    return None if own.has_errors else analysis
 
 
 def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
@@ -120,27 +120,27 @@ def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Re
     return False
 
 
-def load_subject(device_file: Path, report: Report) -> Subject | None:
+def load_analysis(device_file: Path, report: Report) -> Analysis | None:
     """As `load_device`, but with every fact's place in the text, as checks and the audit need it."""
     from fieldscribe.language.files import read_files
 
     files = read_files(device_file, report)
-    subject = None if files is None else _checked(files, report)
-    return None if report.has_errors else subject
+    analysis = None if files is None else _checked(files, report)
+    return None if report.has_errors else analysis
 
 
-def load_so_far(device_file: Path, report: Report) -> Subject | None:
-    """As `load_subject`, but also with errors: then what is sound of it. None where the head lacks too much."""
+def load_so_far(device_file: Path, report: Report) -> Analysis | None:
+    """As `load_analysis`, but also with errors: then what is sound of it. None where the head lacks too much."""
     from fieldscribe.language.files import read_files
 
     own = Report()
     files = read_files(device_file, own)
-    subject = None if files is None else _checked(files, own)
+    analysis = None if files is None else _checked(files, own)
     report.extend(own)
-    return subject
+    return analysis
 
 
-def load_outline(device_file: Path, report: Report) -> tuple[Map, list[Draft]] | None:
+def load_outline(device_file: Path, report: Report) -> tuple[Map, list[PointFacts]] | None:
     """The head of a device and its points by name, without what they mean: for lists, and quick."""
     from fieldscribe.language.files import read_files
     from fieldscribe.resolve.expand import expand
@@ -179,31 +179,31 @@ def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
         yield path, (templates_dir() / template).read_text("utf-8")
 
 
-def _checked(files: Files, report: Report) -> Subject:
+def _checked(files: Files, report: Report) -> Analysis:
     """The parts of a device, resolved and checked; with errors they are not to be compiled."""
     from fieldscribe.checks import run_checks
+    from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.bus import bus_of
     from fieldscribe.resolve.commands import commands_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
-    from fieldscribe.resolve.families import reading_of
+    from fieldscribe.resolve.family_reader import reader_of
     from fieldscribe.resolve.frames import frames_of
-    from fieldscribe.resolve.names import index_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.symbols import symbols_of
     from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)
     drafts = expand(scope)
-    index = index_of(scope, drafts)
+    index = symbols_of(scope, drafts)
     bus = bus_of(scope)
-    messages = reading_of(scope).messages(scope, bus)
+    messages = reader_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
     resolved, ranges, places = resolve_points(scope, drafts, index, telegrams)
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, index, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
-    subject = Subject(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
-    run_checks(subject)
-    return subject
+    analysis = Analysis(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
+    run_checks(analysis)
+    return analysis

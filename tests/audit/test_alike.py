@@ -9,7 +9,7 @@ import pytest
 from fieldscribe.audit import audit
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
@@ -126,6 +126,6 @@ def test_the_number_beside_a_label_is_no_mask(old: str, new: str, tmp_path: Path
         for bit in range(3)
     )
     points = f"- name: inputs\n  at: 0020h\n  line: 1\n  flags:\n{flags}  lines: {{flags: 2..4}}\n"
-    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    described = load_analysis(write(tmp_path / "plant", together(head(), group(points))), Report())
     assert described is not None
     assert audit(described, "manual.txt", MASKS.replace(old, new), same_text=None).clean == (not old)

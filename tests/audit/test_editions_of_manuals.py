@@ -13,11 +13,11 @@ from fieldscribe.audit.editions import Edition, compare, renumber
 from fieldscribe.audit.editions.changes import Editions
 from fieldscribe.audit.manual import Manual
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 DEVICES = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
 SEEDED = 8
@@ -29,8 +29,8 @@ pytestmark = pytest.mark.skipif(
 
 
 @cache
-def _described(device: str) -> tuple[Subject, str]:
-    subject = load_subject(descriptions_dir() / device / "device.yaml", Report())
+def _described(device: str) -> tuple[Analysis, str]:
+    subject = load_analysis(descriptions_dir() / device / "device.yaml", Report())
     assert subject is not None
     document = next(iter(subject.scope.documents.values()))
     return subject, (Path(os.environ["FIELDSCRIBE_MANUALS"]) / str(document.file)).read_text("utf-8-sig")

@@ -11,7 +11,7 @@ import pytest
 from fieldscribe.audit.layout import Fingerprint, FingerprintError
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, together
 
@@ -170,7 +170,7 @@ SHIPPED = sorted(descriptions_dir().glob("*/device.yaml"))
 @pytest.mark.parametrize("file", SHIPPED, ids=lambda file: file.parent.name)
 def test_shipped_ones_are_current(file: Path) -> None:
     """They say of which text they are; with the manuals at hand they are made anew and compared."""
-    subject = load_subject(file, Report())
+    subject = load_analysis(file, Report())
     assert subject is not None
     [document] = subject.scope.documents.values()
     kept = (file.parent / f"{document.id}.fingerprint").read_text(encoding="utf-8")

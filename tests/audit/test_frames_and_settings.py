@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.audit import audit
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ def test_a_changed_number(device: str, old: str, new: str, expected: list[str], 
     description, text = DEVICES[device]
     assert not old or text.count(old) == 1
     report = Report()
-    subject = load_subject(write(tmp_path / "plant", description), report)
+    subject = load_analysis(write(tmp_path / "plant", description), report)
     assert subject is not None, report.findings
     outcome = audit(subject, "manual.txt", text.replace(old, new) if old else text, same_text=None)
     assert [f"{one.fact} {one.wanted}" for one in outcome.missing] == expected

@@ -10,7 +10,7 @@ import pytest
 from fieldscribe.audit import Auditor
 from fieldscribe.audit.layout import Fingerprint, Relaid
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ HEAD = head(
 @pytest.fixture(name="auditor", scope="module")
 def _auditor(tmp_path_factory: pytest.TempPathFactory) -> Auditor:
     device = together(HEAD, group(POINTS, source="{document: manual, section: Parameters}"))
-    subject = load_subject(write(tmp_path_factory.mktemp("drive"), device), Report())
+    subject = load_analysis(write(tmp_path_factory.mktemp("drive"), device), Report())
     assert subject is not None
     return Auditor(subject)
 
@@ -222,7 +222,7 @@ def test_a_description_may_count_the_lines_of_the_new_text_already(tmp_path: Pat
         head(documents="{manual: {title: Manual, language: en}}"),
         group(points, source="{document: manual, section: Parameters}"),
     )
-    subject = load_subject(write(tmp_path, device), Report())
+    subject = load_analysis(write(tmp_path, device), Report())
     assert subject is not None
     outcome = Auditor(subject).audit("new.txt", "\n\n\n\n" + TEXT, same_text=False, kept=KEPT)
     assert (told(outcome), outcome.moved) == ([], [])

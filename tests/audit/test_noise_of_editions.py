@@ -12,14 +12,14 @@ from fieldscribe.audit.editions.telling import is_prose, is_reference, turned
 from fieldscribe.audit.editions.vocabulary import is_one_spelling, is_respelled
 from fieldscribe.audit.pages import page_lines
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.audit.editions import Comparison
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 FILLING = "".join(f"Chapter {chapter}, about this and that.\n\n" for chapter in "abcdefghijklmnop")
 OLD = f"""# Heat pump
@@ -65,15 +65,15 @@ POINTS = """- {code: H01, name: flow, at: 0010h, range: 0..900, scale: value = r
 
 
 @pytest.fixture(scope="module")
-def subject(tmp_path_factory: pytest.TempPathFactory) -> Subject:
+def subject(tmp_path_factory: pytest.TempPathFactory) -> Analysis:
     looked_through = "\n- {lines: 3..38, why: Prose.}\n- {lines: 48..81, why: Prose.}\n- {lines: 88..124, why: Prose.}"
     text = together(head(looked_through=looked_through), group(POINTS, access="rw"))
-    subject = load_subject(write(tmp_path_factory.mktemp("noise") / "plant", text), Report())
+    subject = load_analysis(write(tmp_path_factory.mktemp("noise") / "plant", text), Report())
     assert subject is not None
     return subject
 
 
-def _compared(subject: Subject, new: str) -> Comparison:
+def _compared(subject: Analysis, new: str) -> Comparison:
     return compare(subject, Edition("old", OLD, None), Edition("new", new, None))[0]
 
 
@@ -128,7 +128,7 @@ REMARKS = {
 
 
 @pytest.mark.parametrize(("new", "kind"), REMARKS.values(), ids=REMARKS)
-def test_what_holds_no_fact_is_one_remark(subject: Subject, new: str, kind: str) -> None:
+def test_what_holds_no_fact_is_one_remark(subject: Analysis, new: str, kind: str) -> None:
     outcome = _compared(subject, new)
     assert ([remark.kind for remark in outcome.remarks], outcome.findings) == ([kind], [])
     assert outcome.explained
@@ -150,7 +150,7 @@ SET_AGAIN = {
 
 
 @pytest.mark.parametrize(("old", "new", "kind"), SET_AGAIN.values(), ids=SET_AGAIN)
-def test_what_is_set_again_is_one_remark(subject: Subject, old: str, new: str, kind: str) -> None:
+def test_what_is_set_again_is_one_remark(subject: Analysis, old: str, new: str, kind: str) -> None:
     outcome = compare(subject, Edition("old", old, None), Edition("new", new, None))[0]
     assert ([remark.kind for remark in outcome.remarks], outcome.findings) == ([kind], [])
 
@@ -174,7 +174,7 @@ NOT_SET_AGAIN = {
 
 
 @pytest.mark.parametrize(("old", "new"), NOT_SET_AGAIN.values(), ids=NOT_SET_AGAIN)
-def test_what_only_looks_like_it_is_a_finding(subject: Subject, old: str, new: str) -> None:
+def test_what_only_looks_like_it_is_a_finding(subject: Analysis, old: str, new: str) -> None:
     assert compare(subject, Edition("old", old, None), Edition("new", new, None))[0].findings
 
 
@@ -219,7 +219,7 @@ FINDINGS = {
 
 @pytest.mark.parametrize(("new", "findings"), FINDINGS.values(), ids=FINDINGS)
 def test_what_may_hold_a_fact_is_one_finding(
-    subject: Subject, new: str, findings: list[tuple[str, tuple[tuple[str, str], ...]]]
+    subject: Analysis, new: str, findings: list[tuple[str, tuple[tuple[str, str], ...]]]
 ) -> None:
     outcome = _compared(subject, new)
     assert [(finding.kind, finding.words) for finding in outcome.findings] == findings
@@ -233,7 +233,7 @@ def test_an_erratum_is_looked_at_where_its_line_has_another_word(tmp_path: Path,
     erratum = f"\nerrata:\n- {{id: of_ramp, where: Ramp, {said}}}"
     looked_through = "\n- {lines: 3..38, why: Prose.}\n- {lines: 48..81, why: Prose.}\n- {lines: 88..124, why: Prose.}"
     text = together(head(looked_through=looked_through + erratum), group(POINTS, access="rw"))
-    subject = load_subject(write(tmp_path / "plant", text), report := Report())
+    subject = load_analysis(write(tmp_path / "plant", text), report := Report())
     assert subject is not None, report
     outcome = _compared(subject, _with("frees the ramp", now))
     assert ([doubt.erratum for doubt in outcome.doubts], outcome.findings) == (ids, [])
@@ -250,7 +250,7 @@ FOLLOWED = OF_COLUMNS.replace("at: 3", "at: 5").replace("at: 4", "at: 3").replac
 
 @pytest.mark.parametrize(("points", "missing"), [(OF_COLUMNS, 2), (FOLLOWED, 0)], ids=["as it was", "followed"])
 def test_cells_that_changed_places_stand_below_other_numbers(tmp_path: Path, points: str, missing: int) -> None:
-    subject = load_subject(write(tmp_path / "plant", together(head(), group(points, access="r"))), Report())
+    subject = load_analysis(write(tmp_path / "plant", together(head(), group(points, access="r"))), Report())
     assert subject is not None
     new = COLUMNS.replace("ZSW2\tHIW2", "HIW2\tZSW2")
     outcome = compare(subject, Edition("old", COLUMNS, None), Edition("new", new, None))[0]
@@ -259,13 +259,13 @@ def test_cells_that_changed_places_stand_below_other_numbers(tmp_path: Path, poi
     assert sum("address" in reason.said for reason in finding.reasons) == missing
 
 
-def test_equal_lines_name_all_their_places(subject: Subject) -> None:
+def test_equal_lines_name_all_their_places(subject: Analysis) -> None:
     outcome = _compared(subject, FINDINGS["an equal line at two places"][0])
     assert [place.new for place in outcome.findings[0].places] == [(12, 12), (56, 56)]
     assert "2 places: lines 12, 56 in the new edition" in _told(outcome)[0]
 
 
-def test_a_long_line_is_shown_around_its_change(subject: Subject) -> None:
+def test_a_long_line_is_shown_around_its_change(subject: Analysis) -> None:
     told = _told(_compared(subject, _with("0012h | 0-2", "0012h | 0-5")))
     [shown] = [line for line in told if line.startswith("  + ")]
     assert shown.endswith("| 0012h | 0-5 | - |")
@@ -273,12 +273,12 @@ def test_a_long_line_is_shown_around_its_change(subject: Subject) -> None:
 
 
 @pytest.mark.parametrize(("old", "new"), [("\tready\t", "\tready left\t"), ("left or right", "left")])
-def test_a_label_that_got_or_lost_words_is_told_though_they_are_known(subject: Subject, old: str, new: str) -> None:
+def test_a_label_that_got_or_lost_words_is_told_though_they_are_known(subject: Analysis, old: str, new: str) -> None:
     [finding] = _compared(subject, _with(old, new)).findings
     assert any(not was or not now for was, now in finding.words)
 
 
-def test_equal_lines_that_changed_alike_are_told_once_however_they_break(subject: Subject) -> None:
+def test_equal_lines_that_changed_alike_are_told_once_however_they_break(subject: Analysis) -> None:
     old = OLD.replace("Chapter d,", "It waits for (ca. 20 ms) and so on.\n\nChapter d,")
     pieces = old.replace("20 ms", "30 ms").split("(ca. 30")
     new = f"{pieces[0]}(ca.\n30{'(ca. 30'.join(pieces[1:])}"
@@ -286,7 +286,7 @@ def test_equal_lines_that_changed_alike_are_told_once_however_they_break(subject
     assert [len(finding.places) for finding in outcome.findings] == [3]
 
 
-def test_a_section_behind_a_row_that_both_are_new_is_another_finding(subject: Subject) -> None:
+def test_a_section_behind_a_row_that_both_are_new_is_another_finding(subject: Analysis) -> None:
     last = "| H04 | Delay | 0013h | 0-30 | - |\n"
     row, section = "| H05 | Pause | 0014h | 0-30 | - |\n", "\n## Pauses\n\nA pause of 20 s ends so.\n"
     told = [finding.now for finding in _compared(subject, _with(last, last + row + section)).findings]
@@ -335,7 +335,7 @@ def test_an_erratum_that_was_mended_can_go(tmp_path: Path, printed: str, taken: 
     erratum = f"- {{id: rate_step, point: H01, line: 3, {facts}, why: It says so., certainty: likely}}\n"
     text = together(head(documents=documents), group(points, access="rw") + f"errata:\n{erratum}")
     report = Report()
-    subject = load_subject(write(tmp_path / "plant", text), report)
+    subject = load_analysis(write(tmp_path / "plant", text), report)
     assert subject is not None, report.findings
     head_of_table = "| Code | Title | Register | Range | Step |\n|---|---|---|---|---|\n"
     old, new = (head_of_table + row.format(step) + "\n" for step in (printed, taken))
@@ -345,7 +345,7 @@ def test_an_erratum_that_was_mended_can_go(tmp_path: Path, printed: str, taken: 
     assert [void.is_corrected for finding in outcome.findings for void in finding.void] == [True] * fixed
 
 
-def test_a_removed_row_is_told_once(subject: Subject) -> None:
+def test_a_removed_row_is_told_once(subject: Analysis) -> None:
     [finding] = _compared(subject, _with("| H04 | Delay | 0013h | 0-30 | - |\n", "")).findings
     assert [(reason.kind, reason.subjects) for reason in finding.reasons] == [("gone", ("delay",))]
 
@@ -448,7 +448,7 @@ def test_a_row_that_prints_an_access_where_it_had_none_is_a_finding(tmp_path: Pa
     documents = "{manual: {title: Manual, language: en, file: old, access: {r: [R], rw: [R/W]}}}"
     points = "- {name: quick_start, at: 0010h, access: none, range: 0..1, line: 3}\n"
     text = together(head(documents=documents), group(points, access="rw"))
-    subject = load_subject(write(tmp_path / "plant", text), Report())
+    subject = load_analysis(write(tmp_path / "plant", text), Report())
     assert subject is not None
     old = "| Title | Access | Register | Range |\n|---|---|---|---|\n| Quick start | - | 0010h | 0-1 |\n"
     new = old.replace("| - |", "| R/W |")
@@ -465,7 +465,7 @@ def test_an_erratum_of_an_entry_does_not_speak_of_a_new_one_below_it(
         "\n- {id: setting, point: P01, line: 3, printed: P01 has no unit., taken: None., why: x, certainty: likely}"
     )
     points = "- {code: P01, name: delay, at: 0010h, default: 4, line: 3}\n"
-    subject = load_subject(
+    subject = load_analysis(
         write(tmp_path / "plant", together(head(errata=errata), group(points, access="rw"))), Report()
     )
     assert subject is not None

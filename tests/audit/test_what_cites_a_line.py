@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.audit.editions import Edition, compare
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldscribe.audit.editions.findings import Finding
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 OLD = """# Heat pump
 
@@ -53,7 +53,9 @@ CHANGES = {
 
 @pytest.mark.parametrize(("old", "new", "subject", "explained"), CHANGES.values(), ids=CHANGES)
 def test_a_change_is_told_of_what_cites_it(old: str, new: str, subject: str, explained: bool, tmp_path: Path) -> None:
-    described = load_subject(write(tmp_path / "plant", together(head() + HEADER, group(POINTS, access="rw"))), Report())
+    described = load_analysis(
+        write(tmp_path / "plant", together(head() + HEADER, group(POINTS, access="rw"))), Report()
+    )
     assert described is not None
     [finding] = _findings(described, OLD, OLD.replace(old, new))
     assert (finding.cited_by[0].subject, finding.explained) == (subject, explained)
@@ -64,7 +66,7 @@ def test_a_new_section_tells_which_sections_it_counts_anew(tmp_path: Path) -> No
         f"- {{name: {name}, at: {number}, section: '1.{number}', line: {4 * number - 3}}}\n"
         for number, name in enumerate(("flow", "speed", "level"), 1)
     )
-    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    described = load_analysis(write(tmp_path / "plant", together(head(), group(points))), Report())
     old = [f"1.{number} Value of {name}\n\nRegister\t{number}\n" for number, name in enumerate("abc", 1)]
     new = [
         old[0],
@@ -85,7 +87,7 @@ def test_labels_that_swapped_their_bits_are_told_whatever_words_they_share(tmp_p
         for bit, label in enumerate(("Fixed frequency selection Bit 0", "Fixed frequency selection Bit 1", LAST))
     )
     points = f"- name: control\n  at: 0020h\n  line: 1\n  flags:\n{flags}  lines: {{flags: 3..7}}\n"
-    described = load_subject(write(tmp_path / "plant", together(head(), group(points))), Report())
+    described = load_analysis(write(tmp_path / "plant", together(head(), group(points))), Report())
     rows = ["Control word 0020h", "", "Bit 0 Fixed frequency selection Bit 0", ""]
     old = [*rows, "Bit 1 Fixed frequency selection Bit 1", "", f"Bit 2 {LAST}"]
     new = [*rows, f"Bit 1 {LAST}", "", "Bit 2 Fixed frequency selection Bit 1"]
@@ -96,12 +98,12 @@ def test_labels_that_swapped_their_bits_are_told_whatever_words_they_share(tmp_p
 
 
 def test_rows_that_change_alike_are_no_feet_of_pages(tmp_path: Path) -> None:
-    described = load_subject(write(tmp_path / "plant", together(head(), group("- {name: flow, at: 1}\n"))), Report())
+    described = load_analysis(write(tmp_path / "plant", together(head(), group("- {name: flow, at: 1}\n"))), Report())
     old = [f"Words of chapter {name}.\n" * 10 + f"Limit of it\t{number}\n" for number, name in enumerate("abcd", 1)]
     new = [text.replace(f"\t{number}", f"\t{number + 4}") for number, text in enumerate(old, 1)]
     assert described is not None
     assert len(_findings(described, "".join(old), "".join(new))) == len(old)
 
 
-def _findings(described: Subject, old: str, new: str) -> list[Finding]:
+def _findings(described: Analysis, old: str, new: str) -> list[Finding]:
     return compare(described, Edition("old", old, None), Edition("new", new, None))[0].findings

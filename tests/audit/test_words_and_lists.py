@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.audit import audit
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ LEVEL_TITLES = "".join(
 def found(folder: Path, points: str, text: str) -> list[str]:
     """The facts that are missing and the numbers that no fact uses."""
     documents = "{manual: {title: Manual, language: en, writes: {bits: [Bit]}}}"
-    subject = load_subject(write(folder / "plant", together(head(documents=documents), group(points))), Report())
+    subject = load_analysis(write(folder / "plant", together(head(documents=documents), group(points))), Report())
     assert subject is not None
     outcome = audit(subject, "manual.txt", text, same_text=None)
     return [f"{one.fact} {one.wanted}" for one in outcome.missing] + [f"unused {one.number}" for one in outcome.unused]
@@ -129,7 +129,7 @@ looked_through: [{lines: 1, numbers: ["4.1"], why: The section.}]
 def test_a_changed_byte_of_a_message(old: str, new: str, expected: list[str], tmp_path: Path) -> None:
     assert not old or MESSAGE.count(old) == 1
     bus = "{bitrate: 125000, identifier_bits: 11, units: 1..30}"
-    subject = load_subject(write(tmp_path / "plant", head(family="can", bus=bus) + ASK), Report())
+    subject = load_analysis(write(tmp_path / "plant", head(family="can", bus=bus) + ASK), Report())
     assert subject is not None
     text = MESSAGE.replace(old, new) if old else MESSAGE
     outcome = audit(subject, "manual.txt", text, same_text=None)

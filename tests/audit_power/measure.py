@@ -13,7 +13,7 @@ from fieldscribe.audit.comparison import Comparison
 from fieldscribe.audit.layout import Fingerprint
 from fieldscribe.audit.manual import Manual
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from fieldscribe.resources import descriptions_dir
 
 from audit_power.changes import Change, Changes
@@ -41,7 +41,7 @@ class Sound:
     """A device with the text that it was transcribed from, audited once."""
 
     def __init__(self, device: str, manuals: Path) -> None:
-        subject = load_subject(descriptions_dir() / device / "device.yaml", Report())
+        subject = load_analysis(descriptions_dir() / device / "device.yaml", Report())
         assert subject is not None, device
         file = next(document.file for document in subject.scope.documents.values() if document.file)
         self.device = device

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.checks.names_apart import Kinds
+from fieldscribe.checks.distinct_names import Kinds
 from fieldscribe.targets import knows, target
 from support.described import made, shipped
 

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any
 import fieldscribe
 import pytest
 from fieldscribe import model
+from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.differences import differences
 from fieldscribe.differences.classes import CLASSES
 from fieldscribe.differences.devices import DEVICE_FOLLOWS, table_of
 from fieldscribe.differences.points import POINT_FOLLOWS
 from fieldscribe.differences.table import Fact, Parts
-from fieldscribe.existence import Comparison, Condition
 from fieldscribe.export import export_model
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.model import Own

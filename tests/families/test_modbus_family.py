@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.existence import Comparison, Condition
+from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.families.modbus import FUNCTIONS, PROTOCOL_MOST, ModbusBus, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame

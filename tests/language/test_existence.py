@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe import wording
-from fieldscribe.existence import Comparison, Condition, Domain, ends_before, possible
+from fieldscribe.conditions import Comparison, Condition, Domain, ends_before, possible
 from fieldscribe.export import export_model
 from fieldscribe.language.formula import Comparison as Parsed
 from fieldscribe.language.formula import clauses_of, condition_names, parse_condition

@@ -27,7 +27,7 @@ ROOMS = (
         """__init__ user_errors pasted_numbers text names patterns
         diagnostics schema_types safe_files report resources render""",
     ),
-    ("the neutral model", "existence model plain"),
+    ("the neutral model", "conditions model plain"),
     ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families"),

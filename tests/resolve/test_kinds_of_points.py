@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
     from pathlib import Path
 
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 GOOD = sorted(file for folder in (DEVICES, descriptions_dir()) for file in folder.glob("*/device.yaml"))
 BAD = sorted(path for path in (TESTS / "bad").iterdir() if path.is_dir() or path.suffix == ".yaml")
@@ -43,7 +43,7 @@ class Alone(alike.Kinds):
         super().__init__()
         self._numbers = count()
 
-    def of(self, draft: Draft) -> int:
+    def of(self, draft: PointFacts) -> int:
         return next(self._numbers)
 
 
@@ -109,5 +109,5 @@ def test_limits_count_where_the_shape_depends_on_them(monkeypatch: pytest.Monkey
     def forgetful(_: object) -> Hashable:
         return 0
 
-    monkeypatch.setattr("fieldscribe.resolve.meanings.frozen", forgetful)
+    monkeypatch.setattr("fieldscribe.resolve.shapes.frozen", forgetful)
     assert loaded_in(tmp_path, text) != right

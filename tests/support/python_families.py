@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.existence import Comparison, Condition
+from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.families.can import CanBus
 from fieldscribe.families.uss import UssBus
 from fieldscribe.model import (

@@ -11,21 +11,21 @@ from toy_family.frames import tone_of
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
-    from fieldscribe.resolve.frames import OpenFrame
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.frames import LocatedFrame
 
 
 _MOST = 1000
 
 
-def stays_whole(subject: Subject) -> None:
+def stays_whole(subject: Analysis) -> None:
     """A bell that is struck too often breaks."""
     if subject.scope.bus is not None and of_bus(subject.bus).strikes > _MOST:
         text = f"no bell stands more than {_MOST} strikes in a minute"
         subject.report.error("too-many-strikes", text, subject.scope.bus.span("strikes"), "write a smaller number")
 
 
-def read(subject: Subject, one: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def read(subject: Analysis, one: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """A strike carries its tone as the number of the point that stands there."""
     del seen
     tone = tone_of(one.frame.printed)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.resolve.families import Reading
+from fieldscribe.resolve.family_reader import FamilyReader
 
 from toy_family import BellBus
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 
-class BellReading(Reading):
+class BellReading(FamilyReader):
     """Bells have one fact of their own."""
 
     def bus(self, scope: Scope, raw: Map, functions: tuple[Code, ...]) -> BellBus:

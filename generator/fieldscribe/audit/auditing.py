@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from fieldscribe.audit.layout import Fingerprint
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 
 class Auditor(Asked):
     """What a description takes from its manual, read once for any number of texts."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Analysis) -> None:
         claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
         super().__init__(claims, list(printed_errata_of(subject)), looked_through_of(subject))
         self.device = str(subject.scope.header["device"])
@@ -102,6 +102,6 @@ class Auditor(Asked):
                 outcome.moved.append(Moved(subject, line, stands))
 
 
-def audit(subject: Subject, name: str, text: str, *, same_text: bool | None, kept: Fingerprint | None = None) -> Audit:
+def audit(subject: Analysis, name: str, text: str, *, same_text: bool | None, kept: Fingerprint | None = None) -> Audit:
     """Everything that does not agree, as `Auditor.audit` has it."""
     return Auditor(subject).audit(name, text, same_text=same_text, kept=kept)

@@ -15,18 +15,18 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.audit.citing import Claim
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 """Sections of named entries, by what one is called."""
 
 
-def claims_of(subject: Subject) -> Iterator[Claim]:
+def claims_of(subject: Analysis) -> Iterator[Claim]:
     """All facts of points, frames, codes of the bus, messages and telegrams that name a line."""
     wordings = Wordings(subject.scope.header["documents"])
     parts = _parts_of_addresses(subject)
     for resolved in subject.resolved:
-        yield from claims_of_point(resolved.point, resolved.draft, subject.scope.named_enums, wordings, parts)
+        yield from claims_of_point(resolved.point, resolved.facts, subject.scope.named_enums, wordings, parts)
     for name, entries in subject.scope.named_enums.items():
         yield from _claims_of_enum(name, entries, wordings)
     for file in subject.scope.files:
@@ -41,7 +41,7 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
                 yield from claims_of_codes(kind, bus.get(section))
 
 
-def _parts_of_addresses(subject: Subject) -> frozenset[str]:
+def _parts_of_addresses(subject: Analysis) -> frozenset[str]:
     """The numberings of which one number belongs to several addresses, such as `mux` of `Mux 3 Word 2`."""
     addresses: dict[tuple[str, object], set[int]] = {}
     for resolved in subject.resolved:
@@ -60,7 +60,7 @@ def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Cla
             yield from citing.label("enum", wordings.label(entry), beside=numbers_in(key), place=place)
 
 
-def looked_through_of(subject: Subject) -> dict[int, frozenset[str]]:
+def looked_through_of(subject: Analysis) -> dict[int, frozenset[str]]:
     """The lines that the description says hold nothing for it, or only facts and these numbers that are none."""
     return by_line(
         (line, listed_in(passage))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.wordings import Wordings
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Flag, Point
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 LIST_OF_BITS = "list of bits"
 """The fact that a row lists all bits of a word that are flags."""
@@ -24,7 +24,7 @@ _LISTED = 3
 """So many bits in a row are no chance."""
 
 
-def claims_of_flags(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def claims_of_flags(citing: Citing, point: Point, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """Each flag at its bits, with the values that have names."""
     above = point.bits[1] if point.bits else 0
     always = point.fixed.bits if point.fixed is not None else 0
@@ -183,7 +183,7 @@ def _label_of_value(node: Any, raw: int, wordings: Wordings) -> tuple[str, ...]:
     return wordings.label(titles) if isinstance(titles, Map) else ()
 
 
-def _node_of_flag(draft: Draft, flag: Flag, above: int) -> tuple[Span, Any]:
+def _node_of_flag(draft: PointFacts, flag: Flag, above: int) -> tuple[Span, Any]:
     """Where the description names the bits of a flag, and what it says of them."""
     flags = draft.get("flags")
     if isinstance(flags, Map):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.citing import Claim
     from fieldscribe.audit.wordings import Wordings
     from fieldscribe.model import Point
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _INDEX_BEHIND_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
@@ -27,7 +27,7 @@ _KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
 
 
 def claims_of_point(
-    point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings, parts: frozenset[str]
+    point: Point, draft: PointFacts, enums: Mapping[str, Map], wordings: Wordings, parts: frozenset[str]
 ) -> Iterator[Claim]:
     """Everything that a point says itself: code, section, address, title, numbers, enum, flags, printed facts.
 
@@ -50,13 +50,13 @@ def claims_of_point(
     yield from _printed(citing, draft, wordings)
 
 
-def _titles_of(draft: Draft) -> Any:
+def _titles_of(draft: PointFacts) -> Any:
     """The title of the row; of a further set, whose row the manual prints too, with what tells it apart."""
     made_of_the_first = {language: text for language, text in draft.title.items() if language != "en"}
     return draft.get("title", made_of_the_first)
 
 
-def _access(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _access(citing: Citing, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """How the manual prints who may write; rows that print nothing of it say nothing, and are right for `none`."""
     access = str(draft.get("access"))
     words = wordings.access.get(access, [])
@@ -74,7 +74,7 @@ def _codes_of(code: str, wordings: Wordings) -> tuple[str, ...]:
     return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in wordings.code(letters)))
 
 
-def _address(citing: Citing, point: Point, draft: Draft, code: str, parts: frozenset[str]) -> Iterator[Claim]:
+def _address(citing: Citing, point: Point, draft: PointFacts, code: str, parts: frozenset[str]) -> Iterator[Claim]:
     if point.address is None:
         return
     at = draft.get("at")
@@ -105,7 +105,7 @@ def _address(citing: Citing, point: Point, draft: Draft, code: str, parts: froze
         )
 
 
-def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _numbers_of(citing: Citing, point: Point, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """The limits, the bits of the word, the characters of a text and the scale."""
     for key in ("range", "range_in_units"):
         if _says_itself(draft, key) and not point.flags:  # the flags of a word say which numbers it holds
@@ -127,7 +127,7 @@ def _numbers_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) 
             yield from citing.numbers("scale", str(number), (number, 1 / number), place=draft.span("scale"))
 
 
-def _prints_units(draft: Draft) -> bool:
+def _prints_units(draft: PointFacts) -> bool:
     """Whether the description says that the limits are printed in the unit, too."""
     printed = draft.get("printed")
     return isinstance(printed, Map) and "range_in_units" in printed and draft.layer("range") is not None
@@ -149,7 +149,7 @@ def _scale_numbers(raw: Any) -> list[Fraction]:
     return [number for text in texts for number in numbers_in(text) if number not in (0, 1)]
 
 
-def _bits_of(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _bits_of(citing: Citing, point: Point, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """The bits of the word that the point takes, and the bits that are always written alike."""
     if point.bits is not None:
         words = tuple(wordings.bits(*point.bits))
@@ -203,7 +203,7 @@ def _runs_of(raw: Any) -> Iterator[tuple[str, list[Fraction]]]:
 
 
 def _enum_of(
-    citing: Citing, point: Point, draft: Draft, enums: Mapping[str, Map], wordings: Wordings
+    citing: Citing, point: Point, draft: PointFacts, enums: Mapping[str, Map], wordings: Wordings
 ) -> Iterator[Claim]:
     """The numbers and labels of the point's enum, but for entries of a shared enum that cite a line themselves."""
     key = "digits" if point.digits else "enum"
@@ -229,7 +229,7 @@ def _enum_of(
             yield from citing.numbers("enum", str(number), numbers, place=place)
 
 
-def _special_codes(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _special_codes(citing: Citing, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """The raw numbers that are no quantity, each with its name."""
     codes: Any = draft.get("special") if _says_itself(draft, "special") else None
     for position, (number, entry) in enumerate(codes.items() if isinstance(codes, Map) else ()):
@@ -238,7 +238,7 @@ def _special_codes(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator
         yield from citing.label("special", label, beside=numbers, entry=(position, 0), place=place)
 
 
-def _default(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _default(citing: Citing, point: Point, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     """The factory setting, where `lines` says that the manual prints it: behind its name, if it writes one."""
     if "default" in citing.lines_of_fact and point.default_raw is not None:
         numbers = [Fraction(point.default_raw), *([] if point.default is None else [point.default])]
@@ -247,7 +247,7 @@ def _default(citing: Citing, point: Point, draft: Draft, wordings: Wordings) -> 
         yield from citing.numbers("default", str(draft.get("default")), numbers, names=names, place=span)
 
 
-def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim]:
+def _printed(citing: Citing, draft: PointFacts, wordings: Wordings) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
         kind = _KEY_IN_LINES.get(key, key if key in OWN_PRINTED else "address")
@@ -282,7 +282,7 @@ def _printed(citing: Citing, draft: Draft, wordings: Wordings) -> Iterator[Claim
             )
 
 
-def _says_itself(draft: Draft, key: str) -> bool:
+def _says_itself(draft: PointFacts, key: str) -> bool:
     """Whether the point (or its format, record, set) says a fact itself: what its group says cites no line."""
     layer = draft.layer(key)
     return layer is not None and layer is not draft.group

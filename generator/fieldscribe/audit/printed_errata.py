@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import About
-    from fieldscribe.resolve.errata import OpenErratum
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.errata import LocatedErratum
 
 _LINES_NAMED = re.compile(r"\blines?\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*(?:\s+and\s+[0-9]+)?")
 _QUOTED = re.compile('["\u201e\u201c]([^"\u201c\u201d]+)["\u201c\u201d]')
@@ -40,12 +40,12 @@ class PrintedErratum:
     """`taken` as the author wrote it: it may name codes that the manual does not print."""
 
 
-def printed_errata_of(subject: Subject) -> Iterator[PrintedErratum]:
+def printed_errata_of(subject: Analysis) -> Iterator[PrintedErratum]:
     """All errata that name a line."""
     return (_printed_erratum(erratum) for erratum in subject.errata if erratum.erratum.source.line is not None)
 
 
-def _printed_erratum(written: OpenErratum) -> PrintedErratum:
+def _printed_erratum(written: LocatedErratum) -> PrintedErratum:
     printed, taken, lines = (written.node.get(key) for key in ("printed", "taken", "lines"))
     cited = list(spans_of(written.node["line"]))
     cited += [span for value in lines.values() for span in spans_of(value)] if isinstance(lines, Map) else []

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 
-def run_checks(subject: Subject) -> None:
+def run_checks(analysis: Analysis) -> None:
     """Run all checks, also those of the family. Errata come after the checks that use them, names last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
@@ -31,8 +31,8 @@ def run_checks(subject: Subject) -> None:
         write_addresses_are_used,
     )
 
-    family_part = subject.scope.family.part("checks")
-    checks: tuple[Callable[[Subject], None], ...] = (
+    family_part = analysis.scope.family.part("checks")
+    checks: tuple[Callable[[Analysis], None], ...] = (
         device_name_is_free.check,
         every_point_has_a_source.check,
         lines_run_upwards.check,
@@ -52,4 +52,4 @@ def run_checks(subject: Subject) -> None:
         names_do_not_clash.check,
     )
     for check in checks:
-        check(subject)
+        check(analysis)

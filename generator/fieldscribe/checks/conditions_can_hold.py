@@ -5,57 +5,57 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.checks.meetings import Meetings, clauses
-from fieldscribe.existence import ends_before
+from fieldscribe.checks.coexistence import Coexistence, clauses
+from fieldscribe.conditions import ends_before
 
 if TYPE_CHECKING:
-    from fieldscribe.existence import Clause, Domain
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.conditions import Clause, Domain
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _MOST_SHOWN = 12
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Comparisons and clauses that nothing in the device can make true, and circles of conditions."""
-    _circles(subject)
-    meetings = Meetings(subject)
+    _circles(analysis)
+    meetings = Coexistence(analysis)
     known: dict[Clause, bool] = {}
-    for resolved in subject.resolved:
+    for resolved in analysis.resolved:
         point = resolved.point
         if ends_before(point.until, point.since):
             message = f"`{point.name}` ends with {point.until}, before it comes with {point.since}"
             hint = "`since` is the first firmware that has it, `until` the last"
-            subject.report.error("never-true", message, resolved.draft.span("until"), hint)
-        if point.when is None or subject.report.full:
+            analysis.report.error("never-true", message, resolved.facts.span("until"), hint)
+        if point.when is None or analysis.report.full:
             continue
         for clause in clauses(point):
             if clause not in known:
                 known[clause] = meetings.possible(clause)
             if not known[clause]:
-                _report_never_true(subject, resolved, meetings, clause)
+                _report_never_true(analysis, resolved, meetings, clause)
 
 
-def _circles(subject: Subject) -> None:
+def _circles(analysis: Analysis) -> None:
     """Findings for conditions in a circle: two points of which each exists only if the other does."""
     from graphlib import CycleError, TopologicalSorter
 
-    drafts = {resolved.point.name: resolved for resolved in subject.resolved if resolved.point.when is not None}
-    needs = {name: resolved.point.when.names for name, resolved in drafts.items() if resolved.point.when is not None}
-    while needs and not subject.report.full:
+    expanded = {resolved.point.name: resolved for resolved in analysis.resolved if resolved.point.when is not None}
+    needs = {name: resolved.point.when.names for name, resolved in expanded.items() if resolved.point.when is not None}
+    while needs and not analysis.report.full:
         try:
             TopologicalSorter(needs).prepare()
         except CycleError as error:
             circle: list[str] = error.args[1][::-1]
             message = f"a condition that needs itself: {' needs '.join(f'`{name}`' for name in circle)}"
             hint = "break the circle: one of them exists whatever the others hold"
-            subject.report.error("condition-cycle", message, drafts[circle[0]].draft.span("when"), hint)
+            analysis.report.error("condition-cycle", message, expanded[circle[0]].facts.span("when"), hint)
             needs = {name: others for name, others in needs.items() if name not in circle}
         else:
             return
 
 
-def _report_never_true(subject: Subject, resolved: Resolved, meetings: Meetings, clause: Clause) -> None:
+def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, meetings: Coexistence, clause: Clause) -> None:
     """A finding about the first comparison that is never true, or about all of them together."""
     points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
     alone = next((part for part in clause if not meetings.possible((part,))), None)
@@ -63,7 +63,7 @@ def _report_never_true(subject: Subject, resolved: Resolved, meetings: Meetings,
     hint = "one thing has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
         hint = f"`{alone.of}` can be {_shown(meetings.domain(alone.of))}"
-    subject.report.error("never-true", f"`{text}` is never true", resolved.draft.span("when"), hint)
+    analysis.report.error("never-true", f"`{text}` is never true", resolved.facts.span("when"), hint)
 
 
 def _shown(domain: Domain) -> str:

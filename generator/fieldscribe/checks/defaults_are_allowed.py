@@ -8,21 +8,21 @@ from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _LONGEST = 30
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Defaults that the range excludes."""
-    for resolved in subject.resolved:
+    for resolved in analysis.resolved:
         point = resolved.point
-        if resolved.draft.failed & {"scale", "range", "type", "enum"}:
+        if resolved.facts.failed & {"scale", "range", "type", "enum"}:
             continue
         fault = _fault(point)
         if fault is not None:
-            _report(subject, resolved, fault)
+            _report(analysis, resolved, fault)
 
 
 def _fault(point: Point) -> str | None:
@@ -54,12 +54,12 @@ def _forbidden(point: Point, raw: int) -> str | None:
     return None
 
 
-def _report(subject: Subject, resolved: Resolved, fault: str) -> None:
-    point, draft = resolved.point, resolved.draft
-    raw = draft.layer("default") is not None
+def _report(analysis: Analysis, resolved: ResolvedPoint, fault: str) -> None:
+    point, facts = resolved.point, resolved.facts
+    raw = facts.layer("default") is not None
     key = "default" if raw else "default_in_units"
     unit = f" {point.unit.symbol}" if point.unit.symbol and not raw else ""
-    said = draft.get(key)
+    said = facts.get(key)
     hint = "it is in the unit; correct it, the range or the scale"
     if raw:
         hint = (
@@ -68,7 +68,7 @@ def _report(subject: Subject, resolved: Resolved, fault: str) -> None:
             else "it is a raw number; correct it, or the range"
         )
     message = f"the default {said}{unit} cannot be written: {fault}"
-    subject.report.error("default-outside-range", message, draft.span(key), hint)
+    analysis.report.error("default-outside-range", message, facts.span(key), hint)
 
 
 def _fits_in_units(point: Point) -> bool:

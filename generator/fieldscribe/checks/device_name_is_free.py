@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _UNSAFE = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """The first reason why the name is taken, if there is one."""
-    header = subject.scope.header
+    header = analysis.scope.header
     name = str(header["device"])
     for taken in reasons(name):
         hint = "name it after vendor and model, such as `hitachi_l200`"
-        subject.report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)
+        analysis.report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)
         return
 
 

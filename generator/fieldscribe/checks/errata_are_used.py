@@ -8,18 +8,18 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
 
 if TYPE_CHECKING:
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for what an erratum says is printed wrong, where nothing disagrees."""
-    for erratum in subject.errata:
+    for erratum in analysis.errata:
         printed = erratum.node["printed"]
         on_bus = any(isinstance(about, Named) for about in erratum.subjects)
-        if not isinstance(printed, Map) or (on_bus and not subject.bus_is_whole):
+        if not isinstance(printed, Map) or (on_bus and not analysis.bus_is_whole):
             continue
         for key in printed:
             if key not in erratum.used:
                 message = f"the erratum `{erratum.erratum.id}` explains `{key}`, but no printed `{key}` disagrees"
                 hint = f"give what is printed under `printed: {{{key}: …}}` of the point, or say it as a sentence"
-                subject.report.error("erratum-unused", message, printed.key_span(key), hint)
+                analysis.report.error("erratum-unused", message, printed.key_span(key), hint)

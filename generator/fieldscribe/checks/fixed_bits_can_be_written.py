@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.checks.meetings import Meetings
+from fieldscribe.checks.coexistence import Coexistence
 
 if TYPE_CHECKING:
     from fieldscribe.model import Fixed, Point
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _RIVALS = ("enum", "digits", "scale")
 """Keys that a word with fixed bits cannot have."""
@@ -19,53 +19,53 @@ _MOST = 64
 """With how many bit groups of a word each is compared: a word has 16 bits, with its variants a few times as many."""
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Fixed bits that no allowed number has, that two points write differently, or that another point takes."""
-    meetings = Meetings(subject)
-    words: dict[tuple[str, str | None, int, int], list[Resolved]] = {}
-    fixed = [resolved for resolved in subject.resolved if resolved.point.fixed is not None]
-    for resolved in subject.resolved if fixed else ():
+    meetings = Coexistence(analysis)
+    words: dict[tuple[str, str | None, int, int], list[ResolvedPoint]] = {}
+    fixed = [resolved for resolved in analysis.resolved if resolved.point.fixed is not None]
+    for resolved in analysis.resolved if fixed else ():
         if resolved.point.writable and resolved.point.bits is not None and resolved.point.addresses:
-            words.setdefault(_word(subject, resolved.point), []).append(resolved)
+            words.setdefault(_word(analysis, resolved.point), []).append(resolved)
     for resolved in fixed:
         point = resolved.point
-        if point.fixed is None or resolved.draft.failed & {"type", "range", "fixed"}:
+        if point.fixed is None or resolved.facts.failed & {"type", "range", "fixed"}:
             continue
-        rivals = resolved.draft.floating or any(resolved.draft.get(key) is not None for key in _RIVALS)
+        rivals = resolved.facts.floating or any(resolved.facts.get(key) is not None for key in _RIVALS)
         if point.bits is None and not rivals and not _leaves_any(point, point.fixed):
             message = f"no number that may be written to `{point.name}` has these bits"
             hint = "numbers are the whole word, fixed bits with it: correct the range, or leave `fixed` out"
-            subject.report.error("two-meanings", message, resolved.draft.span("fixed"), hint)
+            analysis.report.error("two-meanings", message, resolved.facts.span("fixed"), hint)
         if point.bits is not None and point.addresses:
-            others = words[_word(subject, point)][:_MOST]
+            others = words[_word(analysis, point)][:_MOST]
             behind = False
             for other in others:
                 if other is not resolved and not meetings.never(resolved, other):
-                    _compare(subject, resolved, point.fixed, other, behind=behind)
+                    _compare(analysis, resolved, point.fixed, other, behind=behind)
                 behind = behind or other is resolved
 
 
-def _word(subject: Subject, point: Point) -> tuple[str, str | None, int, int]:
+def _word(analysis: Analysis, point: Point) -> tuple[str, str | None, int, int]:
     """The word that is written, by space, telegram, index and address."""
-    index = (point.index or 0) if point.space in subject.scope.family.indexed else 0
+    index = (point.index or 0) if point.space in analysis.scope.family.indexed else 0
     return point.space, point.telegram, index, min(point.written.addresses)
 
 
-def _compare(subject: Subject, resolved: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
+def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: ResolvedPoint, *, behind: bool) -> None:
     """Findings about two bit groups of one word; the one that stands `behind` reports what is wrong with both."""
     mask = group_mask(other.point)
     other_fixed = other.point.fixed
-    related = [(other.draft.span(), f"`{other.point.name}` stands here")]
+    related = [(other.facts.span(), f"`{other.point.name}` stands here")]
     if fixed.mask & mask:
         bit = (fixed.mask & mask).bit_length() - 1
         message = f"writing `{resolved.point.name}` would always change bit {bit}, which is of `{other.point.name}`"
         hint = "leave that bit out of `fixed`: the other bits of the word are written back as they were read"
-        subject.report.error("bits-overlap", message, resolved.draft.span("fixed"), hint, related)
+        analysis.report.error("bits-overlap", message, resolved.facts.span("fixed"), hint, related)
     elif behind and other_fixed is not None and (fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask:
         bit = ((fixed.bits ^ other_fixed.bits) & fixed.mask & other_fixed.mask).bit_length() - 1
         message = f"`{resolved.point.name}` and `{other.point.name}` fix bit {bit} of their word differently"
         hint = "what is always written as a constant is one constant: correct one of them"
-        subject.report.error("two-meanings", message, resolved.draft.span("fixed"), hint, related)
+        analysis.report.error("two-meanings", message, resolved.facts.span("fixed"), hint, related)
 
 
 def _leaves_any(point: Point, fixed: Fixed) -> bool:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.language.nodes import Map
-from fieldscribe.resolve.subject import Printed, Subject
+from fieldscribe.resolve.analysis import Analysis, PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.model import Frame, Point
-    from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.frames import LocatedFrame
 
 Carries = Callable[["Point"], int | None]
 """The raw number of a point that a frame carries; None if it does not."""
@@ -31,53 +31,53 @@ class Seen:
     carries: Carries | None = None
 
 
-Reader = Callable[[Subject, "OpenFrame", dict[str, Seen]], Seen]
+Reader = Callable[[Analysis, "LocatedFrame", dict[str, Seen]], Seen]
 """Reads a frame as the family does; takes the frames before it by name, and reports what disagrees."""
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
-    if not subject.bus_is_whole:
+    if not analysis.bus_is_whole:
         return
-    family_part = subject.scope.family.part("checks")
+    family_part = analysis.scope.family.part("checks")
     read: Reader = _unread if family_part is None else family_part.read
     seen: dict[str, Seen] = {}
-    points = {resolved.point.item: resolved.point for resolved in subject.resolved}
+    points = {resolved.point.item: resolved.point for resolved in analysis.resolved}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
-    for open_frame in subject.open_frames:
-        read_frame = read(subject, open_frame, seen)
+    for open_frame in analysis.open_frames:
+        read_frame = read(analysis, open_frame, seen)
         if read_frame.carries is not None:
-            _compare_meaning(subject, open_frame, read_frame.carries, points)
+            _compare_meaning(analysis, open_frame, read_frame.carries, points)
             if open_frame.frame.direction == "request":
-                _compare_fixed_bits(subject, open_frame, read_frame.carries, fixed)
-        ids = tuple(erratum.erratum.id for erratum in subject.cited.get(open_frame.about, ()))
+                _compare_fixed_bits(analysis, open_frame, read_frame.carries, fixed)
+        ids = tuple(erratum.erratum.id for erratum in analysis.cited.get(open_frame.about, ()))
         seen[open_frame.frame.name] = read_frame
-        subject.frames.append(replace(read_frame.frame, errata=ids))
+        analysis.frames.append(replace(read_frame.frame, errata=ids))
 
 
-def _unread(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def _unread(analysis: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """The reader for families that do not read frames."""
-    del subject, seen
+    del analysis, seen
     return Seen(open_frame.frame)
 
 
-def _compare_meaning(subject: Subject, open_frame: OpenFrame, carries: Carries, points: dict[str, Point]) -> None:
+def _compare_meaning(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: dict[str, Point]) -> None:
     says = open_frame.node.get("says")
     if not isinstance(says, Map):
         return
     for word in says:
-        draft = subject.index.find(word.removesuffix(".raw"))
-        point = points.get(draft.item) if draft is not None else None
-        if draft is None or point is None or point.item not in open_frame.frame.meaning or "at" in draft.failed:
+        facts = analysis.index.find(word.removesuffix(".raw"))
+        point = points.get(facts.item) if facts is not None else None
+        if facts is None or point is None or point.item not in open_frame.frame.meaning or "at" in facts.failed:
             continue
         wanted, carried = open_frame.frame.meaning[point.item], carries(point)
         if carried != wanted:
             shown = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
-            subject.disagrees(Printed(open_frame.about, "says", says[word], None, says.span(word), message))
+            analysis.disagrees(PrintedFact(open_frame.about, "says", says[word], None, says.span(word), message))
 
 
-def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carries, points: list[Point]) -> None:
+def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: list[Point]) -> None:
     """Findings for requests that write a word without its constant bits."""
     for point in points:
         word = carries(_whole_word(point))
@@ -85,7 +85,9 @@ def _compare_fixed_bits(subject: Subject, open_frame: OpenFrame, carries: Carrie
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        subject.disagrees(Printed(open_frame.about, "fixed", printed, None, open_frame.node.span("bytes"), message))
+        analysis.disagrees(
+            PrintedFact(open_frame.about, "fixed", printed, None, open_frame.node.span("bytes"), message)
+        )
 
 
 def _whole_word(point: Point) -> Point:
@@ -95,45 +97,49 @@ def _whole_word(point: Point) -> Point:
     return replace(point, terms=replace(point.terms, bits=None), shape=replace(point.shape, type="u16", width=16))
 
 
-def report_no_frame(subject: Subject, open_frame: OpenFrame, message: str) -> Seen:
+def report_no_frame(analysis: Analysis, open_frame: LocatedFrame, message: str) -> Seen:
     """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
     printed = hex_of(open_frame.frame.printed)
-    subject.disagrees(Printed(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message))
+    analysis.disagrees(PrintedFact(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message))
     return Seen(replace(open_frame.frame, valid=False))
 
 
-def report_refused(subject: Subject, open_frame: OpenFrame, status: str) -> Seen:
+def report_refused(analysis: Analysis, open_frame: LocatedFrame, status: str) -> Seen:
     """A finding for a request that the device does not take, or a response that is no answer to its request."""
     frame = open_frame.frame
     asks = frame.direction == "request"
     what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
-    return report_no_frame(subject, open_frame, f"{what}: {status.replace('_', ' ')}")
+    return report_no_frame(analysis, open_frame, f"{what}: {status.replace('_', ' ')}")
 
 
-def report_no_request(subject: Subject, open_frame: OpenFrame) -> None:
+def report_no_request(analysis: Analysis, open_frame: LocatedFrame) -> None:
     """A finding for a response that does not say what it answers."""
     if open_frame.frame.answers is None:
         message = f"the response `{open_frame.frame.name}` answers nothing"
-        subject.report.error("unknown-frame", message, open_frame.node.span("name"), "name the request under `answers`")
+        analysis.report.error(
+            "unknown-frame", message, open_frame.node.span("name"), "name the request under `answers`"
+        )
 
 
-def report_wrong_error(subject: Subject, open_frame: OpenFrame, carried: int | None) -> None:
+def report_wrong_error(analysis: Analysis, open_frame: LocatedFrame, carried: int | None) -> None:
     """A finding for a frame that carries another error than the description says."""
     stated = open_frame.node.get("error")
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        subject.disagrees(Printed(open_frame.about, "error", stated, carried, open_frame.node.span("error"), message))
+        analysis.disagrees(
+            PrintedFact(open_frame.about, "error", stated, carried, open_frame.node.span("error"), message)
+        )
 
 
-def report_wrong_sum(subject: Subject, open_frame: OpenFrame, key: str, here: bytes, right: bytes) -> None:
+def report_wrong_sum(analysis: Analysis, open_frame: LocatedFrame, key: str, here: bytes, right: bytes) -> None:
     """A finding for a checksum or a length that is not the one that the bytes give."""
     printed, taken = hex_of(here), hex_of(right)
     if printed != taken:
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
         span = open_frame.node.span("bytes")
-        subject.disagrees(Printed(open_frame.about, key, printed, taken, span, message))
+        analysis.disagrees(PrintedFact(open_frame.about, key, printed, taken, span, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:

@@ -11,34 +11,34 @@ from fieldscribe.resolve.values import formula_finding
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for a telegram without points, and for a rule of addresses that cannot be read."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
-    for resolved in subject.resolved:
-        group = resolved.draft.group
+    for resolved in analysis.resolved:
+        group = resolved.facts.group
         groups.setdefault(id(group), group)
-        if resolved.point.space == SPACE or "space" in resolved.draft.failed:
+        if resolved.point.space == SPACE or "space" in resolved.facts.failed:
             with_words.add(id(group))
     for key, group in groups.items():
-        if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:
+        if "telegram" in group and key not in with_words and SPACE in analysis.scope.family.spaces:
             message = f"no point of the group is a word of the telegram `{group['telegram']}`"
             hint = "write `space: telegram`, or leave `telegram` out"
-            subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
+            analysis.report.error("two-meanings", message, group.key_span("telegram"), hint)
         if "addressing" in group:
-            _check_rule(subject, group)
+            _check_rule(analysis, group)
 
 
-def _check_rule(subject: Subject, group: Map) -> None:
+def _check_rule(analysis: Analysis, group: Map) -> None:
     try:
         evaluate(parse_expression(group["addressing"]), _KNOWN)
     except FormulaError as error:
         if "is not known" in error.message:
             error.hint = "a rule knows number, index, set, sets and indices"
         if "division by zero" not in error.message:  # it was evaluated with ones; the real numbers may be fine
-            formula_finding(error, group.span("addressing"), subject.report)
+            formula_finding(error, group.span("addressing"), analysis.report)

@@ -12,37 +12,37 @@ from fieldscribe.language.numbers import parse_integer
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _LISTS = lists_with(DEVICE, "lines")
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for `lines` such as 9..3."""
     seen: set[int] = set()
-    for resolved in subject.resolved:
-        for layer in resolved.draft.layers:
+    for resolved in analysis.resolved:
+        for layer in resolved.facts.layers:
             if id(layer) not in seen:
                 seen.add(id(layer))
-                _lines(subject, layer)
+                _lines(analysis, layer)
     for key in _LISTS:
-        for raw in subject.scope.listed(key):
-            _lines(subject, raw)
-    if subject.scope.bus is not None:
-        for codes in subject.scope.bus.values():
+        for raw in analysis.scope.listed(key):
+            _lines(analysis, raw)
+    if analysis.scope.bus is not None:
+        for codes in analysis.scope.bus.values():
             for code in codes.values() if isinstance(codes, Map) else ():
                 if isinstance(code, Map):
-                    _lines(subject, code)
+                    _lines(analysis, code)
 
 
-def _lines(subject: Subject, node: Map) -> None:
+def _lines(analysis: Analysis, node: Map) -> None:
     lines = node.get("lines")
     if lines is None:
         return
     for holder, at, text in _texts_in(node, "lines", lines):
         first, dots, last = text.partition("..")
         if dots and parse_integer(first) > parse_integer(last):
-            subject.report.error(
+            analysis.report.error(
                 "range-reversed", f"lines `{text}` run downwards", holder.span(at), f"write {last}..{first}"
             )
 

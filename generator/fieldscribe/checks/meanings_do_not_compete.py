@@ -9,9 +9,9 @@ from fieldscribe.language.keys.places import POINT
 from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
 
 if TYPE_CHECKING:
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)
@@ -37,45 +37,45 @@ class _Rivals:
     def __init__(self) -> None:
         self._known: dict[tuple[str, ...], tuple[tuple[str, str, str], ...]] = {}
 
-    def among(self, draft: Draft) -> tuple[tuple[str, str, str], ...]:
+    def among(self, facts: PointFacts) -> tuple[tuple[str, str, str], ...]:
         """The pairs of keys that a point has both of, though they exclude each other."""
-        keys = tuple(draft.keys)
+        keys = tuple(facts.keys)
         if keys not in self._known:
             self._known[keys] = tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
         return self._known[keys]
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for facts of one point that exclude each other."""
     rivals = _Rivals()
-    for resolved in subject.resolved:
-        draft, shape = resolved.draft, resolved.point.shape
+    for resolved in analysis.resolved:
+        facts, shape = resolved.facts, resolved.point.shape
         if shape.specials:
-            _shared_names(subject, resolved)
+            _shared_names(analysis, resolved)
         if shape.info.floating:
             _alien(
-                subject, draft, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
+                analysis, facts, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
             )
             continue
-        if draft.text:
-            _alien(subject, draft, _OF_NUMBERS, "text", "its characters are all that it means")
+        if facts.text:
+            _alien(analysis, facts, _OF_NUMBERS, "text", "its characters are all that it means")
             continue
-        if shape.type == "bit" and draft.get("special") is not None and "type" not in draft.failed:
-            message = f"`{draft.name}` is a single bit, which has no room for a special code"
-            subject.report.error("two-meanings", message, draft.span("special"), "name its two states by an `enum`")
-        if draft.get("fixed") is not None and not shape.writable:
-            message = f"`fixed` says what is written, and `{draft.name}` is only read"
-            subject.report.error("two-meanings", message, draft.span("fixed"), "leave it out, or correct `access`")
-        for first, second, hint in rivals.among(draft):
+        if shape.type == "bit" and facts.get("special") is not None and "type" not in facts.failed:
+            message = f"`{facts.name}` is a single bit, which has no room for a special code"
+            analysis.report.error("two-meanings", message, facts.span("special"), "name its two states by an `enum`")
+        if facts.get("fixed") is not None and not shape.writable:
+            message = f"`fixed` says what is written, and `{facts.name}` is only read"
+            analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
+        for first, second, hint in rivals.among(facts):
             if first == "fixed" and resolved.point.bits is not None:
                 continue
-            if draft.get(first) is not None and draft.get(second) is not None:
-                related = [(draft.span(first), f"`{first}` stands here")]
-                message = f"`{draft.name}` cannot have both `{first}` and `{second}`"
-                subject.report.error("two-meanings", message, draft.span(second), hint, related)
+            if facts.get(first) is not None and facts.get(second) is not None:
+                related = [(facts.span(first), f"`{first}` stands here")]
+                message = f"`{facts.name}` cannot have both `{first}` and `{second}`"
+                analysis.report.error("two-meanings", message, facts.span(second), hint, related)
 
 
-def _shared_names(subject: Subject, resolved: Resolved) -> None:
+def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
     """Findings for a name that is a special code and also an enum entry or a flag: it would be ambiguous."""
     point = resolved.point
     enum = point.digits.enum if point.digits is not None else point.enum
@@ -91,14 +91,14 @@ def _shared_names(subject: Subject, resolved: Resolved) -> None:
             continue
         message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
         hint = "give the code another name, so that whoever writes the name means one number"
-        subject.report.error("special-twice", message, resolved.draft.span("special"), hint)
-        resolved.draft.failed.add("special")
+        analysis.report.error("special-twice", message, resolved.facts.span("special"), hint)
+        resolved.facts.failed.add("special")
 
 
-def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
+def _alien(analysis: Analysis, facts: PointFacts, keys: tuple[str, ...], what: str, why: str) -> None:
     """Findings for facts about whole numbers that a text or a floating-point number was given."""
-    rule = "text-fact" if draft.text else "float-fact"
+    rule = "text-fact" if facts.text else "float-fact"
     for key in keys:
-        if draft.get(key) is not None and draft.layer(key) is not draft.group:
-            message = f"`{key}` is for {'' if draft.text else 'whole '}numbers, and `{draft.name}` is a {what}"
-            subject.report.error(rule, message, draft.span(key), f"{why}: leave it out")
+        if facts.get(key) is not None and facts.layer(key) is not facts.group:
+            message = f"`{key}` is for {'' if facts.text else 'whole '}numbers, and `{facts.name}` is a {what}"
+            analysis.report.error(rule, message, facts.span(key), f"{why}: leave it out")

@@ -8,42 +8,42 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.names_apart import Kinds
-from fieldscribe.checks.owners import Owners, given_names
+from fieldscribe.checks.distinct_names import Kinds
+from fieldscribe.checks.identifier_places import IdentifierPlaces, given_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.checks.owners import Thing
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.checks.identifier_places import Thing
+    from fieldscribe.resolve.analysis import Analysis
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for equal names in the description, then for equal identifiers in a target."""
     told_pairs: set[frozenset[Thing]] = set()
     first: dict[tuple[str, str], Callable[[], Thing]] = {}
-    for namespace, name, whose in given_names(subject):
+    for namespace, name, whose in given_names(analysis):
         known = first.setdefault((namespace, name), whose)
         if known is not whose and (other := known()) != (thing := whose()):
-            _report(subject, other, thing, f"`{name}` in {namespace}", told_pairs)
-    _compare_targets(subject, told_pairs)
+            _report(analysis, other, thing, f"`{name}` in {namespace}", told_pairs)
+    _compare_targets(analysis, told_pairs)
 
 
-def _compare_targets(subject: Subject, told_pairs: set[frozenset[Thing]]) -> None:
+def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> None:
     from fieldscribe.targets import TARGETS, knows, target
     from fieldscribe.targets.identifiers import clashes
 
-    owners, device = Owners(subject), subject.sound
+    owners, device = IdentifierPlaces(analysis), analysis.sound
     kinds = Kinds(device)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
         if language.KEEPS_NAMES and kinds.proves(language.identifiers):
             continue
         for clash in clashes(language.identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
-            _report(subject, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
+            _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
 
 
-def _report(subject: Subject, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
+def _report(analysis: Analysis, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
     """Report a pair once: names that clash in one language mostly clash in others too."""
     pair = frozenset((first, second))
     if second.place is None:
@@ -56,4 +56,4 @@ def _report(subject: Subject, first: Thing, second: Thing, where: str, told_pair
     message = f"{first.words} and {second.words} would both be {where}"
     if first.words == second.words:
         message = f"{second.words} is there twice"
-    subject.report.error("name-clash", message, second.place, hint, related)
+    analysis.report.error("name-clash", message, second.place, hint, related)

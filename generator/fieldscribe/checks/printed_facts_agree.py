@@ -11,10 +11,10 @@ from fieldscribe.arithmetic.words import number_of
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number, plain_number
+from fieldscribe.resolve.analysis import Analysis, PrintedFact, same
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
 from fieldscribe.resolve.special_codes import without_codes
-from fieldscribe.resolve.subject import Printed, Subject, same
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Allowed, Point
-    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _LOW, _HIGH, _WRITE = "low_", "high_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}
@@ -37,17 +37,17 @@ _NEEDS = {
 """The keys of the facts that each printed key is compared with; all others are compared with the address."""
 
 
-def check(subject: Subject) -> None:
-    """Printed numbers, ranges, resolutions and counts that disagree with the point."""
-    for resolved in subject.resolved:
-        layer = resolved.draft.layer("printed")
+def check(analysis: Analysis) -> None:
+    """PrintedFact numbers, ranges, resolutions and counts that disagree with the point."""
+    for resolved in analysis.resolved:
+        layer = resolved.facts.layer("printed")
         if layer is not None:
             printed: Map = layer["printed"]
             doubtful = _doubtful(printed, resolved.point)
             if doubtful:
-                _printed(subject, resolved, printed, doubtful)
+                _printed(analysis, resolved, printed, doubtful)
         if resolved.point.shape.flags:
-            _flags(subject, resolved)
+            _flags(analysis, resolved)
 
 
 def _doubtful(printed: Map, point: Point) -> list[str]:
@@ -72,30 +72,30 @@ def _is_plainly(value: object, number: int | str | None) -> bool:
     return True
 
 
-def _printed(subject: Subject, resolved: Resolved, printed: Map, keys: list[str]) -> None:
+def _printed(analysis: Analysis, resolved: ResolvedPoint, printed: Map, keys: list[str]) -> None:
     numbers: Mapping[str, int] | None = None
-    draft = resolved.draft
-    unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
+    facts = resolved.facts
+    unknown_scale = facts.layer("scale") is not None and facts.get("scale") is None
     for key in keys:
         value, span = printed[key], printed.span(key)
-        if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
+        if _NEEDS.get(key, {"at", "space", "type"}) & facts.failed:
             continue
         if key in ("range_in_units", "resolution", "pairs") and unknown_scale:
             continue  # the scale is not known
         if key in ("range", "range_in_units"):
-            _range(subject, resolved, key, value, span)
+            _range(analysis, resolved, key, value, span)
         elif key == "resolution":
-            _resolution(subject, resolved, value, span)
+            _resolution(analysis, resolved, value, span)
         elif key == "pairs":
-            _pairs(subject, resolved, value)
+            _pairs(analysis, resolved, value)
         elif key == "choices":
-            _choices(subject, resolved, value, span)
+            _choices(analysis, resolved, value, span)
         else:
-            numbers = _numbers(subject, resolved) if numbers is None else numbers
-            _number(subject, resolved, key, printed, numbers)
+            numbers = _numbers(analysis, resolved) if numbers is None else numbers
+            _number(analysis, resolved, key, printed, numbers)
 
 
-def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
+def _numbers(analysis: Analysis, resolved: ResolvedPoint) -> Mapping[str, int]:
     """The point's number in every numbering of its group.
 
     `low_...` and `high_...` are for the words with the low and the high part, `write_...` for where else the point is
@@ -105,40 +105,40 @@ def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
     for place in resolved.point.places:
         addresses, prefix = place.addresses, "" if place is resolved.point.place else _WRITE
         known[prefix + WIRE] = first = addresses[0] if resolved.point.text is not None else min(addresses)
-        known |= _numbered(subject, resolved, first, prefix)
+        known |= _numbered(analysis, resolved, first, prefix)
         if len(addresses) > 1:
             for part, address in ((_LOW, addresses[-1]), (_HIGH, addresses[0])):
                 known[prefix + part + WIRE] = address
-                known |= _numbered(subject, resolved, address, prefix + part)
+                known |= _numbered(analysis, resolved, address, prefix + part)
     return known
 
 
-def _numbered(subject: Subject, resolved: Resolved, address: int, prefix: str) -> dict[str, int]:
-    numbers = subject.places.references(resolved.draft, address)
+def _numbered(analysis: Analysis, resolved: ResolvedPoint, address: int, prefix: str) -> dict[str, int]:
+    numbers = analysis.places.references(resolved.facts, address)
     return {prefix + name: number for name, number in numbers.items()}
 
 
-def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, numbers: Mapping[str, int]) -> None:
+def _number(analysis: Analysis, resolved: ResolvedPoint, key: str, printed: Map, numbers: Mapping[str, int]) -> None:
     right = numbers.get(key)
     point = resolved.point
     if right is None:
-        numbering = resolved.draft.group.get("numbering", ())
+        numbering = resolved.facts.group.get("numbering", ())
         if point.addresses and key not in (*numbering, *getattr(numbering, "broken", ())):
             message = f"`{key}` names no numbering of this point"
             hint = f"known here: {', '.join((*numbers, *_NEEDS))}; others follow from what the group says, as in "
             hint += "`numbering: {modicon: wire + 1}`"
-            subject.report.error("unknown-key", message, printed.key_span(key), hint)
+            analysis.report.error("unknown-key", message, printed.key_span(key), hint)
         return
     for printed_number, span in _each(printed[key], printed.span(key)):
         try:
             number = parse_number(str(printed_number))
         except NumberError as error:
-            subject.report.error("bad-number", error.message, span, error.hint)
+            analysis.report.error("bad-number", error.message, span, error.hint)
             continue
         if number != right:
             fact = f"{key.replace('_', ' ')} {printed_number}"
             message = f"{fact} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
-            subject.disagrees(Printed(point.name, key, printed_number, right, span, message))
+            analysis.disagrees(PrintedFact(point.name, key, printed_number, right, span, message))
 
 
 def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
@@ -149,27 +149,27 @@ def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
         yield value, span
 
 
-def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Span) -> None:
+def _range(analysis: Analysis, resolved: ResolvedPoint, key: str, value: Any, span: Span) -> None:
     point = resolved.point
     if point.info.floating:
-        _units(subject, resolved, value, span)
+        _units(analysis, resolved, value, span)
         return
     in_units = key == "range_in_units"
 
     def agrees(printed_range: Any) -> bool | None:
-        intervals = subject.ranges.intervals(resolved.draft, printed_range, span, in_units, printed=True)
+        intervals = analysis.ranges.intervals(resolved.facts, printed_range, span, in_units, printed=True)
         return None if intervals is None else _same_range(point.allowed, without_codes(intervals, point.specials))
 
     if agrees(value) is not False:
         return
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
-    taken = taken or as_text(resolved.draft.get(key) or resolved.draft.get("range") or "another")
+    taken = taken or as_text(resolved.facts.get(key) or resolved.facts.get("range") or "another")
     message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-    right = Printed(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
-    subject.disagrees(right)
+    right = PrintedFact(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
+    analysis.disagrees(right)
 
 
-def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
+def _units(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:
     point = resolved.point
 
     def agrees(printed_range: Any) -> bool:
@@ -181,7 +181,7 @@ def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None
     if not agrees(value):
         taken = wording.range_text(point)
         message = f"the range {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-        subject.disagrees(Printed(point.name, "range_in_units", value, taken, span, message, agrees))
+        analysis.disagrees(PrintedFact(point.name, "range_in_units", value, taken, span, message, agrees))
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
@@ -196,41 +196,41 @@ def _same_range(taken: Allowed, printed: Allowed) -> bool:
     return moving == printed_moving and (fixed == printed_fixed or (bool(moving) and not printed_fixed))
 
 
-def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
+def _resolution(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:
     point = resolved.point
     number, _, unit = str(value).strip().partition(" ")
     step = _step(point)
     try:
         printed_step = parse_number(number)
     except NumberError as error:
-        subject.report.error("bad-number", error.message, span, error.hint)
+        analysis.report.error("bad-number", error.message, span, error.hint)
         return
     if step is None:
         return
     right = f"{number_text(step)} {point.unit.symbol}".strip()
     if printed_step != step or (unit.strip() and not same(unit, point.unit.symbol)):
         message = f"the resolution {value} is printed for `{point.name}`, the scale says {right}"
-        subject.disagrees(Printed(point.name, "resolution", value, right, span, message))
+        analysis.disagrees(PrintedFact(point.name, "resolution", value, right, span, message))
 
 
-def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
+def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
     """Compare printed pairs of a raw number and a value: the scale must turn each into the other."""
     point = resolved.point
     rule = fixed_rule(point)
     if rule is None or point.info.floating:
         why = "it is a floating-point number" if point.info.floating else "its scale is not fixed"
         message = f"the pairs of `{point.name}` cannot be checked: {why}"
-        subject.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
+        analysis.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
         return
     for key, value in pairs.items():
-        raw = integer(key, pairs.key_span(key), subject.report)
-        printed_value = number(value, pairs.span(key), subject.report)
+        raw = integer(key, pairs.key_span(key), analysis.report)
+        printed_value = number(value, pairs.span(key), analysis.report)
         if raw is None or printed_value is None:
             continue
         if not -(1 << point.width >> 1) <= raw < 1 << point.width:
             message = f"{key} does not fit into the {point.width} bits of `{point.name}`"
             hint = "correct the raw number, or the type"
-            subject.report.error("range-outside-type", message, pairs.key_span(key), hint)
+            analysis.report.error("range-outside-type", message, pairs.key_span(key), hint)
             continue
         if raw > point.greatest:
             raw = number_of(raw, point.width, signed=True)
@@ -238,7 +238,7 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         if half_away(rule.argument(printed_value)) != raw and abs(exact - printed_value) > _half_digit(value):
             pair, right = f"{key} {value}", f"{key} {number_text(exact)}"
             message = f"the pair {pair} is printed for `{point.name}`, the scale says {number_text(exact)}"
-            subject.disagrees(Printed(point.name, "pairs", pair, right, pairs.span(key), message))
+            analysis.disagrees(PrintedFact(point.name, "pairs", pair, right, pairs.span(key), message))
 
 
 def _half_digit(value: Any) -> Fraction:
@@ -255,9 +255,9 @@ def _step(point: Point) -> Fraction | None:
     return None if point.fixed_scale is None else abs(1 / point.fixed_scale.ratio)
 
 
-def _flags(subject: Subject, resolved: Resolved) -> None:
+def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
     """Compare the masks and bit numbers printed for flags, which count in the whole word."""
-    point, raw = resolved.point, resolved.draft.get("flags")
+    point, raw = resolved.point, resolved.facts.get("flags")
     first = point.bits[1] if point.bits else 0
     by_name = {flag.name: flag for flag in point.flags}
     for value in raw.values():
@@ -276,14 +276,14 @@ def _flags(subject: Subject, resolved: Resolved) -> None:
             if key not in printed:
                 continue
             span = printed.span(key)
-            printed_number = integer(printed[key], span, subject.report)
+            printed_number = integer(printed[key], span, analysis.report)
             if printed_number not in (None, right, other):
                 as_printed, shown = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
                 message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {shown}"
-                subject.disagrees(Printed(point.name, key, as_printed, shown, span, message, flag=flag.name))
+                analysis.disagrees(PrintedFact(point.name, key, as_printed, shown, span, message, flag=flag.name))
 
 
-def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> None:
+def _choices(analysis: Analysis, resolved: ResolvedPoint, value: int, span: Span) -> None:
     point = resolved.point
     if point.enum is not None:
         right = len(point.enum.entries)
@@ -292,4 +292,4 @@ def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> No
         right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
         message = f"{value} choices are printed for `{point.name}`, taken are {right}"
-        subject.disagrees(Printed(point.name, "choices", value, right, span, message))
+        analysis.disagrees(PrintedFact(point.name, "choices", value, right, span, message))

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 from fieldscribe.families import families
 
 if TYPE_CHECKING:
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for names of commands and points that do not exist."""
-    scope = subject.scope
+    scope = analysis.scope
     declared = {str(node["name"]) for node in scope.listed("commands")}
-    for resolved in subject.resolved:
+    for resolved in analysis.resolved:
         keeps = resolved.point.keeps
         if keeps == "choice" and not scope.family.chooses_memory:
             message = f"a {scope.family.name} request cannot choose where the device keeps the value"
@@ -23,10 +23,10 @@ def check(subject: Subject) -> None:
                 "write `keeps: yes`, `keeps: no`, or `keep_with` and the command that stores; "
                 f"`choice` is for the tasks of {choosers}"
             )
-            scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
+            scope.report.error("wrong-choice", message, resolved.facts.span("keeps"), hint)
         elif keeps not in (None, "no", "yes", "choice", *declared):
-            scope.unknown("command", str(keeps), resolved.draft.span("keep_with"), sorted(declared))
+            scope.unknown("command", str(keeps), resolved.facts.span("keep_with"), sorted(declared))
     for node in scope.listed("commands"):
         busy = node.get("busy")
-        if busy is not None and subject.index.find(busy) is None:
-            subject.index.unknown(busy, node.span("busy"))
+        if busy is not None and analysis.index.find(busy) is None:
+            analysis.index.unknown(busy, node.span("busy"))

@@ -7,34 +7,34 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _LEAVE_OUT = "leave `write_at` out"
 
 
-def check(subject: Subject) -> None:
+def check(analysis: Analysis) -> None:
     """Findings for write addresses that no request would use, or that say nothing."""
-    for resolved in subject.resolved:
-        draft = resolved.draft
-        if draft.get("write_at") is None or draft.failed & {"at", "write_at", "space"}:
+    for resolved in analysis.resolved:
+        facts = resolved.facts
+        if facts.get("write_at") is None or facts.failed & {"at", "write_at", "space"}:
             continue
-        wrong = next(_wrong(subject, resolved), None)
+        wrong = next(_wrong(analysis, resolved), None)
         if wrong is not None:
             message, hint = wrong
-            subject.report.error("write-address", f"`{draft.name}` {message}", draft.span("write_at"), hint)
+            analysis.report.error("write-address", f"`{facts.name}` {message}", facts.span("write_at"), hint)
 
 
-def _wrong(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str]]:
+def _wrong(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str]]:
     """What is wrong with a write address, the most telling first."""
-    point, family = resolved.point, subject.scope.family
+    point, family = resolved.point, analysis.scope.family
     if not family.writes_elsewhere:
         yield f"is written where it is read: {family.name} devices know no other place", _LEAVE_OUT
     if point.access != "none" and not point.writable:
         yield "is only read", f"{_LEAVE_OUT}, or correct `access`"
     if point.access == "w":
         yield "is only written, and `at` says where", f"give the write address as `at`, and {_LEAVE_OUT}"
-    if not point.addresses and resolved.draft.layer("at") is not None and resolved.draft.get("at") is None:
+    if not point.addresses and resolved.facts.layer("at") is not None and resolved.facts.get("at") is None:
         yield (
             "is written at an address, and read at none",
             "what is only written has `access: w`, and its address at `at`",

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit import Audit
     from fieldscribe.model import Document
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 HELP = "hold everything that a description cites against the text of its manual"
 EXAMPLE = """examples:
@@ -135,14 +135,14 @@ def _keep(arguments: Namespace) -> None:
         print(f"{'kept' if changes else 'kept before'}: {shown_path(place_of(subject, document))}")
 
 
-def opened(arguments: Namespace) -> Subject:
+def opened(arguments: Namespace) -> Analysis:
     """The description that is meant, with its places. Raises StopError."""
     from fieldscribe.cli.common import StopError, device_file, report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_subject
+    from fieldscribe.pipeline import load_analysis
 
     report = Report()
-    subject = load_subject(device_file(arguments), report)
+    subject = load_analysis(device_file(arguments), report)
     if subject is None:
         report_findings(report, "json" if arguments.format == "json" else "text")
         raise StopError("", code=1)
@@ -168,7 +168,7 @@ def text_of(path: Path) -> tuple[str, str, str]:
     return path.name, text, sha256(data).hexdigest()
 
 
-def manual_of(subject: Subject, place: Path) -> tuple[Path, Document]:
+def manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
     """The file to read, and the document of the description whose text it is. Raises StopError."""
     from fieldscribe.cli.common import StopError
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.audit.editions import Citations, Comparison, Edition
     from fieldscribe.model import Document
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _MOST_OPEN: Final = 5
 """So many findings of the new text alone are shown when it is accepted."""
@@ -38,7 +38,7 @@ def run(arguments: Namespace) -> int:
     return FINE if outcome.settled and refused is None and not left_open else FINDINGS
 
 
-def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Document]:
+def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Analysis, Document]:
     from fieldscribe.audit.editions import compare
     from fieldscribe.cli.audit import manual_of, opened, text_of
 
@@ -49,7 +49,7 @@ def _compared(arguments: Namespace) -> tuple[Comparison, Citations, Subject, Doc
     return *compare(subject, old, new, _glossary(subject), _held(arguments, subject)), subject, document
 
 
-def _held(arguments: Namespace, subject: Subject) -> frozenset[str]:
+def _held(arguments: Namespace, subject: Analysis) -> frozenset[str]:
     """The errata that are said to hold. Raises StopError."""
     from fieldscribe.cli.common import StopError
 
@@ -61,7 +61,7 @@ def _held(arguments: Namespace, subject: Subject) -> frozenset[str]:
     return frozenset(held)
 
 
-def _glossary(subject: Subject) -> dict[str, str]:
+def _glossary(subject: Analysis) -> dict[str, str]:
     """English by the manual's words: the glossary beside the description's folder, or else the shipped one."""
     from pathlib import Path
 
@@ -84,14 +84,14 @@ def _edition(name: str, text: str, digest: str, document: Document) -> Edition:
     return Edition(name, text, None if document.sha256 is None else digest == document.sha256)
 
 
-def _name_and_digest(arguments: Namespace, subject: Subject) -> tuple[str, str]:
+def _name_and_digest(arguments: Namespace, subject: Analysis) -> tuple[str, str]:
     from fieldscribe.cli.audit import manual_of, text_of
 
     name, _, digest = text_of(manual_of(subject, arguments.manual)[0])
     return name, digest
 
 
-def _renumber(subject: Subject, document: Document, citations: Citations) -> str:
+def _renumber(subject: Analysis, document: Document, citations: Citations) -> str:
     """Write the lines of the new edition; what was done. Raises StopError."""
     from fieldscribe.audit.editions import renumber
     from fieldscribe.cli import FINDINGS
@@ -108,7 +108,7 @@ def _renumber(subject: Subject, document: Document, citations: Citations) -> str
     return f"renumbered: {_counted(result.count, 'line')} in {_counted(len(result.texts), 'file')}{by_hand}"
 
 
-def _refusal(arguments: Namespace, outcome: Comparison, subject: Subject, document: Document) -> str | None:
+def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, document: Document) -> str | None:
     """Why the new edition cannot be accepted, known before anything is written; None if it can."""
     from fieldscribe.audit.editions.accepting import unrecordable
 
@@ -121,7 +121,7 @@ def _refusal(arguments: Namespace, outcome: Comparison, subject: Subject, docume
     return "; ".join(unrecordable(document.id, said, given, *_name_and_digest(arguments, subject))) or None
 
 
-def _left(citations: Citations, subject: Subject, document: Document) -> str | None:
+def _left(citations: Citations, subject: Analysis, document: Document) -> str | None:
     """Whether lines still count the old edition."""
     from fieldscribe.audit.editions import renumber
 
@@ -145,7 +145,7 @@ def _given(arguments: Namespace) -> dict[str, str]:
     return given
 
 
-def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
+def _accept(arguments: Namespace, subject: Analysis, document: Document) -> str:
     """Record the new edition; what was done. Raises StopError."""
     from fieldscribe.audit.editions.accepting import with_recorded
     from fieldscribe.cli import FINDINGS
@@ -164,7 +164,7 @@ def _accept(arguments: Namespace, subject: Subject, document: Document) -> str:
     return f"accepted: {said.file.name}:{said.span('sha256').line} records the new edition"
 
 
-def _not_clean(arguments: Namespace, subject: Subject) -> list[str]:
+def _not_clean(arguments: Namespace, subject: Analysis) -> list[str]:
     """Whether the new text alone has more to look at: what a removed erratum said, say, though its line is the same."""
     from fieldscribe.audit import audit
     from fieldscribe.audit.report import as_lines

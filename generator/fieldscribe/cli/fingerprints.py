@@ -8,25 +8,25 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from fieldscribe.audit.layout import Fingerprint
     from fieldscribe.model import Document
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _MOST_BYTES = 64 << 20
 
 
-def place_of(subject: Subject, document: Document) -> Path:
+def place_of(subject: Analysis, document: Document) -> Path:
     """Where it is kept; a description that is one file gives its own name in front."""
     head = Path(subject.scope.header.file.name)
     own = "" if head.stem == "device" else f"{head.stem}."
     return head.with_name(f"{own}{document.id}.fingerprint")
 
 
-def kept_of(subject: Subject, document: Document) -> Fingerprint | None:
+def kept_of(subject: Analysis, document: Document) -> Fingerprint | None:
     """What is kept of the recorded text; None if nothing is, or only of another one. Raises StopError."""
     kept = _read(place_of(subject, document))[1]
     return kept if kept is not None and kept.sha256 == document.sha256 else None
 
 
-def keeping(subject: Subject, document: Document, text: str, sha256: str) -> dict[str, tuple[str | None, str]]:
+def keeping(subject: Analysis, document: Document, text: str, sha256: str) -> dict[str, tuple[str | None, str]]:
     """What `rewrite` has to write so that the fingerprint of a text is kept; nothing if it is. Raises StopError."""
     from fieldscribe.audit.layout import Fingerprint
 

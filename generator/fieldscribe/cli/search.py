@@ -69,14 +69,14 @@ def _things(arguments: Namespace) -> list[Thing]:
 
     from fieldscribe.cli.common import device_file, devices_asked, usage_error
     from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_subject
+    from fieldscribe.pipeline import load_analysis
     from fieldscribe.search.entries import things_of
 
     folder = arguments.descriptions
     named = {name: device_file(Chosen(device=name, descriptions=folder)) for name in arguments.device}
     things: list[Thing] = []
     for name, file in (named or devices_asked(arguments)).items():
-        subject = load_subject(file, Report())
+        subject = load_analysis(file, Report())
         if subject is None:
             usage_error(f"`{name}` has findings and is left out", f"fieldscribe check {name}")
         else:

@@ -7,8 +7,8 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find, near
-from fieldscribe.existence import absent
 from fieldscribe.text import line
 from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
 from fieldscribe.wording import label

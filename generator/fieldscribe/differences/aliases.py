@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.differences.described import Described
     from fieldscribe.language.nodes import Map
     from fieldscribe.language.source import SourceFile
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _SCALAR = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[A-Za-z0-9_]+")
 
@@ -77,7 +77,7 @@ def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias]
     return list(aliases.values()), by_hand
 
 
-def _plain(item: str, draft: Draft) -> str:
+def _plain(item: str, draft: PointFacts) -> str:
     """The name of a point in generated code, without its variant."""
     return item if draft.variant is None else item.removesuffix(f"_{draft.variant.value.lower()}")
 

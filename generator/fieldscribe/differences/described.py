@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.owners import Owners
-from fieldscribe.resolve.drafts import groups
+from fieldscribe.checks.identifier_places import IdentifierPlaces
+from fieldscribe.resolve.point_facts import groups
 from fieldscribe.targets.identifiers import Owner
 
 if TYPE_CHECKING:
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device, Point
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _KEYS = {
     "address": ("at",),
@@ -55,23 +55,23 @@ _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "resp
 class Described:
     """One description. `names` of things are given from the outside in, each with its kind."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Analysis) -> None:
         self._subject = subject
         self.device: Device = subject.so_far
         self.points: Mapping[str, Point] = {point.item: point for point in self.device.points}
 
     @property
-    def subject(self) -> Subject:
+    def subject(self) -> Analysis:
         """The description with its places."""
         return self._subject
 
-    def draft(self, item: str) -> Draft:
+    def draft(self, item: str) -> PointFacts:
         """The point as the text has it."""
         return self._subject.index.by_item(item)
 
     @cached_property
-    def _owners(self) -> Owners:
-        return Owners(self._subject)
+    def _owners(self) -> IdentifierPlaces:
+        return IdentifierPlaces(self._subject)
 
     @cached_property
     def lost(self) -> frozenset[tuple[str, str]] | None:

@@ -10,7 +10,7 @@ from fieldscribe.wording.exact import number_text
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.existence import Comparison, Condition
+    from fieldscribe.conditions import Comparison, Condition
     from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.codec import setting_of
-from fieldscribe.existence import absent
+from fieldscribe.conditions import absent
 from fieldscribe.families import family
 
 if TYPE_CHECKING:

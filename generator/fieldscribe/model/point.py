@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
     from typing import Self
 
-    from fieldscribe.existence import Condition
+    from fieldscribe.conditions import Condition
     from fieldscribe.model.numbers import Special, Titles
     from fieldscribe.model.rules import Allowed
     from fieldscribe.model.shape import Shape

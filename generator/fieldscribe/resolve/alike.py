@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
     from fieldscribe.diagnostics import Report
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 Fact = TypeVar("Fact")
 
@@ -31,7 +31,7 @@ class Kinds:
         self._kinds: dict[Hashable, int] = {}
         self._known: dict[int, Hashable] = {}
 
-    def of(self, draft: Draft) -> int:
+    def of(self, draft: PointFacts) -> int:
         """The kind of a point: that of all whose facts are the same, but for identity and the numbers of their limits.
 
         A point that varies, or has findings, is like no other.
@@ -77,7 +77,9 @@ class Once(Generic[Fact]):
         self._report = report
         self.known: dict[Hashable, Fact] = {}
 
-    def of(self, kind: Hashable, draft: Draft, work: Callable[[Draft], Fact], general: Callable[[Fact], bool]) -> Fact:
+    def of(
+        self, kind: Hashable, draft: PointFacts, work: Callable[[PointFacts], Fact], general: Callable[[Fact], bool]
+    ) -> Fact:
         """The fact of a point; `general` tells whether it is that of all points of its kind."""
         known = self.known.get(kind)
         if known is not None:

@@ -11,7 +11,7 @@ from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear, Special
-from fieldscribe.resolve.rules import Scales, UnknownError
+from fieldscribe.resolve.scales import Scales, UnknownError
 from fieldscribe.resolve.values import Written
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.formula import Affine, Part
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _DEEPEST = 30
 
@@ -54,12 +54,12 @@ class Bounds:
     """What the raw number of each point can be: what its type `holds`, and its hull, what its range leaves of that."""
 
     def __init__(
-        self, scales: Scales, holds: dict[Draft, tuple[int, int]], specials: dict[Draft, tuple[Special, ...]]
+        self, scales: Scales, holds: dict[PointFacts, tuple[int, int]], specials: dict[PointFacts, tuple[Special, ...]]
     ) -> None:
         self.scales = scales
         self.holds = holds
         self.specials = specials
-        self._ends: dict[tuple[Draft, int], int] = {}
+        self._ends: dict[tuple[PointFacts, int], int] = {}
         self._depth = 0
 
     def hull(self, item: str) -> tuple[int, int]:
@@ -68,22 +68,22 @@ class Bounds:
         ends = [self.own_hull(sibling) for sibling in index.siblings(index.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)
 
-    def own_hull(self, draft: Draft) -> tuple[int, int]:
+    def own_hull(self, facts: PointFacts) -> tuple[int, int]:
         """The least and greatest raw number that one variant of a point can hold."""
-        return self._end(draft, 0), self._end(draft, 1)
+        return self._end(facts, 0), self._end(facts, 1)
 
-    def _end(self, draft: Draft, end: int) -> int:
+    def _end(self, facts: PointFacts, end: int) -> int:
         """The least (`end` 0) or greatest (1) number of the hull.
 
         Each end is computed alone: where points limit each other in a circle, one end is often fixed and breaks it.
         """
-        key = (draft, end)
+        key = (facts, end)
         bound = self._ends.get(key)
         if bound is None:
-            bound = self._ends[key] = self.holds[draft][end]  # the answer to points of a circle, which ask again
+            bound = self._ends[key] = self.holds[facts][end]  # the answer to points of a circle, which ask again
             self._depth += 1
             if self._depth <= _DEEPEST:
-                bound = self._ends[key] = self._computed_end(draft, end)
+                bound = self._ends[key] = self._computed_end(facts, end)
             self._depth -= 1
         return bound
 
@@ -104,11 +104,11 @@ class Bounds:
 
     def float_range(self, factor: Factor) -> tuple[Fraction, Fraction] | None:
         """The outer limits of a floating-point factor; None where its point gives none."""
-        draft = self.scales.index.by_item(factor.point)
-        if draft.layer("range_in_units") is None:
+        facts = self.scales.index.by_item(factor.point)
+        if facts.layer("range_in_units") is None:
             return None
         try:
-            intervals = constant_range(as_text(draft.get("range_in_units")))
+            intervals = constant_range(as_text(facts.get("range_in_units")))
         except FormulaError:
             return None
         return (min(low for low, _ in intervals), max(high for _, high in intervals)) if intervals else None
@@ -139,11 +139,11 @@ class Bounds:
                 return False
         return True
 
-    def encoded(self, draft: Draft, limit: Linear, span: Span) -> Linear:
+    def encoded(self, facts: PointFacts, limit: Linear, span: Span) -> Linear:
         """A limit in units as a limit in raw numbers. Raises UnknownError after a finding."""
-        if "scale" in draft.failed:
+        if "scale" in facts.failed:
             raise UnknownError
-        cases = self.scales.cases(draft)
+        cases = self.scales.cases(facts)
         if cases is None:
             return limit
         scale = cases[0].rule
@@ -162,14 +162,14 @@ class Bounds:
         return Linear(limit.ratio * scale.ratio, scale.offset, (*limit.factors, *scale.factors))
 
     def constant(
-        self, draft: Draft, text: str, in_units: bool
+        self, facts: PointFacts, text: str, in_units: bool
     ) -> Sequence[tuple[int | Fraction, int | Fraction]] | None:
         """The ends of a range in raw numbers if neither it nor the scale needs a point, else None."""
         if not in_units:
             return constant_range(text)
-        if "scale" in draft.failed:
+        if "scale" in facts.failed:
             raise UnknownError
-        cases = self.scales.cases(draft)
+        cases = self.scales.cases(facts)
         if cases is None:
             return encoded_range(text, (1, 1), (0, 1))
         rule = cases[0].rule
@@ -178,44 +178,44 @@ class Bounds:
         ratio, offset = rule.ratio, rule.offset
         return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
 
-    def limit(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
+    def limit(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
         """One end of a range, as a rule that gives the limit for the value 1. Raises FormulaError or UnknownError."""
-        rule = limit_rule(end, lambda name, part: self._of_another(draft, name, part, Written(text, span)))
-        return self.encoded(draft, rule, span) if in_units else rule
+        rule = limit_rule(end, lambda name, part: self._of_another(facts, name, part, Written(text, span)))
+        return self.encoded(facts, rule, span) if in_units else rule
 
-    def _of_another(self, draft: Draft, name: str, part: Part, formula: Written) -> Affine:
-        """A point's number in a limit of `draft`, which cannot limit itself. Raises UnknownError after a finding."""
-        used = self.scales.index.find(name, draft.variant)
-        if used is not None and used.name == draft.name:
+    def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
+        """A point's number in a limit of `facts`, which cannot limit itself. Raises UnknownError after a finding."""
+        used = self.scales.index.find(name, facts.variant)
+        if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
             hint = "name another point, or write the fixed end that the manual prints"
             self.scales.scope.report.error("bad-formula", message, formula.of(name), hint)
             raise UnknownError
-        return self.scales.affine(draft, name, part, formula)
+        return self.scales.affine(facts, name, part, formula)
 
-    def falls(self, draft: Draft) -> bool:
+    def falls(self, facts: PointFacts) -> bool:
         """Whether a larger value is a smaller raw number."""
-        cases = self.scales.cases(draft)
+        cases = self.scales.cases(facts)
         return cases is not None and cases[0].rule.ratio < 0
 
-    def _computed_end(self, draft: Draft, end: int) -> int:
+    def _computed_end(self, facts: PointFacts, end: int) -> int:
         """One end of what the range leaves of the type; that of the type where the range says nothing usable."""
-        key = "range" if draft.layer("range") is not None else "range_in_units"
-        least, greatest = self.holds[draft]
-        if draft.layer(key) is None or draft.floating or draft.text:
-            return self.holds[draft][end]
-        text, span = as_text(draft.get(key)), draft.span(key)
+        key = "range" if facts.layer("range") is not None else "range_in_units"
+        least, greatest = self.holds[facts]
+        if facts.layer(key) is None or facts.floating or facts.text:
+            return self.holds[facts][end]
+        text, span = as_text(facts.get(key)), facts.span(key)
         pick = max if end else min
         try:
-            constant = self.constant(draft, text, key != "range")
+            constant = self.constant(facts, text, key != "range")
             if constant is not None:
                 candidates = [Fraction(ends[end]) for ends in constant]
             else:
-                side = 1 - end if key != "range" and self.falls(draft) else end
+                side = 1 - end if key != "range" and self.falls(facts) else end
                 rules = [
-                    self.limit(draft, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
+                    self.limit(facts, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
                 ]
                 candidates = [corner for rule in rules for corner in self.corners(rule)]
         except (FormulaError, UnknownError):
-            return self.holds[draft][end]
+            return self.holds[facts][end]
         return max(least, min(greatest, half_away(pick(candidates))))

@@ -10,8 +10,8 @@ from fieldscribe.language.keys import keys_of_family
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Code
-from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.families import reading_of
+from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.point_facts import humanised
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 
@@ -39,7 +39,7 @@ def bus_of(scope: Scope) -> Bus:
     node: Map = holders[0]["bus"]
     _check_keys(scope, node, keys)
     functions = codes_under(scope, node, "functions")
-    own = reading_of(scope).bus(scope, node, functions)
+    own = reader_of(scope).bus(scope, node, functions)
     return Bus(
         framings=tuple(node.get("framings", ())),
         units=ends_of(scope, node, "units", "are no unit addresses", keys.last_unit),

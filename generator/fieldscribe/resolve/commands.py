@@ -8,8 +8,8 @@ from fieldscribe.families import families
 from fieldscribe.language.meant import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
-from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.families import reading_of
+from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.point_facts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import integer
 
@@ -85,7 +85,7 @@ def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) 
 
 def _reaches(scope: Scope, bus: Bus, node: Map, space: str, function: int) -> bool:
     """Whether the device has the function and it writes into the space; a finding if not."""
-    known = reading_of(scope).writes(space)
+    known = reader_of(scope).writes(space)
     if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
         return True
     message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"

@@ -11,30 +11,30 @@ from fieldscribe.resolve.values import integer, number
 
 if TYPE_CHECKING:
     from fieldscribe.model import Shape
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
 
 _MOST_NAMES = 12
 _PLAIN = Linear(Fraction(1), Fraction(0), ())
 
 
-def default_of(scope: Scope, draft: Draft, shape: Shape) -> tuple[Fraction | None, int | None]:
+def default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction | None, int | None]:
     """The factory setting in the unit and as raw number; None where it is not given or depends on other points."""
-    if draft.text:
+    if facts.text:
         return None, None
-    rule = None if draft.floating else _rule(draft, shape)
-    if draft.layer("default_in_units") is not None:
-        value = number(draft.get("default_in_units"), draft.span("default_in_units"), scope.report)
+    rule = None if facts.floating else _rule(facts, shape)
+    if facts.layer("default_in_units") is not None:
+        value = number(facts.get("default_in_units"), facts.span("default_in_units"), scope.report)
         exact = None if value is None or rule is None else rule.at(value)
         return value, exact.numerator if exact is not None and exact.denominator == 1 else None
-    raw = None if draft.layer("default") is None else _raw(scope, draft, shape)
+    raw = None if facts.layer("default") is None else _raw(scope, facts, shape)
     return None if raw is None or rule is None else (raw - rule.offset) / rule.ratio, raw
 
 
-def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
+def _raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
     """The raw number that `default` says; None after a finding."""
-    default, span, enum = draft.get("default"), draft.span("default"), shape.enum
-    if draft.floating:
+    default, span, enum = facts.get("default"), facts.span("default"), shape.enum
+    if facts.floating:
         message = "`default` is in raw numbers, which are bit patterns here"
         scope.report.error("float-fact", message, span, f"write `default_in_units: {default}`")
         return None
@@ -43,7 +43,7 @@ def _raw(scope: Scope, draft: Draft, shape: Shape) -> int | None:
     if default in named:
         return named[default]
     if isinstance(default, str) and enum is not None and default.isidentifier():
-        if "enum" in draft.failed:
+        if "enum" in facts.failed:
             return None  # it may be one of the names that could not be read
         hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
@@ -62,9 +62,9 @@ def _has_a_fraction(default: object) -> bool:
         return False
 
 
-def _rule(draft: Draft, shape: Shape) -> Linear | None:
+def _rule(facts: PointFacts, shape: Shape) -> Linear | None:
     """The rule between raw number and value; None where it depends on other points or is not known."""
     if shape.scale is not None:
         return shape.fixed_scale
-    unsettled = draft.untyped is not None or (draft.layer("scale") is not None and draft.get("scale") is None)
-    return None if unsettled and draft.get("unit") is not None else _PLAIN
+    unsettled = facts.untyped is not None or (facts.layer("scale") is not None and facts.get("scale") is None)
+    return None if unsettled and facts.get("unit") is not None else _PLAIN

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.model import Titles
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
 
 MOST_ELEMENTS = 4096
 """The most points that one row may stand for."""
 
 _SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
-_INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
+_INDEX_WORDS = {"en": "index {}", "de": "SymbolTable {}"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ ALONE = Element(None, 1, None, 1, "", ())
 """The one element of a row without sets and indices."""
 
 
-def elements_of(scope: Scope, row: Draft) -> list[Element]:
+def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
     """All points that the row stands for, set by set, in each set index by index; none after a finding."""
     rows = isinstance(row.get("sets"), Map)  # each further set has a row of its own
     sets = _Axis(1, (None,), "") if rows else _axis(scope, row, "sets", "set")
@@ -109,7 +109,7 @@ class _Axis:
         return f"_{self.word}_{number}" if self.word else ""
 
 
-def _axis(scope: Scope, row: Draft, plural: str, singular: str) -> _Axis | None:
+def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | None:
     """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
     own_number: int | None = row.get(singular)
     raw = row.get(plural)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Entry, Enum, Flag
-from fieldscribe.resolve.drafts import Draft, humanised
+from fieldscribe.resolve.point_facts import PointFacts, humanised
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import bits_named, integer
 
@@ -25,23 +25,23 @@ _MASKS = 3
 """So many successive powers of two as keys are probably masks, not bit numbers."""
 
 
-def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
+def enum_of(scope: Scope, facts: PointFacts, closed: bool) -> Enum | None:
     """The point's enum; inline ones are named after the point, once for all its sets."""
-    raw = draft.get("enum")
+    raw = facts.get("enum")
     if raw is None:
         return None
     is_shared = isinstance(raw, str)
-    name, entries = (raw, scope.named_enums.get(raw)) if is_shared else (draft.enum_name, raw)
+    name, entries = (raw, scope.named_enums.get(raw)) if is_shared else (facts.enum_name, raw)
     if entries is None:
-        scope.unknown("enum", name, draft.span("enum"), scope.named_enums)
-        draft.failed.add("enum")
+        scope.unknown("enum", name, facts.span("enum"), scope.named_enums)
+        facts.failed.add("enum")
         return None
     key = (name, id(entries), closed)
     if key not in scope.enums:
-        was = () if is_shared else draft.old_enum_names
+        was = () if is_shared else facts.old_enum_names
         scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed, was)
     if entries.broken or len(scope.enums[key].entries) < len(entries):
-        draft.failed.add("enum")  # some of its names are not known
+        facts.failed.add("enum")  # some of its names are not known
     return scope.enums[key]
 
 
@@ -120,12 +120,12 @@ class _Taken:
         return True
 
 
-def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
+def flags_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
     """The flags of a point, read by bit numbers of its word; bits outside the point or named twice are findings.
 
     A flag of a point that takes only some `bits` of its word counts from the lowest of them.
     """
-    node: Map | None = draft.get("flags")
+    node: Map | None = facts.get("flags")
     if node is None:
         return ()
     _warn_of_masks(scope, node)
@@ -139,7 +139,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
             hint = f"the higher bit stands first: {low}..{high}"
             scope.report.error("range-reversed", f"bits `{key}` run upwards", span, hint)
         elif not first <= low <= high <= last:
-            if not draft.failed & {"type", "bits"}:
+            if not facts.failed & {"type", "bits"}:
                 outside = high if high > last else low
                 message = f"bit {outside} lies outside the {width} bits of the point"
                 hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"

@@ -14,7 +14,7 @@ from fieldscribe.resolve.values import integer
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.symbols import SymbolTable
 
 
 _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"))
@@ -22,7 +22,7 @@ _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"
 
 
 @dataclass(slots=True)
-class OpenErratum:
+class LocatedErratum:
     """An erratum with its text; `used` collects the keys of `printed` where a check really met the misprint."""
 
     erratum: Erratum
@@ -41,7 +41,7 @@ class OpenErratum:
         return printed.get(key) if isinstance(printed, Map) else None
 
 
-def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
+def errata_of(scope: Scope, index: SymbolTable, bus: Bus) -> list[LocatedErratum]:
     """All errata in the order of the text; one about nothing that exists, or with an id given twice, is a finding."""
     seen: dict[str, Map] = {}
     result = []
@@ -76,27 +76,27 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             node["certainty"],
             _facts(node["printed"]),
         )
-        result.append(OpenErratum(text, node, set()))
+        result.append(LocatedErratum(text, node, set()))
     return result
 
 
-def _points(scope: Scope, index: Index, node: Map) -> Iterator[str]:
+def _points(scope: Scope, index: SymbolTable, node: Map) -> Iterator[str]:
     """The names of the points that it is about; a word that means none is a finding."""
     words = [(node["point"], node.span("point"))] if "point" in node else []
     words += [(word, node["points"].span(number)) for number, word in enumerate(node.get("points", ()))]
     for word, span in words:
-        drafts = index.all(word)
-        if not drafts:
+        expanded = index.all(word)
+        if not expanded:
             index.unknown(word, span)
-        yield from dict.fromkeys(draft.name for draft in drafts)
+        yield from dict.fromkeys(facts.name for facts in expanded)
 
 
-def _flag_exists(scope: Scope, index: Index, node: Map) -> None:
+def _flag_exists(scope: Scope, index: SymbolTable, node: Map) -> None:
     """A finding for an erratum about a flag that its points do not have."""
     if "flag" not in node:
         return
     words = [node["point"]] if "point" in node else list(node.get("points", ()))
-    flags = [value for word in words for draft in index.all(word) for value in (draft.get("flags") or {}).values()]
+    flags = [value for word in words for facts in index.all(word) for value in (facts.get("flags") or {}).values()]
     names = [str(value if isinstance(value, str) else value["name"]) for value in flags]
     if node["flag"] not in names:
         scope.unknown("flag", node["flag"], node.span("flag"), names)

@@ -1,4 +1,4 @@
-"""From the points of the text to drafts: every record, set and variant written out."""
+"""From the points of the text to expanded: every record, set and variant written out."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Variant, item_of
-from fieldscribe.resolve.drafts import Draft, groups, humanised
 from fieldscribe.resolve.elements import Element, elements_of, set_title
+from fieldscribe.resolve.point_facts import PointFacts, groups, humanised
 from fieldscribe.resolve.scope import Scope, titles
 
 if TYPE_CHECKING:
@@ -31,21 +31,21 @@ _OF_RECORDS = inherited(USE)
 """Keys that the use of a record may set for all its members."""
 
 
-def expand(scope: Scope) -> list[Draft]:
+def expand(scope: Scope) -> list[PointFacts]:
     """All points of all groups, in the order of the text; a finding when there are more than MOST_POINTS."""
-    drafts: list[Draft] = []
+    expanded: list[PointFacts] = []
     for group in groups(scope):
         for point in group.get("points", ()):
-            drafts.extend(_point(scope, group, point))
-            if len(drafts) > MOST_POINTS:
+            expanded.extend(_point(scope, group, point))
+            if len(expanded) > MOST_POINTS:
                 message = f"the rows up to here stand for more than {MOST_POINTS} points"
                 hint = "look at the sets, indices and records"
                 scope.report.error("too-many-items", message, point.span("name"), hint)
-                return drafts[:MOST_POINTS]
-    return drafts
+                return expanded[:MOST_POINTS]
+    return expanded
 
 
-def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
+def _point(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     if "record" in point:
         yield from _record(scope, group, point)
         return
@@ -58,11 +58,11 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
         hint = "`each` belongs to a count of `sets`, or to `indices`"
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
     title = _title(point)
-    draft = Draft(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
+    facts = PointFacts(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
     if rows is None:
-        yield from _variants(scope, draft)
+        yield from _variants(scope, facts)
     else:
-        yield from _sets(scope, draft, rows)
+        yield from _sets(scope, facts, rows)
 
 
 def _title(point: Map) -> Titles:
@@ -71,7 +71,7 @@ def _title(point: Map) -> Titles:
     return titles(said, "" if isinstance(said, Map) and "en" in said else humanised(point["name"]))
 
 
-def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
+def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
     """The point in its own set, and in each further set that has a row under `sets`."""
     if "indices" in first.own:
         message = f"`{first.name}` repeats in indices, and in sets that have rows of their own"
@@ -84,7 +84,7 @@ def _sets(scope: Scope, first: Draft, rows: Map) -> Iterator[Draft]:
         own_title = titles(override.get("title")) or set_title(first.title, number)
         own_name = f"{first.name}_set_{number}"
         enum_name = own_name if "enum" in override else first.name
-        repeated = Draft(
+        repeated = PointFacts(
             own_name,
             (override, *first.layers),
             first.group,
@@ -115,19 +115,19 @@ def _further_sets(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tupl
             yield number, rows[key]
 
 
-def _single_element(scope: Scope, draft: Draft) -> Element | None:
+def _single_element(scope: Scope, facts: PointFacts) -> Element | None:
     """The one element that a row stands for where it says its own set or index; None if it says none."""
-    if draft.get("index") is None and (draft.get("set") is None or isinstance(draft.get("sets"), Map)):
+    if facts.get("index") is None and (facts.get("set") is None or isinstance(facts.get("sets"), Map)):
         return None
-    elements = elements_of(scope, draft)
+    elements = elements_of(scope, facts)
     return elements[0] if len(elements) == 1 else None
 
 
-def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
+def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     """The points that a row with sets and indices stands for."""
     title = _title(point)
     layers = (point, *_format(scope, point))
-    elements = elements_of(scope, Draft(point["name"], layers, group, point, title))
+    elements = elements_of(scope, PointFacts(point["name"], layers, group, point, title))
     rows: Map = point.get("each") or Map(point.file, point.at)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
@@ -150,7 +150,7 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
         own_title = next((titles(override["title"]) for override in own if "title" in override), None)
         yield from _variants(
             scope,
-            Draft(
+            PointFacts(
                 name,
                 (*own, *layers),
                 group,
@@ -168,11 +168,11 @@ def _decimal_key(text: str) -> str:
     return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
-def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
+def _variants(scope: Scope, facts: PointFacts) -> Iterator[PointFacts]:
     """The point once for each of its variants, or as it is if it has none."""
-    overrides: Map | None = draft.get("variants")
+    overrides: Map | None = facts.get("variants")
     if not overrides:
-        yield draft
+        yield facts
         return
     axes = scope.axes
     first = ""
@@ -183,34 +183,34 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
             known = [f"{name}={choice}" for name, entry in axes.items() for choice in entry["values"]]
             scope.unknown("variant", key, span, known)
         elif axis != (first := first or axis):
-            message = f"`{draft.name}` differs by `{first}` and by `{axis}`"
+            message = f"`{facts.name}` differs by `{first}` and by `{axis}`"
             scope.report.error(
                 "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
             )
         else:
-            yield _varied(scope, draft, Variant(axis, value), override)
+            yield _varied(scope, facts, Variant(axis, value), override)
 
 
-def _varied(scope: Scope, draft: Draft, variant: Variant, override: Map) -> Draft:
-    varied = Draft(
-        draft.name,
-        (override, *draft.layers),
-        draft.group,
-        draft.own,
-        draft.title,
+def _varied(scope: Scope, facts: PointFacts, variant: Variant, override: Map) -> PointFacts:
+    varied = PointFacts(
+        facts.name,
+        (override, *facts.layers),
+        facts.group,
+        facts.own,
+        facts.title,
         variant=variant,
-        record=draft.record,
-        set_number=draft.set_number,
-        use=draft.use,
-        element=draft.element,
-        enum_name=item_of(draft.enum_name, variant) if "enum" in override else draft.enum_name,
-        hidden=draft.hidden - override.keys(),
+        record=facts.record,
+        set_number=facts.set_number,
+        use=facts.use,
+        element=facts.element,
+        enum_name=item_of(facts.enum_name, variant) if "enum" in override else facts.enum_name,
+        hidden=facts.hidden - override.keys(),
     )
     own_key = next((key for key in ("set", "index") if key in override), None)
     if own_key is None:
         return varied
-    if draft.suffix:
-        message = f"the row of `{draft.own['name']}` stands for several points, and its variant for one of them"
+    if facts.suffix:
+        message = f"the row of `{facts.own['name']}` stands for several points, and its variant for one of them"
         hint = "give the variant a row of its own"
         scope.report.error("two-meanings", message, override.key_span(own_key), hint)
         return varied
@@ -218,7 +218,7 @@ def _varied(scope: Scope, draft: Draft, variant: Variant, override: Map) -> Draf
     return varied
 
 
-def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
+def _record(scope: Scope, group: Map, use: Map) -> Iterator[PointFacts]:
     """The points of a record, where a row uses it."""
     record = scope.records.get(use["record"])
     if record is None:
@@ -245,7 +245,7 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
             yield from _variants(scope, _member(scope, group, use, point))
 
 
-def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
+def _member(scope: Scope, group: Map, use: Map, point: Map) -> PointFacts:
     override: Map | None = use.get("members", {}).get(point["name"])
     shared = (point,) if override is None else (override, point)
     together = titles(use.get("title"), humanised(use["name"]))
@@ -254,7 +254,7 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
     layers = (*shared, *_format(scope, point), _whole_record(use))
     name = f"{use['name']}_{point['name']}"
     enum_name = name if override is not None and "enum" in override else f"{use['record']}_{point['name']}"
-    return Draft(name, layers, group, shared[0], title, record=use["name"], use=use, enum_name=enum_name)
+    return PointFacts(name, layers, group, shared[0], title, record=use["name"], use=use, enum_name=enum_name)
 
 
 def _whole_record(use: Map) -> Map:

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Point
-    from fieldscribe.resolve.names import Index
     from fieldscribe.resolve.scope import Scope
+    from fieldscribe.resolve.symbols import SymbolTable
 
 RAW = ".raw"
 """Behind a point's name it says that the raw number follows, not the value."""
 
 
-def meaning_of(scope: Scope, node: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
+def meaning_of(scope: Scope, node: Map, index: SymbolTable, points: Mapping[str, Point]) -> dict[str, int]:
     """The raw numbers that a frame carries according to its `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
@@ -43,16 +43,16 @@ class _StatedValues:
     values: Map
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
-    def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
+    def numbers(self, index: SymbolTable, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
         """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
         for word, value in self.values.items():
             name = word.removesuffix(RAW)
-            draft = index.find(name)
-            if draft is None:
+            facts = index.find(name)
+            if facts is None:
                 index.unknown(name, self.values.key_span(word))
                 continue
-            point = points.get(draft.item)
-            if point is None or draft.failed & {"scale", "type", "enum"}:
+            point = points.get(facts.item)
+            if point is None or facts.failed & {"scale", "type", "enum"}:
                 continue
             if word == name:
                 raw_number = self._raw(point, word, value)

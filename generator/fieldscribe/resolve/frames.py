@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
 from fieldscribe.model import Bus, Frame, Named, Point
-from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.families import reading_of
+from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.frame_meanings import meaning_of
+from fieldscribe.resolve.point_facts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.symbols import SymbolTable
 
 
 @dataclass(frozen=True, slots=True)
-class OpenFrame:
+class LocatedFrame:
     """A frame with its text."""
 
     frame: Frame
@@ -33,9 +33,9 @@ class OpenFrame:
         return Named("frame", self.frame.name)
 
 
-def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point]) -> list[OpenFrame]:
+def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:
     """All frames in the order of the text; checks fill in `valid` and `corrected` later."""
-    result: dict[str, OpenFrame] = {}
+    result: dict[str, LocatedFrame] = {}
     seen: dict[str, Span] = {}
     for node in scope.listed("frames"):
         name = node["name"]
@@ -56,9 +56,9 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
             message = "the bytes have an odd number of digits" if digits else "the frame has no bytes"
             scope.report.error("bad-number", message, node.span("bytes"), "write two digits for each byte")
             continue
-        if not _known_framing(scope, node) or reading_of(scope).refuses(scope, bus, node):
+        if not _known_framing(scope, node) or reader_of(scope).refuses(scope, bus, node):
             continue
-        result[name] = OpenFrame(
+        result[name] = LocatedFrame(
             _frame(scope, bus, node, bytes.fromhex(digits), meaning_of(scope, node, index, points)), node
         )
     return list(result.values())
@@ -80,7 +80,7 @@ def _frame(scope: Scope, bus: Bus, node: Map, data: bytes, meaning: Mapping[str,
         title=titles(node.get("title"), humanised(node["name"])),
         source=source_of(scope, node),
         errata=(),
-        own=reading_of(scope).frame(scope, node, framing),
+        own=reader_of(scope).frame(scope, node, framing),
     )
 
 

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.codec import MOST_EXPONENT
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase
     from fieldscribe.resolve.bounds import Bounds
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 MOST_DECIMALS = 12
 
@@ -69,36 +69,36 @@ class _Needs(NamedTuple):
     down: int
 
 
-def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
+def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
     """How code computes the point: with the author's decimals, or as few as make each raw step one count or more."""
-    stated: int | None = draft.get("decimals")
+    stated: int | None = facts.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if stated and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
+        if stated and "scale" not in facts.failed and facts.layer("scale") is None and not facts.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
-            report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
+            report.error("integer-path", message, facts.span("decimals"), "leave it out, or give the `scale`")
         return Paths(0)
-    span = draft.span("decimals" if stated is not None else "scale")
+    span = facts.span("decimals" if stated is not None else "scale")
     if stated is None and any(bounds.scales.floats(case.rule) for case in cases):
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
     chosen = _is_chosen(cases)
-    needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
+    needs = [_needs(case.rule, _largest(facts, bounds), bounds) for case in cases]
     widest = max(need.constant for need in needs)
     if widest >= _WORD:
         bits = widest.bit_length()
         message = (
             f"this scale needs integers of {bits} bits, and code computes with 63: the point has raw numbers alone"
         )
-        report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
+        report.warning("wide-scale", message, facts.span("scale"), _way_out(cases, bounds))
         return Paths(None, encodes_values=False, raw_alone=True)
     encodes = all(_survives(case.rule, need, chosen=chosen) for case, need in zip(cases, needs, strict=True))
-    decimals = _decimals(draft, cases, bounds, needs)
-    return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
+    decimals = _decimals(facts, cases, bounds, needs)
+    return Paths(decimals, encodes, _most_raw(facts, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
 
 
-def shows(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
+def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
     """Whether code computes every value with so many decimals by integers alone.
 
     Where other points choose the rule, the numerator has 64 bits if there are counts, and 40 more for the decimals stay
@@ -106,7 +106,7 @@ def shows(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: 
     """
     if _is_chosen(cases):
         return counted
-    needs = _needs(cases[0].rule, max(map(abs, bounds.holds[draft])), bounds)
+    needs = _needs(cases[0].rule, max(map(abs, bounds.holds[facts])), bounds)
     power: int = 10**decimals
     return 2 * max(needs.numerator, needs.constant) * power < _WIDE
 
@@ -138,14 +138,14 @@ def asks_limits(holds: tuple[int, int]) -> bool:
     return max(map(abs, holds)) >= _NARROW
 
 
-def _largest(draft: Draft, bounds: Bounds) -> int:
+def _largest(facts: PointFacts, bounds: Bounds) -> int:
     """The largest raw number that has to come back unchanged: any of a type of 32 bits, any in range of a wider type.
 
     Every pattern of up to 32 bits that a device may send has a count and a value. To ask that of 64 bits would rule out
     most scales: there only numbers that may be written have to, and decoding reports others as an overflow.
     """
-    holds = bounds.holds[draft]
-    return max(map(abs, bounds.own_hull(draft) if asks_limits(holds) else holds))
+    holds = bounds.holds[facts]
+    return max(map(abs, bounds.own_hull(facts) if asks_limits(holds) else holds))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
@@ -159,21 +159,21 @@ def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
     return min(limits, default=None)
 
 
-def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
+def _most_raw(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
     """The largest raw number that code can compute whatever the factors are; None if the type holds no larger one."""
     if not _is_chosen(cases) or numerator is None:
         return None
-    least = _largest(draft, bounds)
+    least = _largest(facts, bounds)
     parts = [(case.rule.offset, _needs(case.rule, 0, bounds).down) for case in cases]
     # a factor that is 0 throughout makes the numerator 0, whatever the raw number is
     mosts = [(numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts if down]
     most = min(mosts, default=None)
-    return None if most is None or most >= max(map(abs, bounds.holds[draft])) else max(least, most)
+    return None if most is None or most >= max(map(abs, bounds.holds[facts])) else max(least, most)
 
 
-def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
+def _decimals(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
     """The decimals of the counts; None (without a finding) where no 64-bit integer holds the counts."""
-    stated: int | None = draft.get("decimals")
+    stated: int | None = facts.get("decimals")
     needed = max(_least_decimals(case.rule, bounds) for case in cases)
     fits = needed <= MOST_DECIMALS and _fit(needs, needed)
     if stated is None:
@@ -182,12 +182,12 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
         message = f"with {stated} decimals two raw numbers would have one count"
         no_counts = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
         hint = f"write `decimals: {needed}`, or leave it out" if fits else no_counts
-        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
+        bounds.scales.scope.report.error("integer-path", message, facts.span("decimals"), hint)
         return needed
     if fits and not _fit(needs, stated):
         message = f"counts of 10^-{stated} units do not fit into 64 bits"
         hint = f"write `decimals: {max(count for count in range(needed, stated) if _fit(needs, count))}`"
-        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
+        bounds.scales.scope.report.error("integer-path", message, facts.span("decimals"), hint)
     return stated if fits else None
 
 

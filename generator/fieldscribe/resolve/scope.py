@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.families import Family
     from fieldscribe.language.files import Files
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _SOURCE = tuple(keys_of(SOURCE))
 _STATED, _LINE = {*_SOURCE, "source"}, {"line"}
@@ -176,14 +176,14 @@ class Sources:
         self._scope = scope
         self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
 
-    def of(self, draft: Draft) -> Source:
+    def of(self, facts: PointFacts) -> Source:
         """The source of a point: mostly that of its group, with a line of its own."""
-        own, *others = draft.layers
-        key = (*map(id, others), id(draft.group))
+        own, *others = facts.layers
+        key = (*map(id, others), id(facts.group))
         known = self._shared.get(key)
         if known is None:
-            facts = _cited((*others, draft.group))
-            known = self._shared[key] = facts, _source(self._scope, facts)
+            cited = _cited((*others, facts.group))
+            known = self._shared[key] = cited, _source(self._scope, cited)
         stated = own.keys() & _STATED
         if stated == _LINE:
             return Source(known[1].document, known[1].section, known[1].page, first_line(own["line"]))

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.arithmetic.words import ends_of, number_of
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
-from fieldscribe.resolve.drafts import groups
 from fieldscribe.resolve.enums import entry_titles, name_of
+from fieldscribe.resolve.point_facts import groups
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
 
 _PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
@@ -64,9 +64,9 @@ class SpecialCodes:
                 if "special" in facts:
                     self.held(facts["special"], kind, TYPES[kind].bits)
 
-    def of(self, draft: Draft, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
+    def of(self, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
         """The codes of a point of type `kind`, the nearest first, and a name for those that it shares with others."""
-        levels = tuple(_levels(self.scope, draft, kind, bits))
+        levels = tuple(_levels(self.scope, facts, kind, bits))
         if not levels:
             return (), ""
         width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
@@ -200,7 +200,7 @@ def _overlap(code: _Code, other: _Code) -> bool:
     return code.low <= other.high and other.low <= code.high
 
 
-def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None) -> Iterator[_Level]:
+def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> Iterator[_Level]:
     """Where the codes of a point are declared, the nearest first.
 
     A group and the device speak of whole words: of all whole numbers, or of the points of one type. Bit groups, single
@@ -208,14 +208,14 @@ def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None)
     """
     if kind == "text":
         return
-    shared = scope.formats.get(str(draft.get("format"))) if draft.layer("format") is not None else None
-    for layer in draft.layers:
+    shared = scope.formats.get(str(facts.get("format"))) if facts.layer("format") is not None else None
+    for layer in facts.layers:
         if layer.get("special"):
-            yield _Level(str(draft.get("format")) if layer is shared else "", layer["special"])
-    unsettled = (draft.layer("type") is not None and draft.get("type") is None) or draft.get("untyped") is not None
-    if bits is not None or kind == "bit" or unsettled or draft.failed & {"type", "bits"}:
+            yield _Level(str(facts.get("format")) if layer is shared else "", layer["special"])
+    unsettled = (facts.layer("type") is not None and facts.get("type") is None) or facts.get("untyped") is not None
+    if bits is not None or kind == "bit" or unsettled or facts.failed & {"type", "bits"}:
         return
-    for holder, label in ((draft.group, str(draft.group["group"])), (scope.header, kind)):
+    for holder, label in ((facts.group, str(facts.group["group"])), (scope.header, kind)):
         of_type = holder.get("types", {}).get(kind, {}).get("special")
         if of_type:
             yield _Level(label, of_type)
@@ -223,14 +223,14 @@ def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None)
             yield _Level(label, holder["special"])
 
 
-def quantities(scope: Scope, draft: Draft, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
+def quantities(scope: Scope, facts: PointFacts, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
     """What a range allows, without the special codes; a finding where nothing is left."""
     remaining = without_codes(allowed, specials)
     if remaining.intervals or not allowed.intervals:
         return remaining
-    message = f"`{draft.name}` has no number that is a quantity: all that it allows are special codes"
-    key = next((key for key in ("range", "range_in_units", "enum") if draft.layer(key) is not None), None)
-    scope.report.error("enum-outside-range", message, draft.span(key), "correct the range or the codes")
+    message = f"`{facts.name}` has no number that is a quantity: all that it allows are special codes"
+    key = next((key for key in ("range", "range_in_units", "enum") if facts.layer(key) is not None), None)
+    scope.report.error("enum-outside-range", message, facts.span(key), "correct the range or the codes")
     return allowed
 
 

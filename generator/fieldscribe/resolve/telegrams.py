@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Message, Telegram
-from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.families import reading_of
+from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.point_facts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 Telegrams = Mapping[str, tuple[Telegram, int]]
 """By name: the telegram, and how many of its words one multiplexed frame carries (0: it is not multiplexed)."""
@@ -57,18 +57,18 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
     return result
 
 
-def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Telegram, int] | None:
-    """The telegram whose words the points of the draft's group are; None after a finding."""
-    name = draft.group.get("telegram")
+def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts) -> tuple[Telegram, int] | None:
+    """The telegram whose words the points of the facts's group are; None after a finding."""
+    name = facts.group.get("telegram")
     if name is None:
-        if "telegram" not in draft.group.broken:
+        if "telegram" not in facts.group.broken:
             hint = "add `telegram: …` to the group"
-            span = draft.group.span("space") if "space" in draft.group else draft.span()
+            span = facts.group.span("space") if "space" in facts.group else facts.span()
             scope.report.error("missing-key", "the words of the space `telegram` belong to a telegram", span, hint)
         return None
     entry = telegrams.get(name)
     if entry is None:
-        scope.unknown("telegram", name, draft.group.span("telegram"), telegrams)
+        scope.unknown("telegram", name, facts.group.span("telegram"), telegrams)
     return entry
 
 
@@ -76,7 +76,7 @@ def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], bef
     """Findings for a telegram without a message, with one of the other direction, or with one that carries another."""
     name, direction, carrier = str(node["name"]), node["direction"], node.get("message")
     if not scope.family.lays_out_messages:
-        reading_of(scope).telegram(scope, node, before)
+        reader_of(scope).telegram(scope, node, before)
         return
     if carrier is None:
         if "message" not in node.broken:

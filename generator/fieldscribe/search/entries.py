@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Entry
     from fieldscribe.model.numbers import Titles
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.points import ResolvedPoint
     from fieldscribe.resolve.scope import Scope
-    from fieldscribe.resolve.subject import Subject
 
 _OF_FAULTS = ("fault", "error", "trip", "alarm")
 """Names of points whose numbers are numbers of faults have one of these words."""
@@ -49,7 +49,7 @@ class Thing:
     tells_faults: bool = False
 
 
-def things_of(subject: Subject) -> Iterator[Thing]:
+def things_of(subject: Analysis) -> Iterator[Thing]:
     """Everything of a device that has a name."""
     device = str(subject.scope.header["device"])
     for resolved in subject.resolved:
@@ -62,8 +62,8 @@ def things_of(subject: Subject) -> Iterator[Thing]:
     yield from _codes(device, subject)
 
 
-def _point(device: str, scope: Scope, resolved: Resolved) -> Thing:
-    point, draft = resolved.point, resolved.draft
+def _point(device: str, scope: Scope, resolved: ResolvedPoint) -> Thing:
+    point, draft = resolved.point, resolved.facts
     tells_faults = any(word in point.name for word in _OF_FAULTS)
     heading = f"{label(point)}: {line(title_text(point.title))}"
     thing = Thing(device, "point", point.item, point.code, heading, tells_faults=tells_faults)
@@ -92,7 +92,7 @@ def _texts(titles: Titles) -> Iterable[str]:
     return dict.fromkeys(titles.values())
 
 
-def _entries(kind: str, entries: Iterable[Entry], listed: Map | None, draft: Draft) -> Iterator[Fact]:
+def _entries(kind: str, entries: Iterable[Entry], listed: Map | None, draft: PointFacts) -> Iterator[Fact]:
     keys = {_number(key): key for key in listed or ()}
     for entry in entries:
         key = keys.get(entry.raw)
@@ -106,14 +106,14 @@ def _key_place(listed: Map, key: str) -> Callable[[], Span]:
     return lambda: listed.key_span(key)
 
 
-def _named_map(scope: Scope, draft: Draft, key: str) -> Map | None:
+def _named_map(scope: Scope, draft: PointFacts, key: str) -> Map | None:
     """The mapping behind a fact that is one, or the name of a shared one."""
     node = draft.get(key)
     shared = scope.named_enums.get(node) if isinstance(node, str) else node
     return shared if isinstance(shared, Map) else None
 
 
-def _place_of_flag(flags: object, name: str, draft: Draft) -> Callable[[], Span]:
+def _place_of_flag(flags: object, name: str, draft: PointFacts) -> Callable[[], Span]:
     for key, value in flags.items() if isinstance(flags, Map) else ():
         if value == name or (isinstance(value, Map) and value.get("name") == name):
             return _key_place(flags, key)  # type: ignore[arg-type]  # it is a Map, else there is no key
@@ -133,7 +133,7 @@ def _named(device: str, kind: str, node: Map) -> Thing:
     return thing
 
 
-def _codes(device: str, subject: Subject) -> Iterator[Thing]:
+def _codes(device: str, subject: Analysis) -> Iterator[Thing]:
     """The numbered codes of the protocol: functions, exceptions, tasks, errors, ..."""
     bus = subject.scope.bus
     for codes in subject.scope.family.codes:

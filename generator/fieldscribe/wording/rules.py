@@ -11,7 +11,7 @@ from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
 from fieldscribe.wording.exact import exact, fixed_rule, number_text, plus_text, times_text, value_multiple
 
 if TYPE_CHECKING:
-    from fieldscribe.existence import Clause, Comparison, Condition
+    from fieldscribe.conditions import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
 """Points by name: the texts of rules that refer to points look there for units and names."""

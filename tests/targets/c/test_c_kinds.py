@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.existence import Comparison, Condition
+from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.model import Enum, Erratum, Place, Special
 from fieldscribe.pipeline import device_files_below
 from fieldscribe.plain import for_code

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.existence import Comparison, Condition
+from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.model import Limit, Place, Variant
 from fieldscribe.plain import for_code
 from fieldscribe.render import render

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.manual import Manual
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
     Where = Callable[[int], Lines | None]
 
@@ -63,7 +63,7 @@ class Cited:
 class Citations:
     """All citations of a description. `counts_new` are the subjects and errata that count lines of the new edition."""
 
-    def __init__(self, subject: Subject, editions: Editions) -> None:
+    def __init__(self, subject: Analysis, editions: Editions) -> None:
         self.editions = editions
         self.claims = list(dict.fromkeys(claims_of(subject)))
         self.errata = list(printed_errata_of(subject))

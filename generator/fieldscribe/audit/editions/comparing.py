@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.manual import Extent
     from fieldscribe.audit.printed_errata import PrintedErratum
     from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _NO_WORDS: Mapping[str, str] = MappingProxyType({})
 
@@ -46,7 +46,7 @@ class Edition:
 
 
 def compare(
-    subject: Subject,
+    subject: Analysis,
     old: Edition,
     new: Edition,
     glossary: Mapping[str, str] = _NO_WORDS,
@@ -70,7 +70,7 @@ def compare(
 class _Comparing:
     def __init__(
         self,
-        subject: Subject,
+        subject: Analysis,
         citations: Citations,
         manuals: tuple[Manual, Manual],
         outcome: Comparison,

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.holding import Pair
     from fieldscribe.importing import Seen
     from fieldscribe.importing.drafts import DraftPoint
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _COLUMNS = re.compile(r"(?<=[^\s|]) {3,}(?=[^\s|])")
 """What parts the columns of a table that is set with blanks alone."""
@@ -51,7 +51,7 @@ class Drafts:
     """Makes drafts of rows that only the new edition has."""
 
     def __init__(
-        self, subject: Subject, editions: Editions, pairs: Iterable[Pair], glossary: Mapping[str, str]
+        self, subject: Analysis, editions: Editions, pairs: Iterable[Pair], glossary: Mapping[str, str]
     ) -> None:
         self.subject, self.editions = subject, editions
         language = next((document.language for document in subject.scope.documents.values()), "en")
@@ -59,13 +59,13 @@ class Drafts:
         points = {resolved.point.item: resolved for resolved in subject.resolved}
         self._drafted_at: dict[str, int] = {}
         self._heads: dict[_Table, int] = {}
-        self.points_at: dict[int, dict[str, tuple[Resolved, str]]] = {}
+        self.points_at: dict[int, dict[str, tuple[ResolvedPoint, str]]] = {}
         for pair in pairs:
             claim = pair.claim
             if pair.new is None or claim.subject not in points:
                 continue
             resolved = points[claim.subject]
-            if claim.cited == ((resolved.draft.get("line"), 0),):
+            if claim.cited == ((resolved.facts.get("line"), 0),):
                 at_line = self.points_at.setdefault(pair.new.cited[0][0], {})
                 at_line.setdefault(claim.subject, (resolved, claim.where))
 
@@ -102,7 +102,7 @@ class Drafts:
     def _ranges(self) -> str:
         """What the description takes the manual's columns of ranges for."""
         keys = [
-            key for resolved in self.subject.resolved for key in ("range", "range_in_units") if resolved.draft.get(key)
+            key for resolved in self.subject.resolved for key in ("range", "range_in_units") if resolved.facts.get(key)
         ]
         return "units" if keys.count("range_in_units") > keys.count("range") else "raw"
 
@@ -129,7 +129,7 @@ class Drafts:
 
     def _points_beside(self, described: Described, beside: list[Described], points: list[DraftPoint]) -> Draft:
         group = described.group
-        own_section = described.resolved.draft.own.get("section", "")
+        own_section = described.resolved.facts.own.get("section", "")
         lines: list[str] = []
         for point in points:
             lines += self._lines(replace(point, section=own_section), beside, group.get("access"), "")
@@ -170,7 +170,7 @@ def _nearest(beside: list[Described], line: int) -> Described:
 
 def _indent(described: Described) -> str:
     """What stands before the dash of the point in its file."""
-    node = described.resolved.draft.row
+    node = described.resolved.facts.row
     line = node.file.text.splitlines()[node.span(next(iter(node))).line - 1]
     blanks = line[: len(line) - len(line.lstrip())]
     return blanks if line.lstrip().startswith("- ") else ""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.importing.drafts import DraftPoint
     from fieldscribe.language.nodes import Map as Node
-    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _AT = "at"
 """The number that a row was read to have as its address, where it prints no other."""
@@ -30,19 +30,19 @@ class Described(NamedTuple):
     """A row that is described: its line in the new edition, its point, where that stands; and as the table reads it."""
 
     line: int
-    resolved: Resolved
+    resolved: ResolvedPoint
     place: str
     read: DraftPoint
 
     @property
     def group(self) -> Node:
         """The group that has it."""
-        return self.resolved.draft.group
+        return self.resolved.facts.group
 
     @property
     def printed(self) -> dict[str, list[str]]:
         """What it says under `printed`, every number as a text."""
-        said = self.resolved.draft.get("printed")
+        said = self.resolved.facts.get("printed")
         if not isinstance(said, Map):
             return {}
         return {
@@ -78,7 +78,7 @@ def _by_rule(address: int, rows: list[Described]) -> tuple[int, int] | None:
     """Number and index of an address in a run of indices of one number, by those of the nearest rows of that run."""
     runs: dict[int, dict[int, int]] = {}
     for row in rows:
-        number, index, there = row.resolved.draft.get("at"), row.resolved.draft.get("index"), row.resolved.point.address
+        number, index, there = row.resolved.facts.get("at"), row.resolved.facts.get("index"), row.resolved.point.address
         if isinstance(number, int) and isinstance(index, int) and there is not None:
             runs.setdefault(number, {})[index] = there
     below = [(max(run.values()), number) for number, run in runs.items() if min(run.values()) < address]
@@ -92,7 +92,7 @@ def _by_rule(address: int, rows: list[Described]) -> tuple[int, int] | None:
 
 def _code_beside(number: int, index: int, rows: list[Described]) -> str:
     """The code as the other indices of a number have theirs, such as `P050[7]`; "" if they have none."""
-    drafts = (row.resolved.draft for row in rows)
+    drafts = (row.resolved.facts for row in rows)
     codes = [str(draft.code) for draft in drafts if draft.get("at") == number and draft.code]
     return next((_INDEX.sub(f"[{index}]", code) for code in codes if _INDEX.search(code)), "")
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.titles import Titles
     from fieldscribe.importing import Seen
     from fieldscribe.importing.drafts import DraftPoint
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _WORD = re.compile(r"[^\W_]+(?:[.-][^\W_]+)*")
 _SHARED = ("space", "numbering", "addressing", "type")
@@ -53,7 +53,7 @@ class NewGroup:
 
 
 def new_group(
-    subject: Subject, seen: Seen, points: list[DraftPoint], alike: list[tuple[list[Described], Seen]]
+    subject: Analysis, seen: Seen, points: list[DraftPoint], alike: list[tuple[list[Described], Seen]]
 ) -> NewGroup:
     """The group of these points; `alike` are described rows of tables with the same heads, the nearest first."""
     heading = _heading(seen)
@@ -115,7 +115,7 @@ def _flow(value: object) -> str:
     return "~" if value is None else yaml_text.printed(str(value))
 
 
-def _place(subject: Subject, model: Map | None) -> tuple[str, bool]:
+def _place(subject: Analysis, model: Map | None) -> tuple[str, bool]:
     """Where it is to stand, and whether as a document of a file that has several."""
     header = subject.scope.header
     parts = header.get("parts")
@@ -128,7 +128,7 @@ def _place(subject: Subject, model: Map | None) -> tuple[str, bool]:
     return f"behind the group at {last}", True
 
 
-def _groups(subject: Subject, name: str) -> Iterator[str]:
+def _groups(subject: Analysis, name: str) -> Iterator[str]:
     """The places of the groups of a file, the last one first."""
     for file in reversed(subject.scope.files):
         if file.file.name == name:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.audit.editions.findings import Finding
     from fieldscribe.audit.editions.tracing import Trace
     from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _NAME = re.compile(r"[^\W\d]\w*(?:\[[0-9/]+\])?")
 _WORD = re.compile(r"[^\W\d_]{4,}")
@@ -54,7 +54,7 @@ class Gone(NamedTuple):
 class Notes:
     """All sentences of a description, by what they say."""
 
-    def __init__(self, subject: Subject, old: Trace, editions: Editions) -> None:
+    def __init__(self, subject: Analysis, old: Trace, editions: Editions) -> None:
         self.old, self.editions = old, editions
         self.sentences = [sentence for file in subject.scope.files for sentence in _sentences(file, "device")]
         self.names_of = _names_of(subject)
@@ -162,21 +162,21 @@ def _beside(at: int, names: list[tuple[int, str]]) -> Iterator[str]:
     yield from [name for place, name in coded if place >= at][:1]
 
 
-def _names_of(subject: Subject) -> dict[str, set[str]]:
+def _names_of(subject: Analysis) -> dict[str, set[str]]:
     """How sentences name each point: by its name, that of its row, its code."""
     names: dict[str, set[str]] = {}
     for resolved in subject.resolved:
-        draft = resolved.draft
+        draft = resolved.facts
         names[resolved.point.item] = {draft.name, str(draft.row.get("name")), draft.code or draft.name}
     return names
 
 
-def _codes_of(subject: Subject) -> dict[str, str]:
+def _codes_of(subject: Analysis) -> dict[str, str]:
     """The code of each point that has one for itself."""
     points: dict[str, list[str]] = {}
     for resolved in subject.resolved:
-        if resolved.draft.code:
-            points.setdefault(resolved.draft.code, []).append(resolved.point.item)
+        if resolved.facts.code:
+            points.setdefault(resolved.facts.code, []).append(resolved.point.item)
     return {items[0]: code for code, items in points.items() if len(items) == 1}
 
 

@@ -11,7 +11,7 @@ from fieldscribe.language.nodes import Map, Seq
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _ASKED_TITLE, _ASKED_NAME = yaml_text.question("en"), yaml_text.question("in English")
 
@@ -19,14 +19,14 @@ _ASKED_TITLE, _ASKED_NAME = yaml_text.question("en"), yaml_text.question("in Eng
 class Titles:
     """English words of the glossary and of the description's own titles; names that are taken."""
 
-    def __init__(self, subject: Subject, language: str, glossary: Mapping[str, str]) -> None:
+    def __init__(self, subject: Analysis, language: str, glossary: Mapping[str, str]) -> None:
         self.language = language
         self._english = {own: english for own, english in glossary.items() if language != "en"}
         if language != "en":
             self._english |= {own: english for file in subject.scope.files for own, english in _pairs(file, language)}
         self._asked: dict[str, None] = {}
         self._names = Names()
-        for name in dict.fromkeys(resolved.draft.name for resolved in subject.resolved):
+        for name in dict.fromkeys(resolved.facts.name for resolved in subject.resolved):
             self._names.give(name)
 
     def titled(self, text: str) -> str:

@@ -10,7 +10,7 @@ from unicodedata import combining, normalize
 from fieldscribe.audit.claims_of_bus import parity_words
 
 if TYPE_CHECKING:
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
 
 _WORD = re.compile(r"[^\W_]+|[%\u2030\u00b0\u03a9\u2126]")
 _SMALL_WORDS = re.compile(
@@ -82,11 +82,11 @@ def _is_within(shorter: str, longer: str) -> bool:
 class Vocabulary:
     """The words of each point and of each shared enum, and those of everything else."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Analysis) -> None:
         self._words_of = {f"enum {name}": _words_in(entries) for name, entries in subject.scope.named_enums.items()}
         self._units: dict[str, tuple[str, str]] = {}
         for resolved in subject.resolved:
-            draft = resolved.draft
+            draft = resolved.facts
             words = _words_in([draft.get(key) for key in draft.keys])
             words |= _words_in(subject.scope.named_enums.get(str(draft.get("enum")), ()))
             words |= _words_in(_OF_ACCESS.get(str(draft.get("access")), ""))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.frames_agree import Seen, from_words, report_no_frame, report_no_request, report_wrong_sum
-from fieldscribe.checks.reach import report_missing
+from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.can.frames import (
     LENGTH,
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Message, Point
-    from fieldscribe.resolve.frames import OpenFrame
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.frames import LocatedFrame
 
 
 _MOST = 64
 """With how many messages of its identifier each message is compared."""
 
 
-def messages_differ(subject: Subject) -> None:
+def messages_differ(subject: Analysis) -> None:
     """Findings for messages of the same identifier that differ in no constant byte."""
     raws = {str(node["name"]): node for node in reversed(list(subject.scope.listed("messages")))}
     heard: dict[int, list[Message]] = {}
@@ -63,12 +63,12 @@ def _alike(message: Message, other: Message) -> bool:
     return not any(mine.kind == theirs.kind == "constant" and mine.number != theirs.number for mine, theirs in pairs)
 
 
-def parameters_are_reachable(subject: Subject) -> None:
+def parameters_are_reachable(subject: Analysis) -> None:
     """One finding for each message that parameters need and that the device does not have."""
     report_missing(subject, _messages)
 
 
-def _messages(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str, str]]:
+def _messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str]]:
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(
         list(subject.scope.listed("messages"))
     ):
@@ -97,7 +97,7 @@ class _Heard:
     parsed: Parsed
 
 
-def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """The frame as a message of the device; `Seen.request` is that message."""
     frame = open_frame.frame
     if len(frame.printed) != LENGTH:
@@ -118,7 +118,7 @@ def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen
 
 
 def _fault(
-    subject: Subject, frame: Frame, tried: list[_Heard], heard: _Heard | None, asked: _Heard | None
+    subject: Analysis, frame: Frame, tried: list[_Heard], heard: _Heard | None, asked: _Heard | None
 ) -> str | None:
     """Why the frame is no message of the device, or does not answer its request."""
     what = f"does not answer `{frame.answers}`" if asked is not None else "is no message of this device"
@@ -133,7 +133,7 @@ def _fault(
     return None
 
 
-def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]:
+def _tried(subject: Analysis, frame: Frame, asked: _Heard | None) -> list[_Heard]:
     """The frame read as each message that it could be."""
     result = []
     number = identifier_of(frame)
@@ -147,7 +147,7 @@ def _tried(subject: Subject, frame: Frame, asked: _Heard | None) -> list[_Heard]
     return result
 
 
-def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
+def _summed(subject: Analysis, open_frame: LocatedFrame, tried: list[_Heard]) -> tuple[Frame, _Heard | None]:
     """The frame with its checksum corrected, read as one of these messages; None if it is none of them."""
     frame, number = open_frame.frame, identifier_of(open_frame.frame)
     for heard in tried:
@@ -164,7 +164,7 @@ def _summed(subject: Subject, open_frame: OpenFrame, tried: list[_Heard]) -> tup
     return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)
 
 
-def _carries(subject: Subject, heard: _Heard, frame: Frame) -> Carries:
+def _carries(subject: Analysis, heard: _Heard, frame: Frame) -> Carries:
     """Finds the raw numbers in a frame: the word of a parameter, or words of a telegram."""
     raw = (heard.parsed.raw,) if places(heard.message, "raw") else (None,)
     words = telegram_words(heard.message, CanFrame(0, frame.corrected))

@@ -12,8 +12,8 @@ from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.numbers import NumberError, parse_integer, shown
 from fieldscribe.model import Bus, Message, Role
-from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.families import Reading
+from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.point_facts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import bits_named, formula_finding, integer
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 
-class CanReading(Reading):
+class CanReading(FamilyReader):
     """Frames have an identifier, and the description lays out their bytes."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> CanBus:

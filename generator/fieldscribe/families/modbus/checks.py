@@ -22,20 +22,20 @@ from fieldscribe.families.modbus.frames import Flaw, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
-from fieldscribe.resolve.subject import Printed, Subject
+from fieldscribe.resolve.analysis import Analysis, PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Point
-    from fieldscribe.resolve.frames import OpenFrame
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.frames import LocatedFrame
+    from fieldscribe.resolve.points import ResolvedPoint
 
 
 _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
 
-def functions_agree(subject: Subject) -> None:
+def functions_agree(subject: Analysis) -> None:
     """Findings for printed numbers of bytes that do not follow from the largest count, and for unreachable spaces."""
     bus = subject.scope.bus
     _elsewhere(subject)
@@ -54,10 +54,10 @@ def functions_agree(subject: Subject) -> None:
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
             span = node["printed"].span("bytes")
-            subject.disagrees(Printed(Named("function", code.number), "bytes", printed, right, span, message))
+            subject.disagrees(PrintedFact(Named("function", code.number), "bytes", printed, right, span, message))
 
 
-def _reached(subject: Subject, bus: Map) -> None:
+def _reached(subject: Analysis, bus: Map) -> None:
     """One finding for each space with points that no function of the device can read, or write."""
     known = {code.number for code in subject.bus.functions}
     points = (resolved.point for resolved in subject.resolved)
@@ -75,7 +75,7 @@ def _reached(subject: Subject, bus: Map) -> None:
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
 
 
-def _elsewhere(subject: Subject) -> None:
+def _elsewhere(subject: Analysis) -> None:
     """Findings for points that are written at another address, in a space that no function writes."""
     for resolved in subject.resolved:
         if resolved.point.write_place is None:
@@ -84,18 +84,18 @@ def _elsewhere(subject: Subject) -> None:
         if functions is not None and functions.write_many is None:
             message = f"`{resolved.point.name}` cannot be written: no function writes `{resolved.point.space}`"
             hint = "leave `write_at` out; what is written in another space is a point of its own"
-            subject.report.error("write-address", message, resolved.draft.span("write_at"), hint)
+            subject.report.error("write-address", message, resolved.facts.span("write_at"), hint)
 
 
-def _at_once(subject: Subject) -> None:
+def _at_once(subject: Analysis) -> None:
     """One finding for each function whose requests have too few words for points that only it can read or write."""
     most = profile_of(subject.bus).most
-    too_long: dict[tuple[str, int], list[Resolved]] = {}
+    too_long: dict[tuple[str, int], list[ResolvedPoint]] = {}
     for resolved in subject.resolved:
         point = resolved.point
         if len(point.place.addresses) == 1:
             continue  # any function carries one item
-        if not point.generated or "type" in resolved.draft.failed or point.space not in SPACES:
+        if not point.generated or "type" in resolved.facts.failed or point.space not in SPACES:
             continue
         functions = SPACES[point.space]
         if point.readable and functions.read in most and _span(point) > most[functions.read]:
@@ -111,7 +111,9 @@ def _span(point: Point) -> int:
     return max(point.addresses) - min(point.addresses) + 1
 
 
-def _report_too_long(subject: Subject, verb: str, function: int, points: list[Resolved], most: int | None) -> None:
+def _report_too_long(
+    subject: Analysis, verb: str, function: int, points: list[ResolvedPoint], most: int | None
+) -> None:
     first, others = points[0].point, len(points) - 1
     also = f" (and so do {others} more points)" if others > 1 else " (and so does one more point)" if others else ""
     if most is None:
@@ -124,18 +126,18 @@ def _report_too_long(subject: Subject, verb: str, function: int, points: list[Re
         )
         if most == PROTOCOL_MOST[function]:
             hint = "no request of Modbus is longer: give each part a point of its own, or correct `access`"
-    draft = points[0].draft
+    draft = points[0].facts
     key = "characters" if first.text is not None else "type"
     subject.report.error("too-long", message, draft.span(key if draft.layer(key) is not None else None), hint)
 
 
-def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """The frame as the device reads it; `Seen.request` is a `Request`."""
     whole = replace(open_frame, frame=_checked(subject, open_frame))
     return _request(subject, whole) if whole.frame.direction == "request" else _reply(subject, whole, seen)
 
 
-def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
+def _checked(subject: Analysis, open_frame: LocatedFrame) -> Frame:
     """The frame with its checksum corrected."""
     frame = open_frame.frame
     flaw = unwrap(frame.framing, frame.printed).flaw
@@ -146,7 +148,7 @@ def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
     return replace(frame, corrected=frame.printed[:-2] + right, valid=False)
 
 
-def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
+def _request(subject: Analysis, open_frame: LocatedFrame) -> Seen:
     frame = open_frame.frame
     request = parse_request(frame.framing, frame.corrected)
     if isinstance(request, Flaw):
@@ -156,7 +158,7 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
     if request.function in profile.most and request.count > most:
         message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
         span = open_frame.node.span("bytes")
-        subject.disagrees(Printed(open_frame.about, "count", request.count, None, span, message))
+        subject.disagrees(PrintedFact(open_frame.about, "count", request.count, None, span, message))
         request = replace(request, count=_taken(subject, open_frame, "count", most))
         frame = replace(frame, valid=False)
     status, rebuilt = build(profile, frame.framing, request)
@@ -168,7 +170,7 @@ def _request(subject: Subject, open_frame: OpenFrame) -> Seen:
     return Seen(replace(frame, corrected=rebuilt), request, carries)
 
 
-def _reply(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def _reply(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     frame = open_frame.frame
     asked = seen.get(frame.answers or "")
     report_no_request(subject, open_frame)
@@ -198,7 +200,7 @@ def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
     return carries
 
 
-def _taken(subject: Subject, open_frame: OpenFrame, key: str, otherwise: int) -> int:
+def _taken(subject: Analysis, open_frame: LocatedFrame, key: str, otherwise: int) -> int:
     for erratum in subject.cited.get(open_frame.about, ()):
         taken = erratum.node["taken"]
         if isinstance(taken, Map) and isinstance(taken.get(key), int):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.modbus import BROADCAST, PROTOCOL_MOST, SPACES, ModbusBus, profile_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Block, Variant
-from fieldscribe.resolve.families import Reading
+from fieldscribe.resolve.family_reader import FamilyReader
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 
-class ModbusReading(Reading):
+class ModbusReading(FamilyReader):
     """How Modbus functions, their counts, broadcasts and block reads are taken from a description."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> ModbusBus:

@@ -15,7 +15,7 @@ from fieldscribe.checks.frames_agree import (
     report_wrong_error,
     report_wrong_sum,
 )
-from fieldscribe.checks.reach import report_missing
+from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.uss import FAMILY, of_bus, of_frame
 from fieldscribe.families.uss.parts import MASKS, READ_TASK, VARIABLE, Link, part_of, write_task
 from fieldscribe.families.uss.remarks import words_printed
@@ -31,8 +31,8 @@ from fieldscribe.families.uss.telegrams import (
 )
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
+from fieldscribe.resolve.analysis import PrintedFact
 from fieldscribe.resolve.bus import code_list
-from fieldscribe.resolve.subject import Printed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,14 +40,14 @@ if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Code, Frame, Point
-    from fieldscribe.resolve.frames import OpenFrame
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.frames import LocatedFrame
 
 
 _LISTS = ("answers", "refusals")
 
 
-def codes_agree(subject: Subject) -> None:
+def codes_agree(subject: Analysis) -> None:
     """Findings for codes that are named on one side only or do not exist, and for printed lists that disagree."""
     bus = subject.scope.bus
     if bus is None or not subject.bus_is_whole:
@@ -59,7 +59,7 @@ def codes_agree(subject: Subject) -> None:
             _printed(subject, code, raw, kind.key)
 
 
-def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, Map, Span]]:
+def _written(subject: Analysis, bus: Map, section: str) -> Iterator[tuple[Code, Map, Span]]:
     """Each code that is written as a mapping, with the mapping and the place of its number."""
     by_name = {code.name: code for code in subject.bus.codes(section)}
     for key, node in bus.get(section, {}).items():
@@ -67,7 +67,7 @@ def _written(subject: Subject, bus: Map, section: str) -> Iterator[tuple[Code, M
             yield by_name[node["name"]], node, bus[section].key_span(key)
 
 
-def _named_back(subject: Subject, bus: Map) -> None:
+def _named_back(subject: Analysis, bus: Map) -> None:
     """Findings for tasks and responses of which only one names the other."""
     tasks = {code.number: {*code.answers, *code.refusals} for code in subject.bus.functions}
     responses = {code.number: set(code.answers) for code in subject.bus.codes("responses")}
@@ -85,14 +85,14 @@ def _named_back(subject: Subject, bus: Map) -> None:
                 _one_sided(subject, node.span("answers"), *names, number in tasks)
 
 
-def _one_sided(subject: Subject, span: Span, code: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
+def _one_sided(subject: Analysis, span: Span, code: tuple[str, int], other: tuple[str, int], exists: bool) -> None:
     what = "which does not name it back" if exists else "which does not exist"
     message = f"the {code[0]} {code[1]} names the {other[0]} {other[1]}, {what}"
     hint = "take one of them in both lists, and give what is printed under `printed` with an erratum"
     subject.report.error("codes-disagree", message, span, hint if exists else f"declare it, or leave it out; {hint}")
 
 
-def _refused(subject: Subject, bus: Map) -> None:
+def _refused(subject: Analysis, bus: Map) -> None:
     """Findings for error values of tasks that do not exist or are never refused."""
     tasks = {code.number: code for code in subject.bus.functions}
     for error, node, _ in _written(subject, bus, "exceptions"):
@@ -105,7 +105,7 @@ def _refused(subject: Subject, bus: Map) -> None:
                 subject.report.error("codes-disagree", message, node.span("answers"), hint)
 
 
-def _printed(subject: Subject, code: Code, node: Map, about: str) -> None:
+def _printed(subject: Analysis, code: Code, node: Map, about: str) -> None:
     """Compare the printed lists with those that were taken."""
     printed: Map = node.get("printed") or Map(node.file, node.at)
     for key in _LISTS:
@@ -116,7 +116,7 @@ def _printed(subject: Subject, code: Code, node: Map, about: str) -> None:
         if codes != taken:
             message = f"the {key} {_list(codes)} are printed for the {about} {code.number}, taken are {_list(taken)}"
             named, span = Named(about, code.number), printed.span(key)
-            subject.disagrees(Printed(named, key, list(printed[key]), taken, span, message))
+            subject.disagrees(PrintedFact(named, key, list(printed[key]), taken, span, message))
 
 
 def _list(numbers: list[int]) -> str:
@@ -127,12 +127,12 @@ _SHORT = 3
 """The words of a parameter part that carries values of one word only."""
 
 
-def parameters_are_reachable(subject: Subject) -> None:
+def parameters_are_reachable(subject: Analysis) -> None:
     """One finding for each task that parameters need and that the device does not have."""
     report_missing(subject, _tasks)
 
 
-def _tasks(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str, str]]:
+def _tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str]]:
     known = {code.number for code in subject.bus.functions}
     hint = "list the task under `functions`, or correct `access` or `keeps`"
     lengths = set(of_bus(subject.bus).pkw)
@@ -167,7 +167,7 @@ class _Asked:
     request: Request
 
 
-def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen:
+def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """The frame as the device reads it; `Seen.request` is the request with its link."""
     frame = open_frame.frame
     if frame.framing == "broadcast":
@@ -185,7 +185,7 @@ def read(subject: Subject, open_frame: OpenFrame, seen: dict[str, Seen]) -> Seen
     return _telegram(subject, open_frame, words, seen)
 
 
-def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
+def _checked(subject: Analysis, open_frame: LocatedFrame) -> Frame:
     """The frame with its length byte and its check byte corrected."""
     frame = open_frame.frame
     if len(frame.printed) < LEAST_BYTES:
@@ -197,7 +197,7 @@ def _checked(subject: Subject, open_frame: OpenFrame) -> Frame:
     return replace(frame, corrected=right, valid=right == frame.printed)
 
 
-def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], seen: dict[str, Seen]) -> Seen:
+def _telegram(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...], seen: dict[str, Seen]) -> Seen:
     """Read a telegram, or a parameter part alone, which is read as a telegram without process data."""
     frame = open_frame.frame
     if frame.direction == "request":
@@ -224,7 +224,7 @@ def _telegram(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...], s
     return Seen(frame, asked.request, _carries(subject, request, value, reply.words, "response"))
 
 
-def _request(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) -> Seen:
+def _request(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]) -> Seen:
     frame = open_frame.frame
     unit = frame.corrected[2] if frame.framing == "uss" else subject.bus.units[0]
     setting = _setting(frame)
@@ -252,14 +252,14 @@ def _setting(frame: Frame) -> int:
     return VARIABLE if setting is None else setting
 
 
-def _process_data(subject: Subject, open_frame: OpenFrame, words: tuple[int, ...]) -> Seen:
+def _process_data(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]) -> Seen:
     low, high = of_bus(subject.bus).pzd
     if not low <= len(words) <= high:
         return report_no_frame(subject, open_frame, f"there are {low}..{high} words of process data, not {len(words)}")
     return Seen(open_frame.frame, None, _carries(subject, None, None, words, open_frame.frame.direction))
 
 
-def _broadcast(subject: Subject, open_frame: OpenFrame) -> Seen:
+def _broadcast(subject: Analysis, open_frame: LocatedFrame) -> Seen:
     """Read a broadcast: four words of masks, then the process data."""
     words = words_in(open_frame.frame.printed)
     if len(open_frame.frame.printed) % 2 or len(words) < MASKS:
@@ -272,7 +272,7 @@ def _broadcast(subject: Subject, open_frame: OpenFrame) -> Seen:
 
 
 def _carries(
-    subject: Subject,
+    subject: Analysis,
     request: Request | None,
     value: tuple[int, int] | None,
     words: tuple[int, ...],

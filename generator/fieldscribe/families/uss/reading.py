@@ -9,7 +9,7 @@ from fieldscribe.families.uss import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.parts import VARIABLE
 from fieldscribe.model import Variant
 from fieldscribe.resolve.bus import codes_under, ends_of
-from fieldscribe.resolve.families import Reading
+from fieldscribe.resolve.family_reader import FamilyReader
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _MOST_PZD = 16
 
 
-class UssReading(Reading):
+class UssReading(FamilyReader):
     """Telegrams have a parameter part and process data of known lengths."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> UssBus:

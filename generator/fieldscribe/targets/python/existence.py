@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.existence import absent
+from fieldscribe.conditions import absent
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

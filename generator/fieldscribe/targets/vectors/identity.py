@@ -16,7 +16,7 @@ from fieldscribe.text import line
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from fieldscribe.existence import Condition
+    from fieldscribe.conditions import Condition
     from fieldscribe.model import Point, Shape, Terms
     from fieldscribe.targets.vectors.lines import Lines
 

@@ -30,7 +30,7 @@ _RIVALS = {
 
 
 @dataclass(slots=True, eq=False)
-class Draft:
+class PointFacts:
     """One expanded point: its layers of facts, own facts first, and the group last. `use` is where its record is used.
 
     `failed` collects the keys that have findings, so that nobody reports what was assumed in their place.

@@ -6,51 +6,51 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
-from fieldscribe import existence
-from fieldscribe.existence import Condition
+from fieldscribe import conditions
+from fieldscribe.conditions import Condition
 from fieldscribe.language.formula import Comparison, FormulaError, clauses_of, parse_condition, wrong_number
 from fieldscribe.resolve.enums import enum_of
-from fieldscribe.resolve.rules import Scales, UnknownError
+from fieldscribe.resolve.scales import Scales, UnknownError
 from fieldscribe.resolve.values import Written, formula_finding
 
 if TYPE_CHECKING:
     from fieldscribe.language.formula import Affine, Constant
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """What a comparison of values becomes for raw numbers that fall while the value rises."""
 
 
-def existence_of(scope: Scope, draft: Draft, scales: Scales) -> Condition | None:
+def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition | None:
     """When the point exists; None for always, or after a finding."""
-    text = draft.get("when")
+    text = facts.get("when")
     if text is None:
         return None
-    written = Written(text, draft.span("when"))
+    written = Written(text, facts.span("when"))
     try:
         stated = clauses_of(parse_condition(text))
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
         stated = ()
     resolved = {
-        comparison: _resolved(scope, draft, scales, comparison, written) for clause in stated for comparison in clause
+        comparison: _resolved(scope, facts, scales, comparison, written) for clause in stated for comparison in clause
     }
     clauses = tuple(
         [tuple([result for comparison in clause if (result := resolved[comparison]) is not None]) for clause in stated]
     )
     if stated and None not in resolved.values():
         return Condition(clauses)
-    draft.failed.add("when")
+    facts.failed.add("when")
     return None
 
 
 def _resolved(
-    scope: Scope, draft: Draft, scales: Scales, comparison: Comparison, written: Written
-) -> existence.Comparison | None:
+    scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
+) -> conditions.Comparison | None:
     """One comparison as the model has it; None after a finding."""
     try:
-        return _comparison(scope, draft, scales, comparison, written)
+        return _comparison(scope, facts, scales, comparison, written)
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
     except UnknownError:
@@ -59,25 +59,25 @@ def _resolved(
 
 
 def _comparison(
-    scope: Scope, draft: Draft, scales: Scales, comparison: Comparison, written: Written
-) -> existence.Comparison:
+    scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
+) -> conditions.Comparison:
     """One comparison in whole raw numbers, or of a variant. Raises UnknownError after a finding, else FormulaError."""
     name = comparison.name.name
     if name in scope.axes:
         values = [_value(scope, name, constant, written) for constant in comparison.constants]
-        return existence.Comparison(name, comparison.op, tuple(values))
-    used = scales.index.find(name, draft.variant)
+        return conditions.Comparison(name, comparison.op, tuple(values))
+    used = scales.index.find(name, facts.variant)
     if used is None:
         scales.index.unknown(name, written.of(name), scope.axes)
         raise UnknownError
     if used.floating:
         message = f"`{name}` is a floating-point number"
         raise FormulaError(message, comparison.name.column, "a condition compares whole numbers and names")
-    if used.name == draft.name:
+    if used.name == facts.name:
         raise FormulaError(
             f"`{name}` cannot say itself whether it exists", comparison.name.column, "name another point"
         )
-    rule = scales.affine(draft, name, comparison.name.part, written)
+    rule = scales.affine(facts, name, comparison.name.part, written)
     raws = [_raw(scope, used, rule, constant, written) for constant in comparison.constants]
     test = _TURNED.get(comparison.op, comparison.op) if rule.slope < 0 else comparison.op
     return _with_whole_numbers(rule.point, test, raws, comparison)
@@ -93,7 +93,7 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
     return constant.text
 
 
-def _raw(scope: Scope, used: Draft, rule: Affine, constant: Constant, written: Written) -> Fraction:
+def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, written: Written) -> Fraction:
     """The raw number that a constant means: a number, or a name in the enum of the point."""
     if not isinstance(constant.value, str):
         return (constant.value - rule.intercept) / rule.slope
@@ -109,14 +109,14 @@ def _raw(scope: Scope, used: Draft, rule: Affine, constant: Constant, written: W
     raise UnknownError
 
 
-def _with_whole_numbers(point: str, test: str, raws: list[Fraction], comparison: Comparison) -> existence.Comparison:
+def _with_whole_numbers(point: str, test: str, raws: list[Fraction], comparison: Comparison) -> conditions.Comparison:
     """The same comparison with whole numbers: raw numbers below 2.5 are those up to 2."""
     broken = next((place for place, raw in enumerate(raws) if raw.denominator != 1), None)
     if broken is None:
-        return existence.Comparison(point, test, tuple([raw.numerator for raw in raws]))
+        return conditions.Comparison(point, test, tuple([raw.numerator for raw in raws]))
     if test in ("<", "<="):
-        return existence.Comparison(point, "<=", (floor(raws[0]),))
+        return conditions.Comparison(point, "<=", (floor(raws[0]),))
     if test in (">", ">="):
-        return existence.Comparison(point, ">=", (ceil(raws[0]),))
+        return conditions.Comparison(point, ">=", (ceil(raws[0]),))
     column = comparison.constants[broken].column
     raise FormulaError(f"`{comparison.name.name}` is never just that: it moves in steps", column, "compare with < or >")

@@ -5,22 +5,22 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.existence import ANY, Clause, Comparison, Domain, ends_before, possible
+from fieldscribe.conditions import ANY, Clause, Comparison, Domain, ends_before, possible
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 
-class Meetings:
+class Coexistence:
     """Answers whether conditions and points can occur together in one device."""
 
-    def __init__(self, subject: Subject) -> None:
-        self.axes = {axis: tuple(entry["values"]) for axis, entry in subject.scope.axes.items()}
-        self._resolved = subject.resolved
+    def __init__(self, analysis: Analysis) -> None:
+        self.axes = {axis: tuple(entry["values"]) for axis, entry in analysis.scope.axes.items()}
+        self._resolved = analysis.resolved
         self._domains: dict[str, Domain] = {}
 
     @cached_property
@@ -42,9 +42,9 @@ class Meetings:
         """Whether the comparisons can be true at once."""
         return possible(clause, self.domain)
 
-    def never(self, resolved: Resolved, other: Resolved) -> bool:
+    def never(self, resolved: ResolvedPoint, other: ResolvedPoint) -> bool:
         """Whether no device can have both points."""
-        if "when" in resolved.draft.failed or "when" in other.draft.failed:
+        if "when" in resolved.facts.failed or "when" in other.facts.failed:
             return True  # the condition could not be read, and has a finding
         mine, theirs = resolved.point, other.point
         if ends_before(mine.until, theirs.since) or ends_before(theirs.until, mine.since):

@@ -13,7 +13,7 @@ from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
-from fieldscribe.resolve.rules import UnknownError
+from fieldscribe.resolve.scales import UnknownError
 from fieldscribe.resolve.values import formula_finding
 from fieldscribe.wording.exact import number_text
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
 
 _ONE_SIDED = tuple("<>\u2264\u2265")
 _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")
@@ -34,26 +34,28 @@ class Ranges:
         self.bounds = bounds
         self.report = bounds.scales.scope.report
 
-    def allowed(self, draft: Draft, enum: Enum | None) -> Allowed:
+    def allowed(self, facts: PointFacts, enum: Enum | None) -> Allowed:
         """What may be written to the point: its range, else its enum's numbers, else all that the type holds."""
-        if draft.floating:
-            return Allowed((), False, self._float_range(draft))
-        if draft.text:
+        if facts.floating:
+            return Allowed((), False, self._float_range(facts))
+        if facts.text:
             return Allowed((), False, ())
-        least, greatest = self.bounds.holds[draft]
+        least, greatest = self.bounds.holds[facts]
         type_range = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):
-            if draft.layer(key) is not None:
-                ranged = self.intervals(draft, draft.get(key), draft.span(key), key == "range_in_units")
+            if facts.layer(key) is not None:
+                ranged = self.intervals(facts, facts.get(key), facts.span(key), key == "range_in_units")
                 if ranged is None:
-                    draft.failed.add("range")
+                    facts.failed.add("range")
                 return ranged or type_range
-        if enum is not None and not draft.get("open", False):
+        if enum is not None and not facts.get("open", False):
             numbers = [entry.raw for entry in enum.entries if least <= entry.raw <= greatest]
             return Allowed(_merged([(number, number) for number in numbers]), True, ()) if numbers else type_range
         return type_range
 
-    def intervals(self, draft: Draft, raw: Any, span: Span, in_units: bool, *, printed: bool = False) -> Allowed | None:
+    def intervals(
+        self, facts: PointFacts, raw: Any, span: Span, in_units: bool, *, printed: bool = False
+    ) -> Allowed | None:
         """The raw numbers that a range (its YAML value, in raw numbers or in units) allows; None after a finding.
 
         A range that is only `printed` in the manual may lie outside the type or run downwards, as misprints do.
@@ -68,14 +70,14 @@ class Ranges:
         if isinstance(raw, Seq) and not printed and self._two_meanings(raw, span):
             return None
         try:
-            pairs = self._constant(draft, text, span, in_units)
+            pairs = self._constant(facts, text, span, in_units)
             if pairs is None:
                 alternatives = parse_range(text).alternatives
                 pairs = [
-                    (self._bound(draft, low, text, span, in_units), self._bound(draft, high, text, span, in_units))
+                    (self._bound(facts, low, text, span, in_units), self._bound(facts, high, text, span, in_units))
                     for low, high in alternatives
                 ]
-                if in_units and self.bounds.falls(draft):
+                if in_units and self.bounds.falls(facts):
                     pairs = [(high, low) for low, high in pairs]
             listed = parse_range(text).listed
         except FormulaError as error:
@@ -90,7 +92,7 @@ class Ranges:
             return None
         except UnknownError:
             return None
-        checked = [printed or self._checked(draft, low, high, span) for low, high in pairs]
+        checked = [printed or self._checked(facts, low, high, span) for low, high in pairs]
         if not all(checked):
             return None
         intervals = [Interval(low, high) for low, high in pairs]
@@ -108,9 +110,9 @@ class Ranges:
         self.report.error("two-meanings", message, span, hint)
         return True
 
-    def _constant(self, draft: Draft, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
+    def _constant(self, facts: PointFacts, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
         """The ends of a range that names no point and needs none for its scale; None if it does."""
-        pairs = self.bounds.constant(draft, text, in_units)
+        pairs = self.bounds.constant(facts, text, in_units)
         if pairs is None:
             return None
         return [(self._whole(low, span), self._whole(high, span)) for low, high in pairs]
@@ -125,20 +127,20 @@ class Ranges:
         )
         raise UnknownError
 
-    def _bound(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
+    def _bound(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
         """One end of a range: a raw number, or a limit that other points set."""
-        rule = self.bounds.limit(draft, end, text, span, in_units)
+        rule = self.bounds.limit(facts, end, text, span, in_units)
         if rule.factors:
-            return self._limit(draft, rule, span)
+            return self._limit(facts, rule, span)
         exact = rule.ratio + rule.offset
         return half_away(exact) if in_units else self._whole(exact, span)
 
-    def _checked(self, draft: Draft, low: Bound, high: Bound, span: Span) -> bool:
+    def _checked(self, facts: PointFacts, low: Bound, high: Bound, span: Span) -> bool:
         """Whether the type holds both ends and the interval can hold a number; a finding if not."""
-        least, greatest = self.bounds.holds[draft]
+        least, greatest = self.bounds.holds[facts]
         for end in (low, high):
             if isinstance(end, int) and not least <= end <= greatest:
-                if "type" not in draft.failed:
+                if "type" not in facts.failed:
                     message = f"{end} lies outside the type, which holds {least}..{greatest}"
                     hint = "correct the range, or give the right `type`"
                     self.report.error("range-outside-type", message, span, hint)
@@ -153,11 +155,11 @@ class Ranges:
             return False
         return True
 
-    def _limit(self, draft: Draft, rule: Linear, span: Span) -> Limit:
+    def _limit(self, facts: PointFacts, rule: Linear, span: Span) -> Limit:
         """A limit that other points set, with the least and greatest number that it can be."""
         if not self.bounds.exponents_fit(rule, span):
             raise UnknownError
-        own_least, own_greatest = self.bounds.holds[draft]
+        own_least, own_greatest = self.bounds.holds[facts]
         corners = [half_away(corner) for corner in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
@@ -173,16 +175,16 @@ class Ranges:
         specials = self.bounds.specials[self.bounds.scales.index.by_item(name)]
         return tuple(sorted((special.low, special.high) for special in specials))
 
-    def _float_range(self, draft: Draft) -> tuple[tuple[Fraction, Fraction], ...]:
+    def _float_range(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...]:
         """The range of a floating-point point, in its unit."""
-        if draft.layer("range") is not None:
+        if facts.layer("range") is not None:
             message = "`range` is in raw numbers, which are bit patterns here"
-            self.report.error("float-fact", message, draft.span("range"), "write `range_in_units`")
-        if draft.layer("range_in_units") is None:
+            self.report.error("float-fact", message, facts.span("range"), "write `range_in_units`")
+        if facts.layer("range_in_units") is None:
             return ()
-        span = draft.span("range_in_units")
+        span = facts.span("range_in_units")
         try:
-            intervals = constant_range(as_text(draft.get("range_in_units")))
+            intervals = constant_range(as_text(facts.get("range_in_units")))
         except FormulaError as error:
             formula_finding(error, span, self.report)
             return ()

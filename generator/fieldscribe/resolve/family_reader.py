@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 
-class Reading:
+class FamilyReader:
     """Reads the facts that only one family has; a family offers its own reader as `READING` in its module `reading`."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> Own | None:
@@ -57,8 +57,8 @@ class Reading:
         return None
 
 
-def reading_of(scope: Scope) -> Reading:
+def reader_of(scope: Scope) -> FamilyReader:
     """How the device's family reads its own keys."""
     part = scope.family.part("reading")
-    reading: Reading = part.READING if part is not None else Reading()
+    reading: FamilyReader = part.READING if part is not None else FamilyReader()
     return reading

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import item_of
-from fieldscribe.resolve.drafts import groups
+from fieldscribe.resolve.point_facts import groups
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.points import Resolved
-    from fieldscribe.resolve.subject import Subject
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.points import ResolvedPoint
     from fieldscribe.targets.identifiers import Owner
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
@@ -40,74 +40,74 @@ class _EnumFound(NamedTuple):
     entries: Map
 
 
-def given_names(subject: Subject) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
+def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
     """The names of groups, points and enums as the description gives them: namespace, name, and whose it is."""
-    for group in groups(subject.scope):
+    for group in groups(analysis.scope):
         name = str(group["group"])
         yield "the list of groups", name, partial(Thing, f"the group `{name}`", group.span("group"))
-    for resolved in subject.resolved:
-        yield from _names_of_point(subject, resolved)
-    for enum in _enums(subject):
+    for resolved in analysis.resolved:
+        yield from _names_of_point(analysis, resolved)
+    for enum in _enums(analysis):
         for name in (enum.name, *enum.was):
             yield "the enums of generated code", name, partial(Thing, *enum.thing)
 
 
-def _names_of_point(subject: Subject, resolved: Resolved) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
+def _names_of_point(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
     """The names of a point: its item, its own name where it has a variant, and its former names."""
-    where, point, draft = "generated code", resolved.point, resolved.draft
-    yield where, draft.item, partial(_point_thing, draft)
+    where, point, facts = "generated code", resolved.point, resolved.facts
+    yield where, facts.item, partial(_point_thing, facts)
     if point.variant is not None:
-        first = subject.index.by_name[point.name][0]
+        first = analysis.index.by_name[point.name][0]
         yield where, point.name, partial(Thing, f"the point `{point.name}`", first.span())
     for old in point.was:
-        place = draft.span("was")
+        place = facts.span("was")
         if point.variant is not None:
             item = item_of(old, point.variant)
-            yield where, item, partial(Thing, f"the old name `{old}` of {_short(draft)}", place)
+            yield where, item, partial(Thing, f"the old name `{old}` of {_short(facts)}", place)
         yield where, old, partial(Thing, f"the old name `{old}` of `{point.name}`", place)
 
 
-def _point_thing(draft: Draft) -> Thing:
-    return Thing(_point_words(draft), draft.span())
+def _point_thing(facts: PointFacts) -> Thing:
+    return Thing(_point_words(facts), facts.span())
 
 
-def _short(draft: Draft) -> str:
-    return f"`{draft.name}`" if draft.variant is None else f"`{draft.name}` of {draft.variant}"
+def _short(facts: PointFacts) -> str:
+    return f"`{facts.name}`" if facts.variant is None else f"`{facts.name}` of {facts.variant}"
 
 
-def _point_words(draft: Draft) -> str:
-    return f"the point {_short(draft)}"
+def _point_words(facts: PointFacts) -> str:
+    return f"the point {_short(facts)}"
 
 
-def _enums(subject: Subject) -> Iterator[_EnumFound]:
+def _enums(analysis: Analysis) -> Iterator[_EnumFound]:
     """The enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
-    for resolved in subject.resolved:
-        point, draft = resolved.point, resolved.draft
+    for resolved in analysis.resolved:
+        point, facts = resolved.point, resolved.facts
         if not point.generated or (point.enum is None and point.digits is None):
             continue
         key, enum = ("enum", point.enum) if point.digits is None else ("digits", point.digits.enum)
         if enum is None:
             continue
-        enum_as_written = draft.get("enum") if key == "enum" else draft.get("digits")["enum"]
+        enum_as_written = facts.get("enum") if key == "enum" else facts.get("digits")["enum"]
         entries: Map = (
-            subject.scope.named_enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
+            analysis.scope.named_enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
         )
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
-        thing = Thing(f"the enum of `{draft.name}`", draft.span(key))
+        thing = Thing(f"the enum of `{facts.name}`", facts.span(key))
         if isinstance(enum_as_written, str):
-            section = next(file["enums"] for file in subject.scope.files if enum_as_written in file.get("enums", {}))
+            section = next(file["enums"] for file in analysis.scope.files if enum_as_written in file.get("enums", {}))
             thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
         yield _EnumFound(enum.name, enum.was, thing, entries)
 
 
-class Owners:
+class IdentifierPlaces:
     """Finds the owners of identifiers in a description."""
 
-    def __init__(self, subject: Subject) -> None:
-        self._subject = subject
+    def __init__(self, analysis: Analysis) -> None:
+        self._analysis = analysis
 
     def thing(self, owner: Owner) -> Thing:
         """The owner in words, with its place."""
@@ -116,19 +116,19 @@ class Owners:
         if owner.kind == "enum":
             return self._enums[owner.name].thing
         if owner.kind == "point":
-            return Thing(self._point_words(owner), self._draft(owner).span())
+            return Thing(self._point_words(owner), self._facts(owner).span())
         return Thing(self._words(owner), self._place(owner))
 
     @cached_property
     def _enums(self) -> dict[str, _EnumFound]:
-        return {enum.name: enum for enum in reversed(list(_enums(self._subject)))}
+        return {enum.name: enum for enum in reversed(list(_enums(self._analysis)))}
 
-    def _draft(self, point: Owner) -> Draft:
-        return self._subject.index.by_item(point.name)
+    def _facts(self, point: Owner) -> PointFacts:
+        return self._analysis.index.by_item(point.name)
 
     def _point_words(self, owner: Owner) -> str:
-        draft = self._draft(owner)
-        return _point_words(draft) if owner.name == draft.item else f"the point `{owner.name}`"
+        facts = self._facts(owner)
+        return _point_words(facts) if owner.name == facts.item else f"the point `{owner.name}`"
 
     def _words(self, owner: Owner) -> str:
         named = f"the {owner.kind} `{owner.name}`"
@@ -138,7 +138,7 @@ class Owners:
         return f"{named} of {whole}"
 
     def _place(self, owner: Owner) -> Span:
-        scope = self._subject.scope
+        scope = self._analysis.scope
         if owner.of is not None:
             return self._place_of_part(owner, owner.of)
         if owner.kind in _LISTED:
@@ -159,17 +159,17 @@ class Owners:
             return _key_place(enum.entries, owner.name) or enum.entries.span()
         if of.kind == "flag" and of.of is not None:
             return self._place_of_part(of, of.of)
-        draft = self._holder_of_codes(of) if of.kind == "special codes" else self._draft(of)
+        facts = self._holder_of_codes(of) if of.kind == "special codes" else self._facts(of)
         if owner.kind == "numbering":
-            return _key_place(draft.group.get("numbering"), owner.name) or draft.span()
+            return _key_place(facts.group.get("numbering"), owner.name) or facts.span()
         key = _OF_POINT.get(owner.kind)
-        holders = (draft.get(key), draft.group.get(key)) if key else ()
+        holders = (facts.get(key), facts.group.get(key)) if key else ()
         places = (_key_place(holder, owner.name) for holder in holders)
-        return next(filter(None, places), None) or draft.span(key)
+        return next(filter(None, places), None) or facts.span(key)
 
-    def _holder_of_codes(self, codes: Owner) -> Draft:
+    def _holder_of_codes(self, codes: Owner) -> PointFacts:
         """The first point that has codes which many share."""
-        return next(resolved.draft for resolved in self._subject.resolved if resolved.point.shared_codes == codes.name)
+        return next(resolved.facts for resolved in self._analysis.resolved if resolved.point.shared_codes == codes.name)
 
 
 def _key_place(holder: object, name: str) -> Span | None:

@@ -15,38 +15,38 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Variant
-    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
 
 
 @dataclass(slots=True)
-class Index:
+class SymbolTable:
     """Drafts by name (several where variants differ) and by code; a code that several points have finds none."""
 
     scope: Scope
-    by_name: dict[str, list[Draft]]
-    by_code: dict[str, list[Draft]]
-    by_items: dict[str, Draft]
+    by_name: dict[str, list[PointFacts]]
+    by_code: dict[str, list[PointFacts]]
+    by_items: dict[str, PointFacts]
 
-    def find(self, word: str, variant: Variant | None = None) -> Draft | None:
+    def find(self, word: str, variant: Variant | None = None) -> PointFacts | None:
         """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
 
         Of a point that differs by variant it is the one of this variant, else the first.
         """
-        drafts = self.by_name.get(word) or self.by_code.get(word, [])
-        if not drafts or (len(drafts) > 1 and any(draft.name != drafts[0].name for draft in drafts)):
+        expanded = self.by_name.get(word) or self.by_code.get(word, [])
+        if not expanded or (len(expanded) > 1 and any(facts.name != expanded[0].name for facts in expanded)):
             return None
-        return next((draft for draft in drafts if draft.variant == variant), drafts[0])
+        return next((facts for facts in expanded if facts.variant == variant), expanded[0])
 
-    def by_item(self, item: str) -> Draft:
+    def by_item(self, item: str) -> PointFacts:
         """The point that a formula was resolved to: by its item name, or by its name where its variants are alike."""
         return self.by_items.get(item) or self.by_name[item][0]
 
-    def siblings(self, draft: Draft) -> list[Draft]:
+    def siblings(self, facts: PointFacts) -> list[PointFacts]:
         """The point in all its variants."""
-        return self.by_name[draft.name]
+        return self.by_name[facts.name]
 
-    def all(self, word: str) -> list[Draft]:
+    def all(self, word: str) -> list[PointFacts]:
         """Every point that `word` names: itself, or all that carry the code."""
         return self.by_name.get(word) or self.by_code.get(word, [])
 
@@ -64,58 +64,58 @@ class Index:
         self.scope.unknown("point", word, span, [*self.by_name, *self.by_code], hint)
 
 
-def index_of(scope: Scope, drafts: list[Draft]) -> Index:
-    """All drafts by name and code; of two points of one name that are not variants the second is a finding."""
-    index = Index(scope, {}, {}, {})
+def symbols_of(scope: Scope, expanded: list[PointFacts]) -> SymbolTable:
+    """All expanded by name and code; of two points of one name that are not variants the second is a finding."""
+    index = SymbolTable(scope, {}, {}, {})
     kept = []
-    for draft in drafts:
-        known = index.by_name.setdefault(draft.name, [])
-        first = _other(known, draft) if known else None
+    for facts in expanded:
+        known = index.by_name.setdefault(facts.name, [])
+        first = _other(known, facts) if known else None
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
             scope.report.error(
-                "duplicate-name", f"two points have the name `{draft.name}`", draft.span(), hint, related
+                "duplicate-name", f"two points have the name `{facts.name}`", facts.span(), hint, related
             )
             continue
-        known.append(draft)
-        index.by_items.setdefault(draft.item, draft)
-        if draft.code is not None:
-            index.by_code.setdefault(draft.code, []).append(draft)
-        kept.append(draft)
-    drafts[:] = kept
+        known.append(facts)
+        index.by_items.setdefault(facts.item, facts)
+        if facts.code is not None:
+            index.by_code.setdefault(facts.code, []).append(facts)
+        kept.append(facts)
+    expanded[:] = kept
     return index
 
 
-def _other(known: list[Draft], draft: Draft) -> Draft | None:
+def _other(known: list[PointFacts], facts: PointFacts) -> PointFacts | None:
     """The first point of the same name that is not the same point in another variant."""
-    return next((earlier for earlier in known if not _are_variants(earlier, draft)), None)
+    return next((earlier for earlier in known if not _are_variants(earlier, facts)), None)
 
 
-def _are_variants(draft: Draft, other: Draft) -> bool:
-    """Whether two drafts are one point in two variants."""
+def _are_variants(facts: PointFacts, other: PointFacts) -> bool:
+    """Whether two expanded are one point in two variants."""
     return (
-        draft.variant is not None and other.variant not in (None, draft.variant) and draft.layers[1] is other.layers[1]
+        facts.variant is not None and other.variant not in (None, facts.variant) and facts.layers[1] is other.layers[1]
     )
 
 
-def space_of(scope: Scope, draft: Draft) -> str:
+def space_of(scope: Scope, facts: PointFacts) -> str:
     """The point's address space; a finding, and the family's first space of words, if there is none of that name."""
-    space = str(draft.get("space"))
+    space = str(facts.get("space"))
     known = scope.family.spaces
     if space in known:
         return space
-    scope.unknown("space", space, draft.span("space"), known, space_hint(space, known))
-    draft.failed.add("space")
+    scope.unknown("space", space, facts.span("space"), known, space_hint(space, known))
+    facts.failed.add("space")
     return next(name for name, holds in known.items() if holds == "word")
 
 
-def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
+def bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | None:
     """The (highest, lowest) bit that the point takes of its word, or None for the whole."""
-    text = draft.get("bits")
+    text = facts.get("bits")
     if text is None:
         return None
-    span = draft.span("bits")
+    span = facts.span("bits")
     if scope.family.spaces[space] == "bit":
         scope.report.error(
             "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
@@ -149,18 +149,18 @@ def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
     return high, low
 
 
-def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None) -> str:
+def type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] | None) -> str:
     """The point's wire type: as described, else by its space and bits; a finding if it does not fit them."""
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    type_name = str(draft.get("type") or default) if draft.untyped is None else default
-    fault = None if "space" in draft.failed else _type_fault(type_name, space, single, width, default)
+    type_name = str(facts.get("type") or default) if facts.untyped is None else default
+    fault = None if "space" in facts.failed else _type_fault(type_name, space, single, width, default)
     fault = fault or (None if bits else _carrier_fault(scope, type_name, space))
     if fault is None:
         return type_name
-    draft.failed.add("type")
-    span = draft.span("type" if draft.layer("type") is not None else "space")
+    facts.failed.add("type")
+    span = facts.span("type" if facts.layer("type") is not None else "space")
     scope.report.error(fault[0], fault[1], span, fault[2])
     return default
 

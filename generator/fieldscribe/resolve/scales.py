@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Factor
-    from fieldscribe.resolve.drafts import Draft
-    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
+    from fieldscribe.resolve.symbols import SymbolTable
 
 IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
@@ -34,20 +34,20 @@ class UnknownError(Exception):
 class Scales:
     """The scale of every point, computed when first asked for; a scale that depends on itself is a finding."""
 
-    def __init__(self, scope: Scope, index: Index) -> None:
+    def __init__(self, scope: Scope, index: SymbolTable) -> None:
         self.scope = scope
         self.index = index
-        self._known: dict[Draft, tuple[ScaleCase, ...] | None] = {}
+        self._known: dict[PointFacts, tuple[ScaleCase, ...] | None] = {}
 
-    def cases(self, draft: Draft) -> tuple[ScaleCase, ...] | None:
+    def cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
         """The cases of the point's scale; None where the raw number is the value (also after a finding)."""
-        if draft not in self._known:
-            self._known[draft] = self._cases(draft)
-        return self._known[draft]
+        if facts not in self._known:
+            self._known[facts] = self._cases(facts)
+        return self._known[facts]
 
-    def affine(self, draft: Draft, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
-        """A point's number in a formula of `draft`: raw * slope + intercept. Raises UnknownError after a finding."""
-        used = self.index.find(name, draft.variant)
+    def affine(self, facts: PointFacts, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
+        """A point's number in a formula of `facts`: raw * slope + intercept. Raises UnknownError after a finding."""
+        used = self.index.find(name, facts.variant)
         place = formula.of(name)
         if used is None:
             self.index.unknown(name, place)
@@ -55,22 +55,22 @@ class Scales:
         self._check_settled(used, name, part, place)
         if used.floating:
             self._check_floating(used, name, part, place, in_scale=in_scale)
-            return Affine(self._model_name(draft, used, place), Fraction(1), Fraction(0))
+            return Affine(self._model_name(facts, used, place), Fraction(1), Fraction(0))
         if part == "raw":
-            return Affine(self._model_name(draft, used, place), Fraction(1), Fraction(0))
-        if in_scale and (chain := self._circle(draft, used)):
+            return Affine(self._model_name(facts, used, place), Fraction(1), Fraction(0))
+        if in_scale and (chain := self._circle(facts, used)):
             message = f"a scale that needs itself: {' needs '.join(f'`{needed}`' for needed in chain)}"
             hint = f"use `{name}.raw`, or break the circle"
             self.scope.report.error("scale-cycle", message, place, hint)
             raise UnknownError
         rule = self._rule_of_its_own(used, name, place)
-        if len({self.cases(sibling) for sibling in self.index.siblings(used)}) > 1 and used.variant != draft.variant:
+        if len({self.cases(sibling) for sibling in self.index.siblings(used)}) > 1 and used.variant != facts.variant:
             self._refuse(
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
-        return Affine(self._model_name(draft, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
+        return Affine(self._model_name(facts, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
-    def _check_settled(self, used: Draft, name: str, part: Part, place: Span) -> None:
+    def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
         """A finding unless the point is a number, and one that the manual settles."""
         if used.text:
             self._refuse(place, f"`{name}` is a text", "name a number")
@@ -81,16 +81,16 @@ class Scales:
                 hint = "a formula needs what is settled: write `scale: ~` here too, or settle it"
                 self._refuse(place, f"the {key} of `{name}` is not settled", hint)
 
-    def _model_name(self, draft: Draft, used: Draft, place: Span) -> str:
-        """What the model calls a point that `draft` uses: its item in the same variant, else the name of all."""
-        if used.variant is None or used.variant == draft.variant:
+    def _model_name(self, facts: PointFacts, used: PointFacts, place: Span) -> str:
+        """What the model calls a point that `facts` uses: its item in the same variant, else the name of all."""
+        if used.variant is None or used.variant == facts.variant:
             return used.item
         if len({sibling.get("type") or "" for sibling in self.index.siblings(used)}) > 1:
             hint = "give `variants` here too"
             self._refuse(place, f"the type of `{used.name}` differs by variant", hint)
         return used.name
 
-    def _check_floating(self, used: Draft, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
+    def _check_floating(self, used: PointFacts, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
         """A finding unless a floating-point number stands where it may: the value of an f32, as a factor of a scale."""
         if not in_scale:
             message = f"`{name}` is a floating-point number and cannot stand in a limit"
@@ -105,37 +105,37 @@ class Scales:
         """The factors of a rule that are floating-point numbers."""
         return [factor for factor in rule.factors if self.index.by_item(factor.point).floating]
 
-    def _cases(self, draft: Draft) -> tuple[ScaleCase, ...] | None:
-        raw = draft.get("scale")
+    def _cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
+        raw = facts.get("scale")
         if raw is None:
             return None
         if isinstance(raw, str):
-            rule = self._rule(draft, raw, draft.span("scale"))
+            rule = self._rule(facts, raw, facts.span("scale"))
             return None if rule is None or rule == IDENTITY else (ScaleCase(None, None, rule, written(raw)),)
         seen: dict[tuple[str, int], Span] = {}
-        cases = tuple(case for entry in raw if (case := self._case(draft, entry, seen)) is not None)
+        cases = tuple(case for entry in raw if (case := self._case(facts, entry, seen)) is not None)
         if not cases:
-            draft.failed.add("scale")
+            facts.failed.add("scale")
         return cases or None
 
-    def _case(self, draft: Draft, entry: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
-        rule = self._rule(draft, entry["rule"], entry.span("rule"))
+    def _case(self, facts: PointFacts, entry: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
+        rule = self._rule(facts, entry["rule"], entry.span("rule"))
         place = entry.span("when")
         try:
             name, constant = parse_case(entry["when"])
         except FormulaError as error:
             formula_finding(error, place, self.scope.report)
-            draft.failed.add("scale")
+            facts.failed.add("scale")
             return None
-        chosen = self.index.find(name.name, draft.variant)
+        chosen = self.index.find(name.name, facts.variant)
         if chosen is None:
             self.index.unknown(name.name, place.moved(name.column))
-            draft.failed.add("scale")
+            facts.failed.add("scale")
             return None
         try:
-            chosen_name = self._model_name(draft, chosen, place)
+            chosen_name = self._model_name(facts, chosen, place)
         except UnknownError:
-            draft.failed.add("scale")
+            facts.failed.add("scale")
             return None
         key = (chosen_name, constant)
         if key in seen:
@@ -144,11 +144,11 @@ class Scales:
         seen.setdefault(key, place)
         return None if rule is None else ScaleCase(chosen_name, constant, rule, written(entry["rule"]))
 
-    def _rule(self, draft: Draft, text: str, span: Span) -> Linear | None:
+    def _rule(self, facts: PointFacts, text: str, span: Span) -> Linear | None:
         formula = Written(text, span)
         try:
             rule = scale_rule(
-                parse_scale(text), lambda name, part: self.affine(draft, name, part, formula, in_scale=True)
+                parse_scale(text), lambda name, part: self.affine(facts, name, part, formula, in_scale=True)
             )
             if all((factor.slope, factor.intercept, factor.ten_to) == (1, 0, False) for factor in self.floats(rule)):
                 self._warn_of_cut_decimal(text, span)
@@ -156,11 +156,11 @@ class Scales:
             message = "a floating-point number can be a factor, but no exponent and no part of a sum"
             self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
         except FormulaError as error:
-            _suggest_scale(error, text, "rule" if isinstance(draft.get("scale"), list) else "scale")
+            _suggest_scale(error, text, "rule" if isinstance(facts.get("scale"), list) else "scale")
             formula_finding(error, span, self.scope.report)
         except UnknownError:
             pass
-        draft.failed.add("scale")
+        facts.failed.add("scale")
         return None
 
     def _warn_of_cut_decimal(self, text: str, span: Span) -> None:
@@ -170,7 +170,7 @@ class Scales:
             message = f"{decimal.typed} looks like {decimal.exact}, cut off"
             self.scope.report.warning("cut-decimal", message, span, f"write `{decimal.line}` to keep it exact")
 
-    def _rule_of_its_own(self, used: Draft, name: str, place: Span) -> Linear:
+    def _rule_of_its_own(self, used: PointFacts, name: str, place: Span) -> Linear:
         """The rule of a point whose value another formula uses; it must not depend on a third point."""
         moves = any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list)
         cases = None if moves else self.cases(used)
@@ -181,35 +181,35 @@ class Scales:
             raise UnknownError
         return IDENTITY if cases is None else cases[0].rule
 
-    def _circle(self, draft: Draft, used: Draft) -> list[str]:
-        """The names from `draft` over `used` back to itself, if the values need each other in a circle."""
-        came_from: dict[Draft, Draft | None] = {used: None}
+    def _circle(self, facts: PointFacts, used: PointFacts) -> list[str]:
+        """The names from `facts` over `used` back to itself, if the values need each other in a circle."""
+        came_from: dict[PointFacts, PointFacts | None] = {used: None}
         waiting = [used]
         while waiting and len(came_from) < _LONGEST_CHAIN:
             visited = waiting.pop()
-            if visited is draft:
+            if visited is facts:
                 chain = [visited.name]
                 step = came_from[visited]
                 while step is not None:
                     chain.append(step.name)
                     step = came_from[step]
-                return [draft.name, *reversed(chain)]
+                return [facts.name, *reversed(chain)]
             for needed in self._needs(visited):
                 if needed not in came_from:
                     came_from[needed] = visited
                     waiting.append(needed)
         return []
 
-    def _needs(self, draft: Draft) -> Iterator[Draft]:
+    def _needs(self, facts: PointFacts) -> Iterator[PointFacts]:
         """The points whose values the scale of this one needs."""
-        raw = draft.get("scale")
+        raw = facts.get("scale")
         for text in (raw,) if isinstance(raw, str) else (entry["rule"] for entry in raw or ()):
             try:
                 uses = parse_scale(text).uses
             except FormulaError:
                 continue
             for name in uses:
-                needed = self.index.find(name.name, draft.variant) if name.part == "value" else None
+                needed = self.index.find(name.name, facts.variant) if name.part == "value" else None
                 if needed is not None:
                     yield needed
 

@@ -14,16 +14,16 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.model import About, Bus, Command, Device, Frame, Message
     from fieldscribe.resolve.addresses import Places
-    from fieldscribe.resolve.allowed import Ranges
-    from fieldscribe.resolve.errata import OpenErratum
-    from fieldscribe.resolve.frames import OpenFrame
-    from fieldscribe.resolve.names import Index
-    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.errata import LocatedErratum
+    from fieldscribe.resolve.frames import LocatedFrame
+    from fieldscribe.resolve.points import ResolvedPoint
+    from fieldscribe.resolve.ranges import Ranges
     from fieldscribe.resolve.scope import Scope
+    from fieldscribe.resolve.symbols import SymbolTable
 
 
 @dataclass(frozen=True, slots=True)
-class Printed:
+class PrintedFact:
     """A printed fact that disagrees with the description: whom it is about, its key, its place, and the message.
 
     `taken` is what the description has instead; None if only an erratum can tell the right value. `right` compares
@@ -45,27 +45,27 @@ class Printed:
 
 
 @dataclass(slots=True)
-class Subject:
+class Analysis:
     """One device under check. `frames` collects the checked frames; `cited` finds errata by what they are about."""
 
     scope: Scope
-    index: Index
+    index: SymbolTable
     ranges: Ranges
     places: Places
-    resolved: list[Resolved]
+    resolved: list[ResolvedPoint]
     bus: Bus
     messages: tuple[Message, ...]
     commands: tuple[Command, ...]
-    open_frames: list[OpenFrame]
-    errata: list[OpenErratum]
+    open_frames: list[LocatedFrame]
+    errata: list[LocatedErratum]
     frames: list[Frame] = field(default_factory=list)
-    cited: dict[About, list[OpenErratum]] = field(default_factory=dict)
+    cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)
     _devices: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
-            for subject in erratum.subjects:
-                self.cited.setdefault(subject, []).append(erratum)
+            for analysis in erratum.subjects:
+                self.cited.setdefault(analysis, []).append(erratum)
 
     @property
     def bus_is_whole(self) -> bool:
@@ -107,7 +107,7 @@ class Subject:
         """Where findings go."""
         return self.scope.report
 
-    def disagrees(self, fact: Printed) -> None:
+    def disagrees(self, fact: PrintedFact) -> None:
         """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
         for erratum in self.cited.get(fact.about, ()):
             stated = erratum.printed(fact.key)
