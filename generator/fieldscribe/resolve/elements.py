@@ -20,7 +20,7 @@ MOST_ELEMENTS = 4096
 """The most points that one row may stand for."""
 
 _SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
-_INDEX_WORDS = {"en": "index {}", "de": "SymbolTable {}"}
+_INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 
 
 @dataclass(frozen=True, slots=True)
