@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.conditions import Comparison, Condition
-from fieldscribe.families.modbus import FUNCTIONS, PROTOCOL_MOST, ModbusBus, Profile, profile_of
+from fieldscribe.families.modbus import FUNCTIONS, ModbusBus, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.reading import plan_blocks
@@ -39,7 +39,9 @@ from support.models import changed, point, sample_bus, sample_device, titles
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-OPEN = Profile(PROTOCOL_MOST, (1, 247), 0, pad_coil_bytes_even=False)
+OPEN = Profile(
+    {number: function.most for number, function in FUNCTIONS.items()}, (1, 247), 0, pad_coil_bytes_even=False
+)
 L200 = Profile({1: 32, 3: 4, 5: 1, 6: 1, 8: 1, 15: 32, 16: 4}, (1, 32), 0, pad_coil_bytes_even=True)
 
 
@@ -148,8 +150,8 @@ def test_a_manual_may_take_functions_from_broadcast() -> None:
 @st.composite
 def requests(draw: st.DrawFn) -> Request:
     """Any request that the open profile allows."""
-    function = draw(st.sampled_from(FUNCTIONS))
-    count = 1 if function in (5, 6, 8) else draw(st.integers(1, PROTOCOL_MOST[function]))
+    function = draw(st.sampled_from(sorted(FUNCTIONS)))
+    count = 1 if function in (5, 6, 8) else draw(st.integers(1, OPEN.most[function]))
     address = 0 if function == 8 else draw(st.integers(0, 0x10000 - count))
     top = 1 if function in (5, 15) else 0xFFFF
     size = 0 if function <= 4 else count

@@ -1,4 +1,4 @@
-"""The Modbus family: spaces and functions, frames of RTU and TCP, and the batched reads that a device allows."""
+"""The Modbus family: its facts, the functions of the protocol, and the requests that a device accepts."""
 
 from __future__ import annotations
 
@@ -13,18 +13,64 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus
 
-
+FRAMINGS = ("rtu", "tcp")
 FAMILY = Family(
     name="modbus",
-    folder=__package__,
+    folder=__name__,
     spaces={"coil": "bit", "discrete": "bit", "holding": "word", "input": "word"},
     last_address=0xFFFF,
     bus=BusKeys(("framings", "functions"), codes=(1, 127)),
-    framings=("rtu", "tcp"),
+    framings=FRAMINGS,
     codes=(Codes("functions", "function", "function", emitted=False), Codes("exceptions", "exception", "exception")),
     commands_in="holding",
     writes_elsewhere=True,
 )
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function: its common name, its space, what it does there, and the most items of one request."""
+
+    name: str
+    space: str
+    does: str
+    most: int
+
+
+FUNCTIONS: Mapping[int, Function] = {
+    0x01: Function("read coils", "coil", "read", 2000),
+    0x02: Function("read discrete inputs", "discrete", "read", 2000),
+    0x03: Function("read holding registers", "holding", "read", 125),
+    0x04: Function("read input registers", "input", "read", 125),
+    0x05: Function("write one coil", "coil", "write_one", 1),
+    0x06: Function("write one register", "holding", "write_one", 1),
+    0x08: Function("loopback test", "", "test", 1),
+    0x0F: Function("write several coils", "coil", "write_many", 1968),
+    0x10: Function("write several registers", "holding", "write_many", 123),
+}
+"""The functions that the runtimes support, with the limits of the protocol."""
+READS = frozenset(number for number, function in FUNCTIONS.items() if function.does == "read")
+SINGLE = frozenset(number for number, function in FUNCTIONS.items() if function.most == 1)
+"""Functions that carry exactly one value; the reply repeats the request."""
+BIT_LISTS = frozenset({0x01, 0x02, 0x0F})
+"""Functions whose data are bits, eight to a byte."""
+BROADCAST = frozenset(FUNCTIONS) - READS - {0x08}
+"""Functions that the protocol allows to broadcast."""
+
+
+@dataclass(frozen=True, slots=True)
+class Space:
+    """The functions of a space: read, write one item, write several items; None without one."""
+
+    read: int
+    write_one: int | None = None
+    write_many: int | None = None
+
+
+SPACES: Mapping[str, Space] = {
+    name: Space(**{function.does: number for number, function in FUNCTIONS.items() if function.space == name})
+    for name in FAMILY.spaces
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,62 +81,20 @@ class ModbusBus(Own):
 
 
 def of_bus(bus: Bus) -> ModbusBus:
-    """What the family alone knows of a bus."""
+    """Return the facts of a bus that only this family has."""
     return bus.own if isinstance(bus.own, ModbusBus) else ModbusBus()
 
 
-FRAMINGS = ("rtu", "tcp")
-READ_BITS = frozenset({0x01, 0x02})
-READ_WORDS = frozenset({0x03, 0x04})
-READS = READ_BITS | READ_WORDS
-SINGLE = frozenset({0x05, 0x06, 0x08})
-"""Functions that carry exactly one value; the answer repeats the request."""
-FUNCTIONS = (0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10)
-BROADCAST = frozenset({0x05, 0x06, 0x0F, 0x10})
-"""Functions that the protocol allows to broadcast."""
-PROTOCOL_MOST: Mapping[int, int] = {
-    0x01: 2000,
-    0x02: 2000,
-    0x03: 125,
-    0x04: 125,
-    0x05: 1,
-    0x06: 1,
-    0x08: 1,
-    0x0F: 1968,
-    0x10: 123,
-}
-"""The largest count of items in one request that the protocol itself allows."""
-
-
-@dataclass(frozen=True, slots=True)
-class Space:
-    """The functions of a space: read, write one item, write several items; None without one."""
-
-    read: int
-    write_one: int | None
-    write_many: int | None
-
-
-SPACES: Mapping[str, Space] = {
-    "coil": Space(0x01, 0x05, 0x0F),
-    "discrete": Space(0x02, None, None),
-    "holding": Space(0x03, 0x06, 0x10),
-    "input": Space(0x04, None, None),
-}
-SPACE_OF: Mapping[int, str] = {
-    function: name
-    for name, space in SPACES.items()
-    for function in (space.read, space.write_one, space.write_many)
-    if function is not None
-}
-"""The space that a function reads or writes; none for 08h."""
+def framings_of(bus: Bus) -> tuple[str, ...]:
+    """Return the framings of the device: those in the description, or both if it gives none."""
+    return bus.framings or FRAMINGS
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh, framings.
+    """The requests that a device accepts: the largest count for each allowed function, unit numbers, framings.
 
-    `broadcast` is the unit number that means all, `broadcasts` the functions that may be sent to it.
+    `broadcast` is the unit number that addresses all units, `broadcasts` are the functions that may be sent to it.
     """
 
     most: Mapping[int, int]
@@ -100,20 +104,19 @@ class Profile:
     broadcasts: frozenset[int] = BROADCAST
     framings: tuple[str, ...] = FRAMINGS
 
+    def write_function(self, space: str, count: int) -> int | None:
+        """Return the function that writes so many items: that for a single item if it is allowed, else for several."""
+        functions = SPACES[space]
+        return functions.write_one if count == 1 and functions.write_one in self.most else functions.write_many
+
 
 def profile_of(bus: Bus) -> Profile:
-    """The profile of a device's bus. Functions outside the nine are left out; no count means the protocol's."""
+    """Return the profile of a device's bus, without functions that the runtimes do not support."""
+    known = [code for code in bus.functions if code.number in FUNCTIONS]
+    limits = {code.number: FUNCTIONS[code.number].most for code in known}
     most = {
-        code.number: PROTOCOL_MOST[code.number] if code.most is None else min(code.most, PROTOCOL_MOST[code.number])
-        for code in bus.functions
-        if code.number in PROTOCOL_MOST
+        code.number: limits[code.number] if code.most is None else min(code.most, limits[code.number]) for code in known
     }
-    silent = {code.number for code in bus.functions if code.broadcast is False}
-    return Profile(
-        most, bus.units, bus.broadcast, of_bus(bus).pad_coil_bytes == "even", BROADCAST - silent, framings_of(bus)
-    )
-
-
-def framings_of(bus: Bus) -> tuple[str, ...]:
-    """The framings of the device: those of the manual, or both where it gives none."""
-    return bus.framings or FRAMINGS
+    silent = {code.number for code in known if code.broadcast is False}
+    pads = of_bus(bus).pad_coil_bytes == "even"
+    return Profile(most, bus.units, bus.broadcast, pads, BROADCAST - silent, framings_of(bus))

@@ -1,4 +1,4 @@
-"""What the family adds to exports: its facts in the limits."""
+"""What the documentation and exports say of a Modbus bus."""
 
 from __future__ import annotations
 
@@ -14,22 +14,20 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus, Code
 
-
 LIMIT_CLASSES = {"pad_coil_bytes": "wire"}
 """How grave a difference in a fact of `limits` is: a class of `differences`."""
-
-
-def limits(bus: Bus | None) -> dict[str, object]:
-    """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
-    return {"pad_coil_bytes": (ModbusBus() if bus is None else of_bus(bus)).pad_coil_bytes}
-
 
 _DIGITS = {"discrete": 1, "input": 3, "holding": 4}
 """The first digit of traditional references; that of coils is 0, which leaves the number as it is."""
 
 
+def limits(bus: Bus | None) -> dict[str, object]:
+    """Return the facts that only this family has; empty values for a bus of another family."""
+    return {"pad_coil_bytes": (ModbusBus() if bus is None else of_bus(bus)).pad_coil_bytes}
+
+
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """Label and text of each fact that people must know about the line."""
+    """Yield label and text of each fact about the line."""
     yield "Framing", cell(", ".join(bus.framings))
     yield "Unit numbers", span(bus.units)
     yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
@@ -42,11 +40,11 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:
-    """The numbers of an address as PLC and panel tools count: from 1, and with the digit of the space before it."""
+    """Return an address as PLC and panel tools count: from 1, and with the digit of the space before it."""
     modicon = {"modicon": address + 1}
     return modicon if space == "coil" else {**modicon, "reference": _DIGITS[space] * 100000 + address + 1}
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function may be broadcast where the description does not say so."""
+    """Return True if the protocol allows to broadcast a function."""
     return function.number in BROADCAST

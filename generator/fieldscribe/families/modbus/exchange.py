@@ -1,11 +1,11 @@
-"""Modbus requests: builds their bytes, and reads bytes as requests. Pure functions, no I/O."""
+"""Modbus requests and replies: builds requests, reads bytes as a request or as its reply. Pure functions, no I/O."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.modbus import PROTOCOL_MOST, READS, SINGLE, Profile
+from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, Profile
 from fieldscribe.families.modbus.frames import (
     Flaw,
     Unwrapped,
@@ -33,21 +33,27 @@ class Request:
     transaction: int = 0
 
 
-def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]:
-    """The bytes of a request; (status, b"") when it must not be sent.
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """A reply: `values` only if `status` is ok, `exception` (the code) only if it is `exception`, else 0."""
 
-    The first failure wins: `bad_framing` (one that the device does not speak), `bad_function` (not one the device
-    allows), `bad_unit` (outside the units, or broadcast
-    with a function that does not go to all units), `bad_count` (none, more than the most, a single write without
-    exactly one value), `bad_address` (beyond 65535; a sub-function of 08h other than 0), `bad_value` (a coil not
-    0 or 1, a word not 16 bits).
+    status: str
+    values: tuple[int, ...] = ()
+    exception: int = 0
+
+
+def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]:
+    """Return ("ok", the bytes of a request), or (status, b"") if it must not be sent.
+
+    The first failure wins: `bad_framing` (one that the device does not speak), `bad_function` (one that the device does
+    not allow), `bad_unit` (outside the units, or broadcast with a function that does not go to all units), `bad_count`
+    (none, more than the most, or a single write without exactly one value), `bad_address` (beyond 65535, or a
+    sub-function of 08h other than 0), `bad_value` (a coil that is not 0 or 1, a word of more than 16 bits).
     """
     status = _refusal(profile, request) if framing in profile.framings else "bad_framing"
-    return (
-        (status, b"")
-        if status != "ok"
-        else ("ok", frame(framing, request.unit, request.transaction, _pdu(profile, request)))
-    )
+    if status != "ok":
+        return status, b""
+    return "ok", frame(framing, request.unit, request.transaction, _pdu(profile, request))
 
 
 def _refusal(profile: Profile, request: Request) -> str:
@@ -55,15 +61,13 @@ def _refusal(profile: Profile, request: Request) -> str:
     if most is None:
         return "bad_function"
     low, high = profile.units
-    if request.unit == profile.broadcast:
-        if request.function not in profile.broadcasts:
-            return "bad_unit"
-    elif not low <= request.unit <= high:
+    broadcast = request.unit == profile.broadcast
+    if request.function not in profile.broadcasts if broadcast else not low <= request.unit <= high:
         return "bad_unit"
     if not 1 <= request.count <= most or (request.function not in READS and len(request.values) != request.count):
         return "bad_count"
-    last = request.address if request.function == 0x08 else request.address + request.count - 1
-    if request.address < 0 or last > (0 if request.function == 0x08 else 0xFFFF):
+    last, highest = (request.address, 0) if request.function == 0x08 else (request.address + request.count - 1, 0xFFFF)
+    if request.address < 0 or last > highest:
         return "bad_address"
     top = 1 if request.function in (0x05, 0x0F) else 0xFFFF
     return "ok" if all(0 <= value <= top for value in request.values) else "bad_value"
@@ -71,11 +75,8 @@ def _refusal(profile: Profile, request: Request) -> str:
 
 def _pdu(profile: Profile, request: Request) -> bytes:
     head = bytes((request.function, *divmod(request.address, 256)))
-    if request.function in READS:
-        return head + request.count.to_bytes(2, "big")
-    if request.function in SINGLE:
-        value = request.values[0]
-        return head + (0xFF00 * value if request.function == 0x05 else value).to_bytes(2, "big")
+    if request.function in READS | SINGLE:
+        return head + (_second_word(request) or 0).to_bytes(2, "big")
     if request.function == 0x0F:
         data = pack_bits(request.values, profile.pad_coil_bytes_even)
     else:
@@ -83,16 +84,26 @@ def _pdu(profile: Profile, request: Request) -> bytes:
     return head + request.count.to_bytes(2, "big") + bytes((len(data),)) + data
 
 
+def _second_word(request: Request) -> int | None:
+    """Return the word behind the address: the value of a single write (None without one), else the count."""
+    if request.function not in SINGLE:
+        return request.count
+    if len(request.values) != 1:
+        return None
+    return 0xFF00 * request.values[0] if request.function == 0x05 else request.values[0]
+
+
 def parse_request(framing: str, data: bytes) -> Request | Flaw:
-    """The request in the bytes, or what is wrong with them. Any bytes are safe."""
+    """Return the request in the bytes, or what is wrong with them. Any bytes are safe."""
     unwrapped = unwrap(framing, data)
     return unwrapped.flaw or request_in(unwrapped)
 
 
 def request_in(unwrapped: Unwrapped) -> Request | Flaw:
-    """The request in a PDU, also out of a flawed frame; else the first flaw.
+    """Return the request in a PDU, also out of a flawed frame; else the first flaw.
 
-    `bad_function` (not one of the nine), `short_request`, `long_request`, `bad_count`, and those of what it writes.
+    `bad_function` (one that is not supported here), `short_request`, `long_request`, `bad_count`, and the flaws of
+    the data that it writes.
     """
     pdu = unwrapped.pdu
     flaw = _head_flaw(pdu) if pdu else unwrapped.flaw or Flaw("short_request", 0, 5)
@@ -100,19 +111,19 @@ def request_in(unwrapped: Unwrapped) -> Request | Flaw:
         return flaw
     function, (address, number) = pdu[0], words_in(pdu[1:5])
     count = 1 if function in SINGLE else number
-    if not 1 <= count <= PROTOCOL_MOST[function]:
-        return Flaw("bad_count", count, PROTOCOL_MOST[function])
-    short = function in READS | SINGLE
-    values = _one_value(function, number) if short else _several(function, count, pdu[5:])
+    if not 1 <= count <= FUNCTIONS[function].most:
+        return Flaw("bad_count", count, FUNCTIONS[function].most)
+    one_value = function in READS | SINGLE
+    values = _one_value(function, number) if one_value else _several_values(function, count, pdu[5:])
     if isinstance(values, Flaw):
         return values
     return Request(unwrapped.unit or 0, function, address, count, values, unwrapped.transaction)
 
 
 def _head_flaw(pdu: bytes) -> Flaw | None:
-    """What is wrong with the function of a request, or with the length that it gives."""
+    """Return what is wrong with the function of a request, or with the length that the function gives."""
     function = pdu[0]
-    if function not in PROTOCOL_MOST:
+    if function not in FUNCTIONS:
         return Flaw("bad_function", of=function)
     if len(pdu) < 5:
         return Flaw("short_request", len(pdu), 5, function)
@@ -120,14 +131,14 @@ def _head_flaw(pdu: bytes) -> Flaw | None:
 
 
 def _one_value(function: int, number: int) -> tuple[int, ...] | Flaw:
-    """What a read (nothing) or a single write carries in its second word."""
+    """Return the value in the second word of a single write; nothing for a read."""
     if function == 0x05:
         return Flaw("bad_coil", number) if number % 0xFF00 else (number // 0xFF00,)
     return (number,) if function in SINGLE else ()
 
 
-def _several(function: int, count: int, rest: bytes) -> tuple[int, ...] | Flaw:
-    """The values of a write of several items, from what follows their count: the byte count and the data."""
+def _several_values(function: int, count: int, rest: bytes) -> tuple[int, ...] | Flaw:
+    """Return the values of a write of several items, from the bytes behind the count: the byte count and the data."""
     data, size = rest[1:], data_size(function, count)
     if not rest:
         return Flaw("no_byte_count")
@@ -139,30 +150,21 @@ def _several(function: int, count: int, rest: bytes) -> tuple[int, ...] | Flaw:
     return values_in(function, data)[:count]
 
 
-@dataclass(frozen=True, slots=True)
-class Reply:
-    """An answer: `values` only if `status` is ok, `exception` (the code) only if it is `exception`, else 0."""
-
-    status: str
-    values: tuple[int, ...] = ()
-    exception: int = 0
-
-
 def parse_reply(framing: str, request: Request, data: bytes) -> Reply:
-    """`data` read as the answer to `request`. Any bytes at any length are safe; the first failure wins.
+    """Return `data` as the reply to `request`. Any bytes at any length are safe; the first failure wins.
 
-    `bad_function` (the request's), `short_frame` (of any answer), in rtu `short_frame` or `long_frame` (not the length
-    that its function gives), `bad_crc` or `bad_protocol`, in tcp `short_frame` or `long_frame` (not the length that the
-    header says) and `wrong_transaction`, `wrong_unit`, `exception` (`long_frame` if more than the code follows),
-    `wrong_function`, `bad_byte_count` (a read brings another number of bytes than was asked for), `short_frame` or
+    `bad_function` (the request's), `short_frame` (of any reply), in rtu `short_frame` or `long_frame` (not the length
+    that its function gives), `bad_crc` or `bad_protocol`, in tcp `short_frame` or `long_frame` (not the length in the
+    header) and `wrong_transaction`, `wrong_unit`, `exception` (`long_frame` if more than the code follows),
+    `wrong_function`, `bad_byte_count` (a read brings another number of bytes than requested), `short_frame` or
     `long_frame` (a write that does not repeat two words), `echo_mismatch` (a write or 08h repeats other words).
     """
     return reply_in(request, unwrap(framing, data))
 
 
 def reply_in(request: Request, unwrapped: Unwrapped) -> Reply:
-    """What `parse_reply` says of bytes that were taken out of their frame."""
-    if request.function not in PROTOCOL_MOST:
+    """Return what `parse_reply` returns, for bytes that are unwrapped already."""
+    if request.function not in FUNCTIONS:
         return Reply("bad_function")
     status = _frame_status(request, unwrapped)
     if status != "ok":
@@ -173,8 +175,8 @@ def reply_in(request: Request, unwrapped: Unwrapped) -> Reply:
     return _parse_pdu(request, pdu) if pdu[0] == request.function else Reply("wrong_function")
 
 
-def done_in(pdu: bytes) -> Request | None:
-    """The write of several items that a reply says was done; its unit and its values are not told."""
+def confirmed_write(pdu: bytes) -> Request | None:
+    """Return the write of several items that a reply confirms, without its unit and values, which are not in it."""
     if pdu[0] not in (0x0F, 0x10) or len(pdu) != 5:
         return None
     address, count = words_in(pdu[1:])
@@ -182,7 +184,7 @@ def done_in(pdu: bytes) -> Request | None:
 
 
 def _frame_status(request: Request, unwrapped: Unwrapped) -> str:
-    """What is wrong with the frame round the PDU, or its addressee; an RTU frame has the length of its function."""
+    """Return what is wrong with the frame of a reply or its unit; an RTU frame has the length of its function."""
     pdu, flaw = unwrapped.pdu, unwrapped.flaw
     if len(pdu) < 2:
         return "short_frame"
@@ -200,23 +202,14 @@ def _size_status(here: int, due: int) -> str:
 
 
 def _parse_pdu(request: Request, pdu: bytes) -> Reply:
-    """The PDU (two bytes at least) of a reply that carries the request's function."""
+    """Return the reply in a PDU of at least two bytes that carries the request's function."""
     if request.function in READS:
         size = data_size(request.function, request.count)
         if pdu[1] != size or len(pdu) != 2 + size:
             return Reply("bad_byte_count")
         return Reply("ok", values_in(request.function, pdu[2:])[: request.count])
     if len(pdu) != 5:
-        return Reply("short_frame" if len(pdu) < 5 else "long_frame")
-    if words_in(pdu[1:]) != (request.address, _echoed(request)):
+        return Reply(_size_status(len(pdu), 5))
+    if words_in(pdu[1:]) != (request.address, _second_word(request)):
         return Reply("echo_mismatch")
     return Reply("ok", request.values if request.function in SINGLE else ())
-
-
-def _echoed(request: Request) -> int | None:
-    """The second word that the answer repeats: the value of a single write, else the count."""
-    if request.function not in SINGLE:
-        return request.count
-    if len(request.values) != 1:
-        return None
-    return 0xFF00 * request.values[0] if request.function == 0x05 else request.values[0]

@@ -1,4 +1,4 @@
-"""The request that writes a point."""
+"""Builds the Modbus requests that read and write a point, for `encode` and as examples for `explain`."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
-    """The request that writes a raw number. Raises RefusedError."""
+    """Return the request that writes a raw number. Raises RefusedError."""
     del settings  # a request carries only the point
     return BuiltFrames((spaced(write_request(device, point, raw, options.unit, options.framing)[1]),))
 
 
 def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """The unsigned words (or the bit) of a raw number, in ascending order of their addresses."""
+    """Return the unsigned words (or the bit) of a raw number, in ascending order of their addresses."""
     if point.type == "bit":
         return (raw,)
     return tuple(word for _, word in sorted(zip(addresses, split(raw, len(addresses)), strict=True)))
@@ -35,8 +35,8 @@ def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, .
 def write_request(
     device: Device, point: Point, raw: int, unit: int | None, framing: str | None
 ) -> tuple[Request, bytes]:
-    """The request that writes a raw number, and its bytes. Raises RefusedError."""
-    addresses = point.written.addresses
+    """Return the request that writes a raw number, and its bytes. Raises RefusedError."""
+    addresses, profile = point.written.addresses, profile_of(device.bus)
     if point.bits is not None:
         mask = group_mask(point)
         raise RefusedError(
@@ -46,21 +46,12 @@ def write_request(
             f"by {hex_text(raw << point.bits[1] & mask)}, and write the word back",
         )
     values = words_of(point, raw, addresses)
-    to = device.bus.usual_unit if unit is None else unit
-    function = function_for(device, point.space, len(addresses)) or 0
-    request = Request(to, function, min(addresses), len(values), values)
-    chosen = framing or framings_of(device.bus)[0]
-    status, data = build(profile_of(device.bus), chosen, request)
+    function = profile.write_function(point.space, len(addresses)) or 0
+    request = Request(device.bus.usual_unit if unit is None else unit, function, min(addresses), len(values), values)
+    status, data = build(profile, framing or profile.framings[0], request)
     if status != "ok":
         raise refused(device.bus, point, status, _hint(device, status))
     return request, data
-
-
-def function_for(device: Device, space_name: str, count: int) -> int | None:
-    """The function that writes a place of so many words or bits: that for a single item, else that for several."""
-    space = SPACES[space_name]
-    single = count == 1 and space.write_one in profile_of(device.bus).most
-    return space.write_one if single else space.write_many or space.write_one
 
 
 def _hint(device: Device, status: str) -> str:
@@ -72,7 +63,7 @@ def _hint(device: Device, status: str) -> str:
 
 
 def read_text(device: Device, point: Point) -> str:
-    """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
+    """Return how to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
     if point.space not in SPACES:
         return ""
     function, count = SPACES[point.space].read, len(point.addresses)
@@ -81,29 +72,24 @@ def read_text(device: Device, point: Point) -> str:
 
 
 def way_to_write(device: Device, point: Point) -> WriteMethod | None:
-    """How to write the point; None if it cannot be written."""
+    """Return how to write the point; None if it cannot be written."""
     addresses = point.written.addresses
-    function = function_for(device, point.space, len(addresses)) if point.space in SPACES else None
+    known = point.space in SPACES
+    function = profile_of(device.bus).write_function(point.space, len(addresses)) if known else None
     if function is None:
         return None
     how = f"function {hex_text(function, 2)}"
     if point.bits is not None:
-        return WriteMethod(
-            f"{how}; read the word first, replace the bits and write it back, for other points share the word"
-        )
-    return WriteMethod(
-        how,
-        lambda raw: _example(device, function, min(addresses), len(addresses), words_of(point, raw, addresses)),
-    )
+        steps = "read the word first, replace the bits and write it back, for other points share the word"
+        return WriteMethod(f"{how}; {steps}")
+    first, count = min(addresses), len(addresses)
+    return WriteMethod(how, lambda raw: _example(device, function, first, count, words_of(point, raw, addresses)))
 
 
 def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:
-    """An example request to unit 1, or to the lowest unit where the device cannot be unit 1."""
-    unit = device.bus.usual_unit
-    framing = framings_of(device.bus)[0]
-    status, data = build(profile_of(device.bus), framing, Request(unit, function, address, count, values))
-    if status != "ok":
-        return (
-            " (the device does not allow this function)" if status == "bad_function" else f" (not possible: {status})"
-        )
-    return f"; request to unit {unit} ({framing}): {data.hex(' ').upper()}"
+    """Return an example request to unit 1, or to the lowest unit if the device cannot be unit 1."""
+    unit, profile = device.bus.usual_unit, profile_of(device.bus)
+    status, data = build(profile, profile.framings[0], Request(unit, function, address, count, values))
+    if status == "bad_function":
+        return " (the device does not allow this function)"
+    return f"; request to unit {unit} ({profile.framings[0]}): {spaced(data)}" if data else f" (not possible: {status})"

@@ -1,4 +1,4 @@
-"""Decodes Modbus frames: requests, replies, echoes and exceptions; the request before a reply tells what it means."""
+"""Decodes Modbus frames: requests, replies, echoes and exceptions. The request before a reply tells what it holds."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, FrameBytes, Span, cut_apart
 from fieldscribe.families.frame_results import FrameResult, Item
-from fieldscribe.families.modbus import FRAMINGS, PROTOCOL_MOST, READS, SINGLE, SPACE_OF, framings_of, remarks
-from fieldscribe.families.modbus.exchange import Reply, Request, done_in, reply_in, request_in
+from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
+from fieldscribe.families.modbus.exchange import Reply, Request, confirmed_write, reply_in, request_in
 from fieldscribe.families.modbus.frames import (
     LEAST,
     Flaw,
@@ -21,7 +21,7 @@ from fieldscribe.families.modbus.frames import (
     without_crc,
 )
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.wording.buses import no_answer_text, words_text
+from fieldscribe.wording.buses import counted, no_answer_text, spaced, words_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,168 +31,99 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.user_errors import Options
 
-
-_MOST = 8192
+_MOST_HEADS = 8192
 """How many heads of requests and replies are remembered."""
+_HeadKey = tuple[str, str, int, int, int, int]
+"""What a head depends on: request or reply, framing, unit, function, address, count."""
 
 
 class ModbusFrameDecoder:
-    """Decodes the frames of one device."""
+    """Decodes the frames of one device; without `framing` each frame is tried as RTU and as TCP."""
 
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
-        self._heads: BoundedMemo[tuple[str, str, int, int, int, int], FrameResult] = BoundedMemo(_MOST, self._said)
+        self._heads: BoundedMemo[_HeadKey, FrameResult] = BoundedMemo(_MOST_HEADS, self._head)
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
-        """The frames that people pasted. Raises UnclearError."""
+        """Return the frames in pasted texts. Raises UnclearError."""
         pasted = (typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2))
         return [frame for data in pasted for frame in frames_in(data, self._framing)]
 
     def decode(
         self, frame: bytes, requests: OpenRequests, directory: Directory, *, expecting: bool = False
     ) -> DecodedFrame:
-        """What a frame is; any bytes are safe."""
-        del directory  # a request tells all that a reply needs
+        """Decode one frame; any bytes are safe."""
+        del directory  # a request says all that its reply needs
         unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
-        asked: Request | None = None if expecting else requests.request()
+        request: Request | None = None if expecting else requests.request()
         sound = unwrapped if unwrapped.flaw is None else replace(unwrapped, flaw=None)
-        decoded = self._read(sound, asked, fixed=requests.fixed and asked is not None)
-        heard = decoded.result
-        faults = (*remarks.frame_faults(unwrapped), *heard.faults)
+        decoded = self._read(sound, request, fixed=requests.fixed and request is not None)
+        result = decoded.result
+        faults = (*remarks.frame_faults(unwrapped), *result.faults)
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
-            heard = replace(heard, kind="unreadable")
+            result = replace(result, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
-        checks = remarks.frame_checks(unwrapped)
-        heard = replace(heard, faults=faults) if faults else heard
-        return replace(
-            decoded, result=heard, frame=FrameBytes(unwrapped.data, checks), stays_open=decoded.request is not None
-        )
+        result = replace(result, faults=faults) if faults else result
+        own_bytes = FrameBytes(unwrapped.data, remarks.frame_checks(unwrapped))
+        return replace(decoded, result=result, frame=own_bytes, stays_open=decoded.request is not None)
 
-    def _read(self, unwrapped: Unwrapped, asked: Request | None, *, fixed: bool) -> DecodedFrame:
+    def _read(self, unwrapped: Unwrapped, request: Request | None, *, fixed: bool) -> DecodedFrame:
         pdu = unwrapped.pdu
         if not pdu:
-            return _unreadable(unwrapped, None)
-        reply = reply_in(asked, unwrapped) if asked else Reply("")
+            return DecodedFrame(_result(unwrapped, "unreadable", "not readable"))
+        reply = reply_in(request, unwrapped) if request else Reply("")
         if pdu[0] & 0x80:
-            return self._exception(unwrapped, asked, reply.status)
-        if asked and reply.status == "ok":
-            return self._reply(unwrapped, asked, reply)
+            return self._exception(unwrapped, request, reply.status)
+        if request and reply.status == "ok":
+            words = reply.values if request.function in READS else request.values
+            contents = _contents(request, _span(request, words, learned=True))
+            return DecodedFrame(self._heads["reply", unwrapped.framing, *_key(request)], contents, answers=True)
         parsed = request_in(unwrapped)
-        if isinstance(parsed, Request) and not fixed:
-            return self._request(unwrapped, parsed)
-        return _unmatched_reply(unwrapped, parsed, asked, reply.status)
+        if isinstance(parsed, Flaw) or fixed:
+            return _unmatched_reply(unwrapped, parsed, request, reply.status)
+        unanswered = parsed.unit == self._device.bus.broadcast
+        head = self._heads["request", unwrapped.framing, *_key(parsed)]
+        return DecodedFrame(head, _contents(parsed, _span(parsed)), request=parsed, unanswered=unanswered)
 
-    def _request(self, unwrapped: Unwrapped, request: Request) -> DecodedFrame:
-        heard = self._heads["request", unwrapped.framing, *_head(request)]
-        silent = request.unit == self._device.bus.broadcast
-        return DecodedFrame(heard, _carried(request, _span(request)), request=request, unanswered=silent)
-
-    def _reply(self, unwrapped: Unwrapped, asked: Request, reply: Reply) -> DecodedFrame:
-        heard = self._heads["reply", unwrapped.framing, *_head(asked)]
-        words = reply.values if asked.function in READS else asked.values
-        return DecodedFrame(heard, _carried(asked, _span(asked, words, learned=True)), answers=True)
-
-    def _said(self, key: tuple[str, str, int, int, int, int]) -> FrameResult:
-        """What a request says, or the reply to it, whatever it carries."""
+    def _head(self, key: _HeadKey) -> FrameResult:
+        """Return what a request, or the reply to it, says apart from its values."""
         kind, framing, unit, function, address, count = key
         request = Request(unit, function, address, count)
         if kind == "reply":
-            return _headed(framing, kind, request.unit, request.function, remarks.reply_said(request))
-        silent = request.unit == self._device.bus.broadcast
-        echo = request.function in SINGLE and not silent
-        said = f"{'request, or the reply that repeats it' if echo else 'request'}, {remarks.span_said(request)}"
-        kind = "request_or_reply" if echo else "request"
+            return FrameResult(b"", framing, kind, unit, function, remarks.reply_text(framing, unit, request))
+        broadcast = unit == self._device.bus.broadcast
+        echo = function in SINGLE and not broadcast
+        kind, prefix = ("request_or_reply", "request, or the reply that repeats it") if echo else (kind, kind)
+        text = remarks.summary(framing, unit, function, f"{prefix}, {remarks.span_of_request(request)}")
         findings = tuple(remarks.request_findings(self._device, request))
-        heard = _headed(framing, kind, request.unit, request.function, said)
-        return replace(heard, findings=findings, notes=(remarks.SILENT,) if silent and not findings else ())
+        notes = (remarks.BROADCAST_NOTE,) if broadcast and not findings else ()
+        return FrameResult(b"", framing, kind, unit, function, text, findings=findings, notes=notes)
 
-    def _exception(self, unwrapped: Unwrapped, asked: Request | None, status: str) -> DecodedFrame:
+    def _exception(self, unwrapped: Unwrapped, request: Request | None, status: str) -> DecodedFrame:
         if len(unwrapped.pdu) != 2:
             return _unreadable(unwrapped, Flaw("long_exception", len(unwrapped.pdu), 2))
         code = unwrapped.pdu[1]
-        said = f"exception {remarks.exception_text(self._device, code)}"
-        heard = replace(_heard(unwrapped, "exception", said), exception=code)
-        if asked is None:
-            return DecodedFrame(replace(heard, notes=(remarks.UNKNOWN_REQUEST,)))
+        text = f"exception {remarks.exception_text(self._device, code)}"
+        result = replace(_result(unwrapped, "exception", text), exception=code)
+        if request is None:
+            return DecodedFrame(replace(result, notes=(remarks.UNKNOWN_REQUEST,)))
         if status != "exception":
-            return DecodedFrame(replace(heard, faults=(no_answer_text(status, "request before"),)))
-        heard = replace(heard, summary=f"{heard.summary}; refused was {remarks.span_said(asked)}")
-        return DecodedFrame(heard, _carried(asked, _span(asked)), answers=True)
+            return DecodedFrame(replace(result, faults=(no_answer_text(status, "request before"),)))
+        result = replace(result, summary=f"{result.summary}; refused was {remarks.span_of_request(request)}")
+        return DecodedFrame(result, _contents(request, _span(request)), answers=True)
 
 
 def decoder_of(device: Device, options: Options) -> ModbusFrameDecoder:
-    """The decoder for the frames of the device."""
+    """Return the decoder for the frames of the device."""
     return ModbusFrameDecoder(device, options.framing)
 
 
-def _head(request: Request) -> tuple[int, int, int, int]:
-    """What a request is about, without what it carries."""
-    return request.unit, request.function, request.address, request.count
-
-
-def _unmatched_reply(unwrapped: Unwrapped, parsed: Request | Flaw, asked: Request | None, status: str) -> DecodedFrame:
-    """The result for a reply that does not fit the open request: what it carries, as far as that is known."""
-    pdu = unwrapped.pdu
-    faults = (no_answer_text(status),) if asked else ()
-    if pdu[0] in READS and len(pdu) == reply_length(pdu):
-        same = asked is not None and asked.function == pdu[0]
-        return _unmatched_read(unwrapped, asked if same else None, faults)
-    request = (done_in(pdu) or parsed) if isinstance(parsed, Flaw) else parsed
-    if isinstance(request, Flaw):
-        return _unreadable(unwrapped, request)
-    carried = _carried(request, _span(request)) if 0 < request.count <= PROTOCOL_MOST[request.function] else ()
-    return DecodedFrame(replace(_heard(unwrapped, "reply", remarks.reply_said(request)), faults=faults), carried)
-
-
-def _unmatched_read(unwrapped: Unwrapped, asked: Request | None, faults: tuple[str, ...]) -> DecodedFrame:
-    data = unwrapped.pdu[2:]
-    if asked is None:
-        heard = _heard(unwrapped, "reply", remarks.data_said(data))
-        return DecodedFrame(replace(heard, faults=faults, notes=(remarks.UNASKED,)))
-    values, due = values_in(asked.function, data), data_size(asked.function, asked.count)
-    if len(data) != due:
-        faults = (remarks.data_fault(asked, len(data), due),)
-    came = replace(asked, count=min(asked.count, len(values)))
-    heard = replace(_heard(unwrapped, "reply", remarks.reply_said(came)), faults=faults)
-    return DecodedFrame(heard, (_span(came, values[: came.count]),), answers=True)
-
-
-def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
-    """The addresses of a request, with the values that it writes, or that its reply brings."""
-    count = min(request.count, 0x10000 - request.address)
-    written, words = request.function not in READS, request.values or None if words is None else words
-    return Span(SPACE_OF.get(request.function, ""), request.address, count, words, written, learned)
-
-
-def _carried(request: Request, span: Span) -> tuple[Span | Item, ...]:
-    if request.function == 0x08:
-        said = f"test data {words_text(span.words or ())}; the device sends it back unchanged"
-        return (Item("", request.address, 1, said),)
-    return (span,)
-
-
-def _heard(unwrapped: Unwrapped, kind: str, said: str) -> FrameResult:
-    function = unwrapped.pdu[0] if unwrapped.pdu else None
-    function = function & 0x7F if function is not None and kind == "exception" else function
-    return _headed(unwrapped.framing, kind, unwrapped.unit, function, said)
-
-
-def _headed(framing: str, kind: str, unit: int | None, function: int | None, said: str) -> FrameResult:
-    return FrameResult(b"", framing, kind, unit, function, remarks.summary(framing, unit, function, said))
-
-
-def _unreadable(unwrapped: Unwrapped, flaw: Flaw | None) -> DecodedFrame:
-    faults = () if flaw is None else (remarks.unreadable_text(unwrapped.pdu, flaw),)
-    return DecodedFrame(replace(_heard(unwrapped, "unreadable", "not readable"), faults=faults))
-
-
 def recognise(data: bytes, framings: tuple[str, ...], forced: str | None = None) -> Unwrapped:
-    """The bytes in the forced framing; else in the one that checksum or header fit, else in that of the device."""
-    usual = forced or (framings or FRAMINGS)[0]
+    """Unwrap bytes: in the forced framing, else in the one whose checksum or header fits, else in the device's."""
     tried = (unwrap(framing, data) for framing in ((forced,) if forced else FRAMINGS))
     sound = next((unwrapped for unwrapped in tried if unwrapped.flaw is None), None)
-    unwrapped = sound or unwrap(usual, data)
+    unwrapped = sound or unwrap(forced or (framings or FRAMINGS)[0], data)
     flaw = unwrapped.flaw
     if flaw is None or flaw.swapped or unwrapped.framing == "tcp" or _is_whole(unwrapped.pdu):
         return unwrapped
@@ -200,7 +131,7 @@ def recognise(data: bytes, framings: tuple[str, ...], forced: str | None = None)
 
 
 def frames_in(data: bytes, forced: str | None = None) -> list[bytes]:
-    """The frames in pasted bytes: several if these are whole frames behind each other, by length and checksum."""
+    """Return the frames in pasted bytes: several if whole frames follow each other, by length and checksum."""
     framings = (forced,) if forced else FRAMINGS
     if any(unwrap(framing, data).flaw is None for framing in framings):
         return [data]
@@ -212,7 +143,7 @@ def frames_in(data: bytes, forced: str | None = None) -> list[bytes]:
 
 
 def _sound_rtu(data: bytes) -> int:
-    """The size of the RTU frame that the bytes begin with; 0 where the checksum of none is right."""
+    """Return the size of the RTU frame that the bytes begin with; 0 if no checksum is right."""
     pdu = data[1:]
     sizes = {request_length(pdu), reply_length(pdu)} if pdu else set()
     whole = (size + 3 for size in sorted(sizes) if 0 < size <= len(data) - 3)
@@ -220,11 +151,78 @@ def _sound_rtu(data: bytes) -> int:
 
 
 def _sound_tcp(data: bytes) -> int:
-    """The size of the TCP frame that the bytes begin with, as its header says; 0 where that cannot be."""
+    """Return the size of the TCP frame that the bytes begin with, from its header; 0 if that is impossible."""
     size = 6 + int.from_bytes(data[4:6], "big")
     return size if unwrap("tcp", data[:size]).flaw is None else 0
 
 
 def _is_whole(pdu: bytes) -> bool:
-    """Whether a PDU is as long as its function says, as a request or as a reply."""
+    """Return True if a PDU has the length that its function gives, as a request or as a reply."""
     return bool(pdu) and len(pdu) in (request_length(pdu), reply_length(pdu))
+
+
+def _key(request: Request) -> tuple[int, int, int, int]:
+    return request.unit, request.function, request.address, request.count
+
+
+def _unmatched_reply(
+    unwrapped: Unwrapped, parsed: Request | Flaw, request: Request | None, status: str
+) -> DecodedFrame:
+    """Return a reply that does not fit the open request, with what can be known of its contents."""
+    pdu = unwrapped.pdu
+    faults = (no_answer_text(status),) if request else ()
+    if pdu[0] in READS and len(pdu) == reply_length(pdu):
+        same = request is not None and request.function == pdu[0]
+        return _unmatched_read(unwrapped, request if same else None, faults)
+    confirmed = (confirmed_write(pdu) or parsed) if isinstance(parsed, Flaw) else parsed
+    if isinstance(confirmed, Flaw):
+        return _unreadable(unwrapped, confirmed)
+    possible = 0 < confirmed.count <= FUNCTIONS[confirmed.function].most
+    return _reply(unwrapped, confirmed, _contents(confirmed, _span(confirmed)) if possible else (), faults)
+
+
+def _unmatched_read(unwrapped: Unwrapped, request: Request | None, faults: tuple[str, ...]) -> DecodedFrame:
+    data = unwrapped.pdu[2:]
+    if request is None:
+        text = f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
+        return DecodedFrame(replace(_result(unwrapped, "reply", text), faults=faults, notes=(remarks.NO_REQUEST,)))
+    values, due = values_in(request.function, data), data_size(request.function, request.count)
+    if len(data) != due:
+        asked = f"the request asks for {due} ({counted(request.count, 'item')})"
+        faults = (f"it brings {counted(len(data), 'byte')}, {asked}",)
+    came = replace(request, count=min(request.count, len(values)))
+    return replace(_reply(unwrapped, came, (_span(came, values[: came.count]),), faults), answers=True)
+
+
+def _reply(
+    unwrapped: Unwrapped, request: Request, contents: tuple[Span | Item, ...], faults: tuple[str, ...]
+) -> DecodedFrame:
+    framing, unit = unwrapped.framing, unwrapped.unit
+    text = remarks.reply_text(framing, unit, request)
+    return DecodedFrame(FrameResult(b"", framing, "reply", unit, request.function, text, faults=faults), contents)
+
+
+def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bool = False) -> Span:
+    """Return the addresses of a request, with the values that it writes, or that its reply brings."""
+    count = min(request.count, 0x10000 - request.address)
+    written, words = request.function not in READS, request.values or None if words is None else words
+    return Span(FUNCTIONS[request.function].space, request.address, count, words, written, learned)
+
+
+def _contents(request: Request, span: Span) -> tuple[Span | Item, ...]:
+    if request.function == 0x08:
+        text = f"test data {words_text(span.words or ())}; the device sends it back unchanged"
+        return (Item("", request.address, 1, text),)
+    return (span,)
+
+
+def _result(unwrapped: Unwrapped, kind: str, text: str) -> FrameResult:
+    function = unwrapped.pdu[0] if unwrapped.pdu else None
+    function = function & 0x7F if function is not None and kind == "exception" else function
+    summary = remarks.summary(unwrapped.framing, unwrapped.unit, function, text)
+    return FrameResult(b"", unwrapped.framing, kind, unwrapped.unit, function, summary)
+
+
+def _unreadable(unwrapped: Unwrapped, flaw: Flaw) -> DecodedFrame:
+    faults = (remarks.unreadable_text(unwrapped.pdu, flaw),)
+    return DecodedFrame(replace(_result(unwrapped, "unreadable", "not readable"), faults=faults))

@@ -1,4 +1,4 @@
-"""Modbus frames: a PDU wrapped for a serial line or for TCP, and the sizes of what it holds. Pure functions, no I/O."""
+"""Modbus frames: wrap a PDU for a serial line or for TCP, unwrap it, and compute its length. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.modbus import PROTOCOL_MOST, READ_BITS, READS, SINGLE
+from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SINGLE
 
 LEAST = {"rtu": 4, "tcp": 8}
 
 
 @dataclass(frozen=True, slots=True)
 class Flaw:
-    """Why bytes are no frame, or no request: the number that is here, the one that is due, and what they count.
+    """Why bytes are no frame, or no request: `here` is the number found, `due` the number expected.
 
-    `of` is the function, or how many items there are.
+    `of` is the function, or the number of items.
     """
 
     status: str
@@ -25,13 +25,13 @@ class Flaw:
 
     @property
     def swapped(self) -> bool:
-        """Whether the two bytes of a checksum stand in the wrong order."""
+        """True if the two bytes of a checksum are in the wrong order."""
         return self.status == "bad_crc" and self.here == (self.due >> 8 | (self.due & 0xFF) << 8)
 
 
 @dataclass(frozen=True, slots=True)
 class Unwrapped:
-    """Bytes taken out of their frame: the PDU (from the function on, empty where there are too few bytes)."""
+    """Bytes with their PDU (from the function code on; empty if there are too few bytes)."""
 
     framing: str
     data: bytes
@@ -60,7 +60,7 @@ _CRC = _crc_table()
 
 
 def crc16(data: bytes) -> int:
-    """The CRC-16 of Modbus RTU; its low byte travels first."""
+    """Return the CRC-16 of Modbus RTU; its low byte travels first."""
     crc = 0xFFFF
     for byte in data:
         crc = crc >> 8 ^ _CRC[(crc ^ byte) & 0xFF]
@@ -68,7 +68,7 @@ def crc16(data: bytes) -> int:
 
 
 def frame(framing: str, unit: int, transaction: int, pdu: bytes) -> bytes:
-    """A PDU in its frame: with unit and CRC for rtu, with the MBAP header for tcp."""
+    """Return a PDU in its frame: with unit and CRC for rtu, with the MBAP header for tcp."""
     if framing == "tcp":
         return bytes((*divmod(transaction, 256), 0, 0, *divmod(len(pdu) + 1, 256), unit)) + pdu
     body = bytes((unit,)) + pdu
@@ -76,18 +76,18 @@ def frame(framing: str, unit: int, transaction: int, pdu: bytes) -> bytes:
 
 
 def pack_bits(values: tuple[int, ...], even: bool) -> bytes:
-    """Bits packed from the lowest bit of the first byte on; an even number of bytes if `even`."""
+    """Pack bits from the lowest bit of the first byte on; `even` asks for an even number of bytes."""
     size = (len(values) + 7) // 8
     if even:
         size += size & 1
     return sum(bit << place for place, bit in enumerate(values)).to_bytes(size, "little")
 
 
-@lru_cache(maxsize=16)  # asked when pasted bytes are cut into frames, and again when these are read
+@lru_cache(maxsize=16)  # called when pasted bytes are cut into frames, and again when these are decoded
 def unwrap(framing: str, data: bytes) -> Unwrapped:
-    """The bytes out of their frame. Any bytes are safe; the first flaw wins: `short_frame` (fewer than any frame has).
+    """Unwrap a frame. Any bytes are safe. The first flaw wins: `short_frame` (fewer bytes than any frame has).
 
-    rtu: `bad_crc`. tcp: `bad_protocol` (the protocol number is not 0), `bad_length` (not what the header says).
+    rtu: `bad_crc`. tcp: `bad_protocol` (the protocol number is not 0), `bad_length` (not the length in the header).
     """
     if len(data) < LEAST[framing]:
         return Unwrapped(framing, data, flaw=Flaw("short_frame", len(data), LEAST[framing]))
@@ -100,33 +100,33 @@ def unwrap(framing: str, data: bytes) -> Unwrapped:
 
 
 def without_crc(data: bytes) -> Unwrapped:
-    """The bytes of an RTU frame whose checksum is missing."""
+    """Unwrap an RTU frame whose checksum is missing."""
     return Unwrapped("rtu", data, data[1:], flaw=Flaw("no_crc", due=crc16(data)))
 
 
 def request_length(pdu: bytes) -> int:
-    """How many bytes the PDU of a request has; 0 where it is none."""
-    if pdu[0] not in PROTOCOL_MOST:
+    """Return the length of the PDU of a request; 0 if it is none."""
+    if pdu[0] not in FUNCTIONS:
         return 0
     return 5 if pdu[0] in READS | SINGLE else 6 + pdu[5] if len(pdu) > 5 else 0
 
 
 def reply_length(pdu: bytes) -> int:
-    """How many bytes the PDU of a reply has; 0 where it is none."""
+    """Return the length of the PDU of a reply; 0 if it is none."""
     if pdu[0] & 0x80:
         return 2
     if pdu[0] in READS:
         return 2 + pdu[1] if len(pdu) > 1 else 0
-    return 5 if pdu[0] in PROTOCOL_MOST else 0
+    return 5 if pdu[0] in FUNCTIONS else 0
 
 
 def data_size(function: int, count: int) -> int:
-    """How many bytes of data carry so many items of a function."""
-    return (count + 7) // 8 if function in READ_BITS or function == 0x0F else 2 * count
+    """Return the number of data bytes for so many items of a function."""
+    return (count + 7) // 8 if function in BIT_LISTS else 2 * count
 
 
 def values_in(function: int, data: bytes) -> tuple[int, ...]:
-    """All bits or words that fit into the data of a function."""
-    if function in READ_BITS or function == 0x0F:
+    """Return all bits or words in the data of a function."""
+    if function in BIT_LISTS:
         return tuple(data[at >> 3] >> (at & 7) & 1 for at in range(8 * len(data)))
     return words_in(data)

@@ -1,11 +1,11 @@
-"""Sentences about Modbus frames for people: names of their numbers, findings and notes."""
+"""Sentences about Modbus frames: names of functions and exceptions, faults, findings and notes."""
 
 from __future__ import annotations
 
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import BROADCAST, FAMILY, READS, SPACE_OF, profile_of
+from fieldscribe.families.modbus import BROADCAST, FAMILY, FUNCTIONS, READS, profile_of
 from fieldscribe.text import line
 from fieldscribe.wording.buses import (
     check_text,
@@ -21,22 +21,10 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.families.modbus import Profile
     from fieldscribe.families.modbus.exchange import Request
     from fieldscribe.families.modbus.frames import Flaw, Unwrapped
     from fieldscribe.model import Device
 
-_FUNCTIONS: Mapping[int, str] = {
-    0x01: "read coils",
-    0x02: "read discrete inputs",
-    0x03: "read holding registers",
-    0x04: "read input registers",
-    0x05: "write one coil",
-    0x06: "write one register",
-    0x08: "loopback test",
-    0x0F: "write several coils",
-    0x10: "write several registers",
-}
 _EXCEPTIONS: Mapping[int, str] = {
     0x01: "illegal function",
     0x02: "illegal data address",
@@ -66,20 +54,20 @@ _FLAWS: Mapping[str, str] = {
 }
 _MOST_BYTES = {"rtu": 256, "tcp": 260}
 _LEAST = {4: "an RTU frame", 8: "a TCP frame"}
-UNASKED = "which addresses these are, only the request says: give it before this frame, or with --request"
-SILENT = "broadcast: no unit answers"
+NO_REQUEST = "which addresses these are, only the request says: give it before this frame, or with --request"
+BROADCAST_NOTE = "broadcast: no unit answers"
 UNKNOWN_REQUEST = "which request it refuses is not in the frame"
 
 
 def flaw_text(flaw: Flaw) -> str:
-    """Why bytes are no frame, or no request."""
+    """Return why bytes are no frame, or no request."""
     if flaw.status == "short_frame":
         return too_short(_LEAST[flaw.due], flaw.due, flaw.here)
     return "the bytes of the checksum are swapped" if flaw.swapped else _FLAWS[flaw.status].format(**asdict(flaw))
 
 
 def frame_faults(unwrapped: Unwrapped) -> tuple[str, ...]:
-    """What is wrong with the frame round the PDU."""
+    """Return what is wrong with the frame around the PDU."""
     if unwrapped.flaw is not None:
         return (flaw_text(unwrapped.flaw),)
     size, most = len(unwrapped.data), _MOST_BYTES[unwrapped.framing]
@@ -87,7 +75,7 @@ def frame_faults(unwrapped: Unwrapped) -> tuple[str, ...]:
 
 
 def frame_checks(unwrapped: Unwrapped) -> str:
-    """What the checksum or the header of a frame says."""
+    """Return whether the checksum or the header of a frame is right."""
     flaw, here = unwrapped.flaw, unwrapped.data[-2:]
     if flaw is None:
         return check_text(here, here) if unwrapped.framing == "rtu" else f"ok (transaction {unwrapped.transaction})"
@@ -101,31 +89,24 @@ def frame_checks(unwrapped: Unwrapped) -> str:
     return f"wrong: it says {flaw.due} bytes follow, {flaw.here} do" if flaw.status == "bad_length" else "none"
 
 
-def summary(framing: str, unit: int | None, function: int | None, said: str) -> str:
-    """A frame in one line: `RTU, unit 1, 03h read holding registers: request, ...`."""
-    whose = "no unit" if unit is None else f"unit {unit}"
-    named = "" if function is None else f", {function_text(function)}"
-    return f"{framing.upper()}, {whose}{named}: {said}"
+def summary(framing: str, unit: int | None, function: int | None, text: str) -> str:
+    """Return a frame in one line: `RTU, unit 1, 03h read holding registers: request, ...`."""
+    unit_text = "no unit" if unit is None else f"unit {unit}"
+    named = ""
+    if function is not None:
+        name = FUNCTIONS[function].name if function in FUNCTIONS else "(not a function known here)"
+        named = f", {hex_text(function, 2)} {name}"
+    return f"{framing.upper()}, {unit_text}{named}: {text}"
 
 
-def reply_said(request: Request) -> str:
-    """The reply to a request."""
+def reply_text(framing: str, unit: int | None, request: Request) -> str:
+    """Return the summary of the reply to a request."""
     done = "" if request.function in READS else ", the device has taken the request"
-    return f"reply{done}, {span_said(request)}"
-
-
-def data_said(data: bytes) -> str:
-    """The data of a reply whose request is unknown."""
-    return f"reply with {counted(len(data), 'byte')} of data: {spaced(data)}"
-
-
-def data_fault(request: Request, here: int, due: int) -> str:
-    """That a reply brings another number of bytes than its request asks for."""
-    return f"it brings {counted(here, 'byte')}, the request asks for {due} ({counted(request.count, 'item')})"
+    return summary(framing, unit, request.function, f"reply{done}, {span_of_request(request)}")
 
 
 def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
-    """Why a PDU is no request, and if it is a read, why it is no reply either."""
+    """Return why a PDU is no request, and for a read also why it is no reply."""
     problem = flaw_text(flaw)
     if pdu[0] not in READS or len(pdu) < 2:
         return problem
@@ -134,14 +115,8 @@ def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
     return f"as a request: {problem}; as a reply: it says that {follow}, here {here} {len(pdu) - 2}"
 
 
-def function_text(function: int) -> str:
-    """A function with its common name: `06h write one register`."""
-    name = _FUNCTIONS.get(function)
-    return f"{hex_text(function, 2)} {name}" if name else f"{hex_text(function, 2)} (not a function known here)"
-
-
 def exception_text(device: Device, code: int) -> str:
-    """The meaning of an exception, from the manual, else from the protocol."""
+    """Return the meaning of an exception, from the manual, else from the protocol."""
     own = numbered(device.bus.exceptions, code)
     if own is not None:
         return line(f"{hex_text(code, 2)} {own.name}: {own.title['en']}")
@@ -152,33 +127,29 @@ def exception_text(device: Device, code: int) -> str:
     return f"{hex_text(code, 2)}: {meaning}"
 
 
-def span_said(request: Request) -> str:
-    """The addresses of a request in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
+def span_of_request(request: Request) -> str:
+    """Return the addresses of a request in words: `holding 1013h to 1014h (4115 to 4116), 2 words`."""
     if request.function == 0x08:
         return f"sub-function {hex_text(request.address)}"
-    space = SPACE_OF[request.function]
+    space = FUNCTIONS[request.function].space
     where = span_text(request.address, request.address + max(request.count, 1) - 1)
     return f"{space} {where}, {counted(request.count, FAMILY.spaces[space])}"
 
 
 def request_findings(device: Device, request: Request) -> Iterator[str]:
-    """Why the device refuses a request."""
+    """Yield why the device refuses a request."""
     profile = profile_of(device.bus)
     most = profile.most.get(request.function)
     if most is None:
         yield f"the device does not know function {hex_text(request.function, 2)}"
     elif request.count > most:
         yield f"the device takes at most {most} of them in one request"
-    if request.unit == profile.broadcast:
-        yield from _broadcast_findings(request.function, profile)
-    elif strange := strange_unit(device.bus, request.unit):
-        yield strange
+    if request.unit != profile.broadcast:
+        if strange := strange_unit(device.bus, request.unit):
+            yield strange
+    elif request.function not in BROADCAST:
+        yield "broadcast: only writes may be sent to all units"
+    elif request.function not in profile.broadcasts:
+        yield f"broadcast: the device does not accept function {hex_text(request.function, 2)} as a broadcast"
     if request.address + request.count > 0x10000:
         yield "it reaches beyond the last address"
-
-
-def _broadcast_findings(function: int, profile: Profile) -> Iterator[str]:
-    if function not in BROADCAST:
-        yield "broadcast: only writes may be sent to all units"
-    elif function not in profile.broadcasts:
-        yield f"broadcast: the device does not take function {hex_text(function, 2)} so"
