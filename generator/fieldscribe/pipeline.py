@@ -1,4 +1,4 @@
-"""The compiler's table of contents: text in, model and files out. Nothing here prints, exits or writes."""
+"""The table of contents of the compiler: text in, model and files out. Nothing here prints, exits or writes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DEVICE_FILE = "device.yaml"
 
 
 class Models(NamedTuple):
-    """A whole device, the same as code may know it, and where its version stands."""
+    """The whole model of a device, the same as generated code may know it, and the place of its version."""
 
     whole: Device
     plain: Device
@@ -32,11 +32,11 @@ class Models(NamedTuple):
 
 
 class TargetError(Exception):
-    """A target failed; its name is the argument, what happened is the cause."""
+    """A target failed. The argument is its name, the cause is what happened."""
 
 
 def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
-    """The device.yaml files that the paths mean: such a file, its folder, or a folder of such folders."""
+    """Return the device.yaml files for paths to such a file, its folder, or a folder of such folders."""
     device_files: dict[Path, None] = {}
     for path in paths:
         if path.is_file():
@@ -58,7 +58,7 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
 
 
 def device_files_below(folder: Path) -> list[Path]:
-    """The device.yaml files one folder below; folders that cannot be read get their finding later."""
+    """Return the device.yaml files one folder below; an unreadable folder is reported later, when it is read."""
     try:
         names = sorted(os.listdir(folder))
     except OSError:
@@ -67,7 +67,7 @@ def device_files_below(folder: Path) -> list[Path]:
 
 
 def _may_exist(path: Path) -> bool:
-    """Whether something is there. Where we may not look, it may be: reading it then gives the finding."""
+    """Return False if nothing is there. A place without permission counts as a file: reading it gives the finding."""
     try:
         os.lstat(path)
     except (FileNotFoundError, NotADirectoryError, ValueError):
@@ -78,70 +78,36 @@ def _may_exist(path: Path) -> bool:
 
 
 def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
-    """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
+    """Return the model of a description with its digest; None if the description has errors."""
     models = load_models(device_file, report, inputs)
     return None if models is None else models.whole
 
 
-def load_undigested(device_file: Path, report: Report) -> Device | None:
-    """As `load_device`, but without the digest, which only files need."""
-    analysis = _loaded(device_file, report)
-    return None if analysis is None else analysis.devices[0]
-
-
 def load_models(device_file: Path, report: Report, inputs: Inputs | None = None) -> Models | None:
-    """As `load_device`, with the same device as code may know it.
+    """Return both models of a description with their digest; None if the description has errors."""
+    analysis = load_analysis(device_file, report, inputs)
+    return None if analysis is None else Models(*analysis.digested, analysis.scope.header.span("version"))
 
-    `inputs` remembers the files that were read, each with a checksum.
+
+def load_analysis(
+    device_file: Path, report: Report, inputs: Inputs | None = None, *, with_errors: bool = False
+) -> Analysis | None:
+    """Read, validate, interpret, resolve and check a description; None if it has errors.
+
+    If `with_errors` is set, return also what could be resolved of a description with errors; None then means that the
+    head of the device lacks too much. `inputs` records the files that are read, with a checksum each.
     """
-    analysis = _loaded(device_file, report, inputs)
-    return None if analysis is None else Models(*analysis.models, analysis.scope.header.span("version"))
-
-
-def _loaded(device_file: Path, report: Report, inputs: Inputs | None = None) -> Analysis | None:
-    """The parts of a device without errors, whatever the report holds of others."""
     from fieldscribe.language.files import read_files
 
-    own = Report()
-    files = read_files(device_file, own, inputs)
-    analysis = None if files is None else _checked(files, own)
-    report.extend(own)
-    return None if own.has_errors else analysis
-
-
-def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
-    """Whether the run has met no description of this device yet; a second one is a finding. `known` is what it met."""
-    first = known.setdefault(device.id, device_file)
-    if first == device_file:
-        return True
-    message = f"the device `{device.id}` is described twice in this run, first in {shown_path(first)}"
-    hint = f"give one {DEVICE_FILE} another `device`"
-    report.error("duplicate-device", message, Span(shown_path(device_file), 1, 1), hint)
-    return False
-
-
-def load_analysis(device_file: Path, report: Report) -> Analysis | None:
-    """As `load_device`, but with every fact's place in the text, as checks and the audit need it."""
-    from fieldscribe.language.files import read_files
-
-    files = read_files(device_file, report)
-    analysis = None if files is None else _checked(files, report)
-    return None if report.has_errors else analysis
-
-
-def load_so_far(device_file: Path, report: Report) -> Analysis | None:
-    """As `load_analysis`, but also with errors: then what is sound of it. None where the head lacks too much."""
-    from fieldscribe.language.files import read_files
-
-    own = Report()
-    files = read_files(device_file, own)
-    analysis = None if files is None else _checked(files, own)
-    report.extend(own)
-    return analysis
+    findings = Report()
+    files = read_files(device_file, findings, inputs)
+    analysis = None if files is None else _checked(files, findings)
+    report.extend(findings)
+    return None if findings.has_errors and not with_errors else analysis
 
 
 def load_outline(device_file: Path, report: Report) -> tuple[Map, list[PointFacts]] | None:
-    """The head of a device and its points by name, without what they mean: for lists, and quick."""
+    """Return the head of a device and its points, expanded but not resolved: quick, for lists."""
     from fieldscribe.language.files import read_files
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.scope import open_scope
@@ -153,10 +119,21 @@ def load_outline(device_file: Path, report: Report) -> tuple[Map, list[PointFact
     return scope.header, list(expand(scope))
 
 
-def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:
-    """All files of a device: target, path relative to the output folder, and text; the runtime of each target last.
+def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
+    """Return True if no other description of this run has the device's id; `known` collects them by id."""
+    first = known.setdefault(device.id, device_file)
+    if first == device_file:
+        return True
+    message = f"the device `{device.id}` is described twice in this run, first in {shown_path(first)}"
+    hint = f"give one {DEVICE_FILE} another `device`"
+    report.error("duplicate-device", message, Span(shown_path(device_file), 1, 1), hint)
+    return False
 
-    `plain` is the device as code may know it, if it is at hand. Raises TargetError for whatever fails inside a target.
+
+def outputs(device: Device, targets: Iterable[str], plain: Device | None = None) -> Iterator[tuple[str, str, str]]:
+    """Yield all files of a device as (target, path below the output folder, text), the runtime of each target last.
+
+    `plain` is the device as generated code may know it, if the caller has it. Raises TargetError if a target fails.
     """
     from fieldscribe.plain import for_code
     from fieldscribe.targets import target
@@ -180,7 +157,7 @@ def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
 
 
 def _checked(files: Files, report: Report) -> Analysis:
-    """The parts of a device, resolved and checked; with errors they are not to be compiled."""
+    """Resolve and check a device; if there are errors, it must not be compiled."""
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.bus import bus_of
@@ -195,12 +172,12 @@ def _checked(files: Files, report: Report) -> Analysis:
     from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)
-    drafts = expand(scope)
-    index = symbols_of(scope, drafts)
+    expanded = expand(scope)
+    index = symbols_of(scope, expanded)
     bus = bus_of(scope)
     messages = reader_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
-    resolved, ranges, places = resolve_points(scope, drafts, index, telegrams)
+    resolved, ranges, places = resolve_points(scope, expanded, index, telegrams)
     points = {entry.point.item: entry.point for entry in resolved}
     frames = frames_of(scope, bus, index, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)

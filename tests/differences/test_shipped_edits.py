@@ -11,7 +11,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.differences import differences, step_between
 from fieldscribe.differences.changes import fact_of
 from fieldscribe.export import export_model
-from fieldscribe.pipeline import load_so_far
+from fieldscribe.pipeline import load_analysis
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -203,9 +203,9 @@ def shipped(device: str) -> Any:
 
 
 def _exported(folder: Path) -> Any:
-    subject = load_so_far(folder / "device.yaml", Report())
+    subject = load_analysis(folder / "device.yaml", Report(), with_errors=True)
     assert subject is not None
-    return export_model(subject.so_far)
+    return export_model(subject.device)
 
 
 @pytest.mark.full(seconds=1)

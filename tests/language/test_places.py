@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language import positions
-from fieldscribe.pipeline import load_device, load_undigested
+from fieldscribe.pipeline import load_analysis, load_device
 from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:
@@ -45,8 +45,8 @@ def test_a_place_is_looked_for_once_and_compares_with_all_others() -> None:
 
 
 def test_a_device_without_its_digest_is_else_the_same() -> None:
-    whole, bare = load_device(DEVICE, Report()), load_undigested(DEVICE, Report())
+    whole, analysis = load_device(DEVICE, Report()), load_analysis(DEVICE, Report())
     assert whole is not None
-    assert bare is not None
-    assert bare.digest == ""
-    assert replace(whole, digest="") == bare
+    assert analysis is not None
+    assert analysis.device.digest == ""
+    assert replace(whole, digest="") == analysis.device

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.language.nodes import Map
-from fieldscribe.resolve.analysis import Analysis, PrintedFact
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.printed_facts import PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.model import Frame, Point
@@ -74,7 +75,7 @@ def _compare_meaning(analysis: Analysis, open_frame: LocatedFrame, carries: Carr
         if carried != wanted:
             shown = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
-            analysis.disagrees(PrintedFact(open_frame.about, "says", says[word], None, says.span(word), message))
+            analysis.report_printed(PrintedFact(open_frame.about, "says", says[word], None, says.span(word), message))
 
 
 def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: list[Point]) -> None:
@@ -85,7 +86,7 @@ def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: C
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        analysis.disagrees(
+        analysis.report_printed(
             PrintedFact(open_frame.about, "fixed", printed, None, open_frame.node.span("bytes"), message)
         )
 
@@ -100,7 +101,9 @@ def _whole_word(point: Point) -> Point:
 def report_no_frame(analysis: Analysis, open_frame: LocatedFrame, message: str) -> Seen:
     """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
     printed = hex_of(open_frame.frame.printed)
-    analysis.disagrees(PrintedFact(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message))
+    analysis.report_printed(
+        PrintedFact(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message)
+    )
     return Seen(replace(open_frame.frame, valid=False))
 
 
@@ -127,7 +130,7 @@ def report_wrong_error(analysis: Analysis, open_frame: LocatedFrame, carried: in
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        analysis.disagrees(
+        analysis.report_printed(
             PrintedFact(open_frame.about, "error", stated, carried, open_frame.node.span("error"), message)
         )
 
@@ -139,7 +142,7 @@ def report_wrong_sum(analysis: Analysis, open_frame: LocatedFrame, key: str, her
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
         span = open_frame.node.span("bytes")
-        analysis.disagrees(PrintedFact(open_frame.about, key, printed, taken, span, message))
+        analysis.report_printed(PrintedFact(open_frame.about, key, printed, taken, span, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import item_of
-from fieldscribe.resolve.point_facts import groups
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -42,7 +41,7 @@ class _EnumFound(NamedTuple):
 
 def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
     """The names of groups, points and enums as the description gives them: namespace, name, and whose it is."""
-    for group in groups(analysis.scope):
+    for group in analysis.scope.groups:
         name = str(group["group"])
         yield "the list of groups", name, partial(Thing, f"the group `{name}`", group.span("group"))
     for resolved in analysis.resolved:
@@ -145,7 +144,7 @@ class IdentifierPlaces:
             listed = scope.listed(_LISTED[owner.kind])
             return next(node.span("name") for node in listed if node["name"] == owner.name)
         if owner.kind == "group":
-            return next(node.span("group") for node in groups(scope) if node["group"] == owner.name)
+            return next(node.span("group") for node in scope.groups if node["group"] == owner.name)
         if owner.kind == "special codes":
             return self._holder_of_codes(owner).span("special")
         holder = scope.header.get("variants") if owner.kind == "variant" else None

@@ -33,7 +33,7 @@ def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> N
     from fieldscribe.targets import TARGETS, knows, target
     from fieldscribe.targets.identifiers import clashes
 
-    owners, device = IdentifierPlaces(analysis), analysis.sound
+    owners, device = IdentifierPlaces(analysis), analysis.code_device
     kinds = Kinds(device)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
         if language.KEEPS_NAMES and kinds.proves(language.identifiers):

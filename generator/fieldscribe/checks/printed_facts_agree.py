@@ -11,9 +11,9 @@ from fieldscribe.arithmetic.words import number_of
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number, plain_number
-from fieldscribe.resolve.analysis import Analysis, PrintedFact, same
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.numbering import WIRE
+from fieldscribe.resolve.printed_facts import PrintedFact, same
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.model import Allowed, Point
+    from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.points import ResolvedPoint
 
 _LOW, _HIGH, _WRITE = "low_", "high_", "write_"
@@ -138,7 +139,7 @@ def _number(analysis: Analysis, resolved: ResolvedPoint, key: str, printed: Map,
         if number != right:
             fact = f"{key.replace('_', ' ')} {printed_number}"
             message = f"{fact} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
-            analysis.disagrees(PrintedFact(point.name, key, printed_number, right, span, message))
+            analysis.report_printed(PrintedFact(point.name, key, printed_number, right, span, message))
 
 
 def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
@@ -166,7 +167,7 @@ def _range(analysis: Analysis, resolved: ResolvedPoint, key: str, value: Any, sp
     taken = taken or as_text(resolved.facts.get(key) or resolved.facts.get("range") or "another")
     message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
     right = PrintedFact(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
-    analysis.disagrees(right)
+    analysis.report_printed(right)
 
 
 def _units(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:
@@ -181,7 +182,7 @@ def _units(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) 
     if not agrees(value):
         taken = wording.range_text(point)
         message = f"the range {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-        analysis.disagrees(PrintedFact(point.name, "range_in_units", value, taken, span, message, agrees))
+        analysis.report_printed(PrintedFact(point.name, "range_in_units", value, taken, span, message, agrees))
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
@@ -210,7 +211,7 @@ def _resolution(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: S
     right = f"{number_text(step)} {point.unit.symbol}".strip()
     if printed_step != step or (unit.strip() and not same(unit, point.unit.symbol)):
         message = f"the resolution {value} is printed for `{point.name}`, the scale says {right}"
-        analysis.disagrees(PrintedFact(point.name, "resolution", value, right, span, message))
+        analysis.report_printed(PrintedFact(point.name, "resolution", value, right, span, message))
 
 
 def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
@@ -238,7 +239,7 @@ def _pairs(analysis: Analysis, resolved: ResolvedPoint, pairs: Map) -> None:
         if half_away(rule.argument(printed_value)) != raw and abs(exact - printed_value) > _half_digit(value):
             pair, right = f"{key} {value}", f"{key} {number_text(exact)}"
             message = f"the pair {pair} is printed for `{point.name}`, the scale says {number_text(exact)}"
-            analysis.disagrees(PrintedFact(point.name, "pairs", pair, right, pairs.span(key), message))
+            analysis.report_printed(PrintedFact(point.name, "pairs", pair, right, pairs.span(key), message))
 
 
 def _half_digit(value: Any) -> Fraction:
@@ -280,7 +281,7 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
             if printed_number not in (None, right, other):
                 as_printed, shown = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
                 message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {shown}"
-                analysis.disagrees(PrintedFact(point.name, key, as_printed, shown, span, message, flag=flag.name))
+                analysis.report_printed(PrintedFact(point.name, key, as_printed, shown, span, message, flag=flag.name))
 
 
 def _choices(analysis: Analysis, resolved: ResolvedPoint, value: int, span: Span) -> None:
@@ -292,4 +293,4 @@ def _choices(analysis: Analysis, resolved: ResolvedPoint, value: int, span: Span
         right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
         message = f"{value} choices are printed for `{point.name}`, taken are {right}"
-        analysis.disagrees(PrintedFact(point.name, "choices", value, right, span, message))
+        analysis.report_printed(PrintedFact(point.name, "choices", value, right, span, message))

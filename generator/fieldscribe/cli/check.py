@@ -33,16 +33,16 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import description_paths, print_json, report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import find_devices, is_new, load_undigested
+    from fieldscribe.pipeline import find_devices, is_new, load_analysis
     from fieldscribe.report import as_data
 
     as_text = arguments.format == "text"
     report, good = Report(), []
     known: dict[str, Path] = {}
     for device_file in find_devices(description_paths(arguments.paths), report):
-        device = load_undigested(device_file, report)
-        if device is not None and is_new(device, device_file, known, report):
-            good.append(_facts(device))
+        analysis = load_analysis(device_file, report)
+        if analysis is not None and is_new(analysis.device, device_file, known, report):
+            good.append(_facts(analysis.device))
             if as_text:
                 print(_line(good[-1]), flush=True)
     if as_text:

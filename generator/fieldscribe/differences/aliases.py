@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Seq
-from fieldscribe.pipeline import load_so_far
+from fieldscribe.pipeline import load_analysis
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -107,12 +107,12 @@ def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, 
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(text.encode("utf-8"))
         report = Report()
-        subject = load_so_far(Path(copy, os.path.basename(sources[0].name)), report)
+        subject = load_analysis(Path(copy, os.path.basename(sources[0].name)), report, with_errors=True)
     before = {(finding.rule, finding.message) for finding in described.subject.report.findings}
     new = next((each.message for each in report.findings if (each.rule, each.message) not in before), "")
     if subject is None or new:
         return [], new or "the description could not be read again"
-    known = {point.item: point.was for point in subject.so_far.points}
+    known = {point.item: point.was for point in subject.device.points}
     pairs = [pair for alias in aliases for pair in alias.points]
     return [(item, old) for item, old in pairs if old not in known.get(item, ())], ""
 

@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.identifier_places import IdentifierPlaces
-from fieldscribe.resolve.point_facts import groups
 from fieldscribe.targets.identifiers import Owner
 
 if TYPE_CHECKING:
@@ -57,7 +56,7 @@ class Described:
 
     def __init__(self, subject: Analysis) -> None:
         self._subject = subject
-        self.device: Device = subject.so_far
+        self.device: Device = subject.device
         self.points: Mapping[str, Point] = {point.item: point for point in self.device.points}
 
     @property
@@ -145,7 +144,7 @@ class Described:
         """What is declared by a key."""
         scope = self._subject.scope
         if kind == "group":
-            return next((node.span("group") for node in groups(scope) if node["group"] == name), None)
+            return next((node.span("group") for node in scope.groups if node["group"] == name), None)
         if kind in _OF_BUS:
             owner = Owner(kind, name)
             return _found(lambda: self._owners.thing(owner).place)

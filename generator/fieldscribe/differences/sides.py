@@ -14,7 +14,7 @@ from fieldscribe.differences.revisions import copied
 from fieldscribe.differences.table import Exported, UnfitError
 from fieldscribe.export import export_model
 from fieldscribe.export.contract import ContractError, model_from
-from fieldscribe.pipeline import find_devices, is_new, load_so_far
+from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.safe_files import read_regular, shown_path
 
 if TYPE_CHECKING:
@@ -87,8 +87,8 @@ def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[st
     known: dict[str, Path] = {}
     sides = {}
     for device_file in find_devices([path], report):
-        subject = load_so_far(device_file, report)
-        if subject is not None and is_new(subject.so_far, device_file, known, report):
+        subject = load_analysis(device_file, report, with_errors=True)
+        if subject is not None and is_new(subject.device, device_file, known, report):
             described = Described(subject)
             side = Side(
                 export_model(described.device), described, shown_path(device_file), name_of, copied=name_of is not str

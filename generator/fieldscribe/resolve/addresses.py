@@ -10,8 +10,8 @@ from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number
 from fieldscribe.model import NOWHERE, TYPES, Place
-from fieldscribe.resolve.elements import ALONE
 from fieldscribe.resolve.numbering import Numberings
+from fieldscribe.resolve.point_facts import ALONE
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import formula_value, integer
 from fieldscribe.wording.exact import number_text

@@ -1,52 +1,42 @@
-"""What the checks look at: the resolved parts of one device, with their places in the text."""
+"""The analysis of one device: what was resolved, with its places in the text, and the model that follows from it.
+
+`pipeline` makes it; checks and the audit read it, because the model itself knows no places in the text.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from fractions import Fraction
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Block, Device, Enum, Group
+from fieldscribe.plain import for_code, with_digest
+from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.printed_facts import fact_text, same
+from fieldscribe.resolve.scope import humanised, source_of, titles
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import About, Bus, Command, Device, Frame, Message
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.model import About, Bus, Command, Frame, Message, Point
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.errata import LocatedErratum
     from fieldscribe.resolve.frames import LocatedFrame
     from fieldscribe.resolve.points import ResolvedPoint
+    from fieldscribe.resolve.printed_facts import PrintedFact
     from fieldscribe.resolve.ranges import Ranges
     from fieldscribe.resolve.scope import Scope
     from fieldscribe.resolve.symbols import SymbolTable
 
-
-@dataclass(frozen=True, slots=True)
-class PrintedFact:
-    """A printed fact that disagrees with the description: whom it is about, its key, its place, and the message.
-
-    `taken` is what the description has instead; None if only an erratum can tell the right value. `right` compares
-    what an erratum says was taken, where comparing numbers or texts is not enough. `flag` is the flag that it is about.
-    """
-
-    about: About
-    key: str
-    printed: Any
-    taken: Any
-    span: Span
-    message: str
-    right: Callable[[Any], bool] | None = None
-    flag: str | None = None
-
-    def fits(self, stated: Any) -> bool:
-        """Whether an erratum's `taken` is what the description has."""
-        return self.right(stated) if self.right is not None else same(stated, self.taken)
+_NO_VERSION = "0.0.0"
+"""The version of a device whose version has a finding: its names are compared all the same."""
 
 
-@dataclass(slots=True)
+@dataclass
 class Analysis:
-    """One device under check. `frames` collects the checked frames; `cited` finds errata by what they are about."""
+    """One resolved device. The checks fill `frames`; `cited` finds errata by what they are about."""
 
     scope: Scope
     index: SymbolTable
@@ -60,109 +50,129 @@ class Analysis:
     errata: list[LocatedErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)
-    _devices: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
-            for analysis in erratum.subjects:
-                self.cited.setdefault(analysis, []).append(erratum)
-
-    @property
-    def bus_is_whole(self) -> bool:
-        """Whether everything under `bus` could be read; if not, checks that need it are left out."""
-        return self.scope.bus is not None and not _lost(self.scope.bus)
-
-    @property
-    def devices(self) -> tuple[Device, Device]:
-        """The whole device and the same as code may know it, without a digest; only for a device without errors."""
-        if self._devices is None:
-            from fieldscribe.resolve.device import build_device
-
-            self._devices = build_device(self)
-        return self._devices
-
-    @property
-    def models(self) -> tuple[Device, Device]:
-        """Both devices with their digest, which costs as much as all checks: who writes no files does without."""
-        from fieldscribe.plain import with_digest
-
-        return with_digest(*self.devices)
-
-    @property
-    def sound(self) -> Device:
-        """The device as code sees it, without the points that have findings."""
-        from fieldscribe.resolve.device import sound_device
-
-        return sound_device(self) if self.report.has_errors else self.devices[1]
-
-    @property
-    def so_far(self) -> Device:
-        """The whole device; of one with errors what is sound."""
-        from fieldscribe.resolve.device import sound_device
-
-        return sound_device(self) if self.report.has_errors else self.devices[0]
+            for subject in erratum.subjects:
+                self.cited.setdefault(subject, []).append(erratum)
 
     @property
     def report(self) -> Report:
-        """Where findings go."""
+        """Return where findings go."""
         return self.scope.report
 
-    def disagrees(self, fact: PrintedFact) -> None:
-        """Report a printed fact that disagrees, unless an erratum gives what is printed and what was taken."""
+    @property
+    def bus_is_whole(self) -> bool:
+        """Return True if everything under `bus` could be read; checks that need all of it run only then."""
+        return self.scope.bus is not None and not _is_broken(self.scope.bus)
+
+    @cached_property
+    def device(self) -> Device:
+        """Return the model, without a digest.
+
+        If there are errors, it has only the points that have no finding and need no point that has one.
+        """
+        resolved = {entry.point.item: entry for entry in self.resolved}
+        if self.report.has_errors:
+            resolved = {item: entry for item, entry in resolved.items() if not entry.facts.failed}
+            known = {entry.point.name for entry in resolved.values()} | resolved.keys()
+            while lost := [item for item, entry in resolved.items() if not known.issuperset(entry.point.arguments)]:
+                known -= {name for item in lost for name in (item, resolved.pop(item).point.name)}
+        return self._device_of([entry.point for entry in resolved.values()])
+
+    @cached_property
+    def code_device(self) -> Device:
+        """Return the model as generated code may know it, without a digest."""
+        return for_code(self.device)
+
+    @property
+    def digested(self) -> tuple[Device, Device]:
+        """Return `device` and `code_device` with their digest. It takes as long as all checks, and only files need it."""
+        return with_digest(self.device, self.code_device)
+
+    def report_printed(self, fact: PrintedFact) -> None:
+        """Report a printed fact that differs, unless an erratum says what is printed and what was taken instead."""
         for erratum in self.cited.get(fact.about, ()):
             stated = erratum.printed(fact.key)
-            if erratum.node.get("flag") != fact.flag:
-                continue
-            if stated is None or not same(stated, fact.printed):
-                continue
-            erratum.used.add(fact.key)
-            taken = erratum.node["taken"].get(fact.key) if isinstance(erratum.node["taken"], Map) else None
-            if taken is None or (fact.taken is not None and not fact.fits(taken)):
-                message = f"the erratum takes {_shown(taken)} for `{fact.key}`, the facts say {_shown(fact.taken)}"
-                if taken is None:
-                    message = f"the erratum does not say what was taken for `{fact.key}`"
-                hint = f"write `taken: {{{fact.key}: {_shown(fact.taken)}}}`"
-                self.report.error("erratum-differs", message, erratum.node.span("taken"), hint)
-            return
+            if erratum.node.get("flag") == fact.flag and stated is not None and same(stated, fact.printed):
+                erratum.used.add(fact.key)
+                self._check_taken(erratum.node, fact)
+                return
         named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
-        hint = (
-            f"correct the fact, or explain it: an erratum with {named}`printed: {{{fact.key}: {_shown(fact.printed)}}}`"
-        )
+        printed = f"`printed: {{{fact.key}: {fact_text(fact.printed)}}}`"
+        hint = f"correct the fact, or explain it: an erratum with {named}{printed}"
         self.report.error("printed-disagrees", fact.message, fact.span, hint)
 
+    def _check_taken(self, erratum: Map, fact: PrintedFact) -> None:
+        """Report an erratum whose `taken` is missing or differs from the description."""
+        taken = erratum["taken"].get(fact.key) if isinstance(erratum["taken"], Map) else None
+        if taken is not None and (fact.taken is None or fact.fits(taken)):
+            return
+        message = f"the erratum takes {fact_text(taken)} for `{fact.key}`, the facts say {fact_text(fact.taken)}"
+        if taken is None:
+            message = f"the erratum does not say what was taken for `{fact.key}`"
+        hint = f"write `taken: {{{fact.key}: {fact_text(fact.taken)}}}`"
+        self.report.error("erratum-differs", message, erratum.span("taken"), hint)
 
-def _lost(value: Any) -> bool:
-    """Whether some key in a mapping, at any depth, could not be read."""
-    return isinstance(value, Map) and (bool(value.broken) or any(map(_lost, value.values())))
+    def _device_of(self, resolved: list[Point]) -> Device:
+        scope, header = self.scope, self.scope.header
+        variants = {axis: tuple(entry["values"]) for axis, entry in scope.axes.items()}
+        points = tuple(self._with_errata(resolved))
+        return Device(
+            id=str(header["device"]),
+            version=str(header.get("version", _NO_VERSION)),
+            vendor=str(header.get("vendor", "")),
+            model=str(header.get("model", "")),
+            title=titles(header.get("title")),
+            note=titles(header.get("note")),
+            family=str(header["family"]),
+            documents=tuple(scope.documents.values()),
+            variants=variants,
+            bus=self.bus,
+            groups=tuple(_groups(scope)),
+            points=points,
+            enums=_enums(points),
+            blocks=self._blocks(points, variants),
+            commands=self.commands,
+            frames=tuple(self.frames),
+            errata=tuple(located.erratum for located in self.errata),
+            digest="",
+            messages=self.messages,
+            telegrams=tuple(telegram for telegram, _ in self.places.telegrams.values()),
+        )
+
+    def _with_errata(self, points: Iterable[Point]) -> Iterator[Point]:
+        """Yield the points with the ids of the errata that name them."""
+        ids = {about: tuple(dict.fromkeys(each.erratum.id for each in errata)) for about, errata in self.cited.items()}
+        for point in points:
+            yield replace(point, errata=ids[point.name]) if point.name in ids else point
+
+    def _blocks(self, points: Iterable[Point], variants: dict[str, tuple[str, ...]]) -> dict[str, tuple[Block, ...]]:
+        """Return the reads that the family plans for each group."""
+        by_group: dict[str, list[Point]] = {}
+        for point in points:
+            by_group.setdefault(point.group, []).append(point)
+        reader = reader_of(self.scope)
+        planned = {group: reader.blocks(self.bus, members, variants) for group, members in by_group.items()}
+        return {group: blocks for group, blocks in planned.items() if blocks is not None}
 
 
-def same(left: Any, right: Any) -> bool:
-    """Whether two facts are equal: as numbers in any notation, as texts without regard to blanks and case."""
-    if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
-        lefts, rights = _listed(left), _listed(right)
-        return len(lefts) == len(rights) and all(same(left, other) for left, other in zip(lefts, rights, strict=True))
-    numbers = [_number(left), _number(right)]
-    if None not in numbers:
-        return numbers[0] == numbers[1]
-    return "".join(str(left).split()).lower() == "".join(str(right).split()).lower()
+def _groups(scope: Scope) -> Iterator[Group]:
+    for node in scope.groups:
+        name = str(node["group"])
+        yield Group(name, titles(node.get("title"), humanised(name)), titles(node.get("note")), source_of(scope, node))
 
 
-def _listed(value: Any) -> list[Any]:
-    if isinstance(value, Iterable) and not isinstance(value, str):
-        return list(value)
-    return [part for part in str(value).split(",") if part.strip()]
+def _enums(points: Iterable[Point]) -> tuple[Enum, ...]:
+    """Return the enums that generated points use, each name once."""
+    by_name: dict[str, Enum] = {}
+    for point in points:
+        for enum in (point.enum, None if point.digits is None else point.digits.enum):
+            if enum is not None and point.generated:
+                by_name.setdefault(enum.name, enum)
+    return tuple(by_name.values())
 
 
-def _number(value: Any) -> Fraction | None:
-    if isinstance(value, str):
-        try:
-            return parse_number(value)
-        except NumberError:
-            return None
-    return Fraction(value) if value is not None else None
-
-
-def _shown(value: Any) -> str:
-    if isinstance(value, Seq | list | tuple):
-        return "[" + ", ".join(map(str, value)) + "]"
-    return "…" if value is None else str(value)
+def _is_broken(value: Any) -> bool:
+    """Return True if a key in a mapping, at any depth, could not be read."""
+    return isinstance(value, Map) and (bool(value.broken) or any(map(_is_broken, value.values())))

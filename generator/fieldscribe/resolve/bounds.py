@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -127,17 +128,34 @@ class Bounds:
         nearest = {divisor for divisor in (1, -1) if low <= divisor <= high}  # zero itself is an error at run time
         return {Fraction(1, divisor) for divisor in {low, high, *nearest} if divisor} or {Fraction(1)}
 
-    def exponents_fit(self, rule: Linear, span: Span) -> bool:
-        """Whether the range of every point that is an exponent of ten lies within MOST_EXPONENT; a finding if not."""
-        for factor in rule.factors:
-            if factor.ten_to and max(map(abs, self.ends_of(factor))) > MOST_EXPONENT:
-                low, high = self.ends_of(factor)
-                name = self.scales.index.by_item(factor.point).name
-                message = f"`{name}` is an exponent and can be {low}..{high}"
-                hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
-                self.scales.scope.report.error("exponent-range", message, span, hint)
-                return False
-        return True
+    def with_exponents(self, rule: Linear, span: Span) -> Linear:
+        """Return the rule with the raw numbers that each exponent of ten may be.
+
+        Raises UnknownError after a finding for an exponent that can exceed MOST_EXPONENT.
+        """
+        return replace(rule, factors=tuple([self._with_exponents(factor, span) for factor in rule.factors]))
+
+    def _with_exponents(self, factor: Factor, span: Span) -> Factor:
+        if not factor.ten_to:
+            return factor
+        low, high = self.ends_of(factor)
+        if max(abs(low), abs(high)) > MOST_EXPONENT:
+            name = self.scales.index.by_item(factor.point).name
+            message = f"`{name}` is an exponent and can be {low}..{high}"
+            hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
+            self.scales.scope.report.error("exponent-range", message, span, hint)
+            raise UnknownError
+        return replace(factor, exponents=self._without_codes(factor.point))
+
+    def _without_codes(self, item: str) -> tuple[int, int]:
+        """Return the hull of a point without the special codes at its ends."""
+        low, high = self.hull(item)
+        codes = self.specials[self.scales.index.by_item(item)]
+        for code in sorted(codes, key=lambda code: code.low):
+            low = code.high + 1 if code.low <= low <= code.high else low
+        for code in sorted(codes, key=lambda code: -code.high):
+            high = code.low - 1 if code.low <= high <= code.high else high
+        return low, high
 
     def encoded(self, facts: PointFacts, limit: Linear, span: Span) -> Linear:
         """A limit in units as a limit in raw numbers. Raises UnknownError after a finding."""

@@ -11,8 +11,7 @@ from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Code
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.point_facts import humanised
-from fieldscribe.resolve.scope import Scope, titles
+from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from fieldscribe.language.meant import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.point_facts import humanised
-from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:

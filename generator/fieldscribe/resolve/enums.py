@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Entry, Enum, Flag
-from fieldscribe.resolve.point_facts import PointFacts, humanised
-from fieldscribe.resolve.scope import Scope, titles
+from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import bits_named, integer
 
 if TYPE_CHECKING:
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.point_facts import PointFacts
 
 
 _WIDEST = 63

@@ -10,9 +10,9 @@ from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Variant, item_of
-from fieldscribe.resolve.elements import Element, elements_of, set_title
-from fieldscribe.resolve.point_facts import PointFacts, groups, humanised
-from fieldscribe.resolve.scope import Scope, titles
+from fieldscribe.resolve.elements import elements_of
+from fieldscribe.resolve.point_facts import Element, PointFacts, set_title
+from fieldscribe.resolve.scope import Scope, humanised, titles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,7 +34,7 @@ _OF_RECORDS = inherited(USE)
 def expand(scope: Scope) -> list[PointFacts]:
     """All points of all groups, in the order of the text; a finding when there are more than MOST_POINTS."""
     expanded: list[PointFacts] = []
-    for group in groups(scope):
+    for group in scope.groups:
         for point in group.get("points", ()):
             expanded.extend(_point(scope, group, point))
             if len(expanded) > MOST_POINTS:

@@ -9,8 +9,7 @@ from fieldscribe.families import families
 from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.frame_meanings import meaning_of
-from fieldscribe.resolve.point_facts import humanised
-from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

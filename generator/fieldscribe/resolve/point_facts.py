@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import inherited
@@ -10,13 +11,11 @@ from fieldscribe.language.keys.places import GROUP
 from fieldscribe.model import TYPES, Titles, item_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Mapping
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Variant
-    from fieldscribe.resolve.elements import Element
-    from fieldscribe.resolve.scope import Scope
 
 _INHERITED = inherited(GROUP)
 """Keys that a group may set for its points."""
@@ -27,6 +26,68 @@ _RIVALS = {
     for stated, rival in (pair, pair[::-1])
 }
 """Pairs of keys that say one fact: the key that the nearer layer has hides the other one of farther layers."""
+
+
+_SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
+_INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One of the points that a row stands for.
+
+    `set_number` and `index` tell which one, None where the row has no sets or indices; `sets` and `indices` tell how
+    many there are. `counted` holds those of the keys `sets` and `indices` that the row has.
+    """
+
+    set_number: int | None
+    sets: int
+    index: int | None
+    indices: int
+    suffix: str
+    counted: tuple[str, ...]
+
+    def values(self, number: int) -> Mapping[str, Fraction]:
+        """What an addressing rule may name; a point outside sets and arrays is in set 1, at index 1."""
+        return {
+            "number": Fraction(number),
+            "index": Fraction(1 if self.index is None else self.index),
+            "set": Fraction(1 if self.set_number is None else self.set_number),
+            "sets": Fraction(self.sets),
+            "indices": Fraction(self.indices),
+        }
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys under `each` that mean this element, the most exact first: `set/index`, `index`; or `set` alone."""
+        if self.index is None:
+            return () if self.set_number is None else (f"{self.set_number}",)
+        by_index = (f"{self.index}",)
+        return by_index if self.set_number is None else (f"{self.set_number}/{self.index}", *by_index)
+
+    def titled(self, title: Titles) -> Titles:
+        """The title of this element: that of the row, with its set and index."""
+        words = [
+            (words, number)
+            for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
+            if key in self.counted and number is not None and self.suffix
+        ]
+        if not words:
+            return title
+        return {language: f"{text} ({_words_in(words, language)})" for language, text in title.items()}
+
+
+def set_title(title: Titles, number: int) -> Titles:
+    """The title of a point in a further set."""
+    return {language: f"{text} ({_words_in([(_SET_WORDS, number)], language)})" for language, text in title.items()}
+
+
+ALONE = Element(None, 1, None, 1, "", ())
+"""The one element of a row without sets and indices."""
+
+
+def _words_in(words: list[tuple[dict[str, str], int]], language: str) -> str:
+    return ", ".join(texts.get(language, texts["en"]).format(number) for texts, number in words)
 
 
 @dataclass(slots=True, eq=False)
@@ -154,15 +215,3 @@ class PointFacts:
     def item(self) -> str:
         """The name with the variant's value."""
         return item_of(self.name, self.variant)
-
-
-def groups(scope: Scope) -> Iterator[Map]:
-    """The groups of the device, as the text has them."""
-    for document in scope.files:
-        if "group" in document and "space" in document:
-            yield document
-
-
-def humanised(name: str) -> str:
-    """`base_frequency` as `Base frequency`."""
-    return name.replace("_", " ").capitalize()

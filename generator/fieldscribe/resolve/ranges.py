@@ -157,8 +157,7 @@ class Ranges:
 
     def _limit(self, facts: PointFacts, rule: Linear, span: Span) -> Limit:
         """A limit that other points set, with the least and greatest number that it can be."""
-        if not self.bounds.exponents_fit(rule, span):
-            raise UnknownError
+        rule = self.bounds.with_exponents(rule, span)
         own_least, own_greatest = self.bounds.holds[facts]
         corners = [half_away(corner) for corner in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))

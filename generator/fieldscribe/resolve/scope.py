@@ -1,4 +1,7 @@
-"""What the files of one device declare for all its points: units, enums, formats, records, documents, variants."""
+"""Looks up what the files of a device declare for all points: units, enums, formats, records, documents, variants.
+
+`open_scope` makes the scope from the files; every later step of `resolve` asks it by name and reports through it.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
 _SOURCE = tuple(keys_of(SOURCE))
 _STATED, _LINE = {*_SOURCE, "source"}, {"line"}
 PLAIN = Unit("", "number", "number")
-"""The unit of a number without one."""
+"""The unit of a number that has none."""
 
 SECTIONS = {
     "command": "commands",
@@ -47,12 +50,12 @@ SECTIONS = {
     "unit": "units",
     "variant": "variants",
 }
-"""What a word can name, each with the key under which that is declared."""
+"""The kinds of things that a word can name, each with the key under which it is declared."""
 
 
 @dataclass(slots=True)
 class Scope:
-    """Declarations of a device by name. The first of two with one name wins; the second is a finding."""
+    """The declarations of one device by name. Of two with the same name the second is reported and ignored."""
 
     files: tuple[Map, ...]
     report: Report
@@ -66,27 +69,34 @@ class Scope:
 
     @property
     def header(self) -> Map:
-        """The mapping of device.yaml."""
+        """Return the mapping of device.yaml."""
         return self.files[0]
 
     @property
     def family(self) -> Family:
-        """The rules of the device's family."""
+        """Return the rules of the device's family."""
         return family(str(self.header["family"]))
 
     @property
     def axes(self) -> Mapping[str, Map]:
-        """The variant axes by name."""
+        """Return the variant axes by name."""
         axes: Map = self.header.get("variants", {})
         return axes
 
     @property
     def bus(self) -> Map | None:
-        """The mapping under `bus`, from the file that says it."""
+        """Return the mapping under `bus`, from the first file that has one."""
         return next((file["bus"] for file in self.files if "bus" in file), None)
 
+    @property
+    def groups(self) -> Iterator[Map]:
+        """Yield the groups of the device in the order of the text."""
+        for file in self.files:
+            if "group" in file and "space" in file:
+                yield file
+
     def declared(self, section: str) -> dict[str, Map]:
-        """All declarations of a section over all files, by name; a name declared twice is a finding."""
+        """Return the declarations of a section in all files by name; report a name that is declared twice."""
         seen: dict[str, Map] = {}
         declarations: dict[str, Map] = {}
         for file in self.files:
@@ -103,21 +113,34 @@ class Scope:
         return declarations
 
     def listed(self, section: str) -> Iterator[Map]:
-        """All items of a list section over all files."""
+        """Yield the items of a list section in all files."""
         for file in self.files:
             yield from file.get(section, ())
 
+    def unique(self, section: str, key: str = "name") -> Iterator[Map]:
+        """Yield the items of a list section in all files; report and skip those whose `key` was given before."""
+        first: dict[str, Span] = {}
+        for node in self.listed(section):
+            name, span = str(node[key]), node.span(key)
+            if name in first:
+                message = f"two {section} have the {key} `{name}`"
+                related = [(first[name], "first given here")]
+                self.report.error("duplicate-name", message, span, "rename one of them", related)
+            else:
+                first[name] = span
+                yield node
+
     def unit(self, symbol: str) -> Unit | None:
-        """The unit of that symbol: the description's own, else a shipped one."""
+        """Return the unit of that symbol: the description's own, else a shipped one; None if there is none."""
         return self.units.get(symbol) or shipped_unit(symbol)
 
     def is_lost(self, word: str, section: str) -> bool:
-        """Whether a word may name something that was left out because it has a finding of its own."""
+        """Return True if the word may name something that was left out because of an earlier finding."""
         marks = {word, f"*{section}"}
         return not self.complete or any(marks & file.file.lost for file in self.files)
 
     def unknown(self, what: str, word: str, span: Span, known: Collection[str], hint: str | None = None) -> None:
-        """A finding for a word that names nothing; `what` is a key of `SECTIONS`, `known` are the existing names."""
+        """Report a word that names nothing; `what` is a key of `SECTIONS`, `known` are the existing names."""
         section = SECTIONS[what]
         if self.report.full or self.is_lost(word, section):
             return
@@ -135,7 +158,7 @@ def _known_hint(known: Collection[str], section: str) -> str:
 
 
 def open_scope(files: Files, report: Report) -> Scope:
-    """The declarations of the files."""
+    """Return the declarations of the files."""
     scope = Scope(files.maps, report, files.complete)
     units = {symbol: Unit(symbol, unit["name"], unit["quantity"]) for symbol, unit in scope.declared("units").items()}
     scope.units = units
@@ -148,8 +171,13 @@ def open_scope(files: Files, report: Report) -> Scope:
     return scope
 
 
+def humanised(name: str) -> str:
+    """Return a name as words: `base_frequency` as `Base frequency`."""
+    return name.replace("_", " ").capitalize()
+
+
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:
-    """A title by language from its YAML; `otherwise` is the English one when there is none."""
+    """Return a title by language from its YAML value; `otherwise` stands in for a missing English one."""
     if value is None:
         return {"en": otherwise} if otherwise else {}
     if isinstance(value, str):
@@ -158,26 +186,26 @@ def titles(value: Map | str | None, otherwise: str = "") -> Titles:
 
 
 def first_line(value: object) -> int | None:
-    """The line where something begins: of `780..790` the first."""
+    """Return the first line of a citation: 780 for `780..790`."""
     if isinstance(value, str):
         return parse_integer(value.partition("..")[0])
     return value if isinstance(value, int) else None
 
 
 def source_of(scope: Scope, *layers: Map) -> Source:
-    """The source that the layers (own facts first) give together; without a document, the first one."""
+    """Return the source that the layers cite together, nearest first; without a document, the device's first one."""
     return _source(scope, _cited(layers))
 
 
 class Sources:
-    """The sources of points; what their formats and groups cite is read once."""
+    """Finds the sources of points. What formats and groups cite is read once."""
 
     def __init__(self, scope: Scope) -> None:
         self._scope = scope
         self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
 
     def of(self, facts: PointFacts) -> Source:
-        """The source of a point: mostly that of its group, with a line of its own."""
+        """Return the source of a point: usually that of its group, with the point's own line."""
         own, *others = facts.layers
         key = (*map(id, others), id(facts.group))
         known = self._shared.get(key)
@@ -191,7 +219,7 @@ class Sources:
 
 
 def _cited(layers: Iterable[Map]) -> dict[str, object]:
-    """What the layers say of a source, the first of them that says it."""
+    """Return what the layers cite by key; the first layer that has a key wins."""
     facts: dict[str, object] = {}
     for layer in layers:
         for key in _SOURCE:

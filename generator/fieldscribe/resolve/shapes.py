@@ -13,7 +13,8 @@ from fieldscribe.resolve.alike import Once, frozen
 from fieldscribe.resolve.display import display_of
 from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.integer_path import asks_limits, paths_of
-from fieldscribe.resolve.point_facts import humanised
+from fieldscribe.resolve.scales import UnknownError
+from fieldscribe.resolve.scope import humanised
 from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.symbols import bits_of, space_of, type_of
 from fieldscribe.resolve.word_contents import allowed_digits, digits_of, fixed_of, text_of
@@ -181,11 +182,13 @@ def _is_free(facts: PointFacts, shape: Shape, word: Word) -> bool:
 def _cases(facts: PointFacts, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
     """The cases of the point's scale; None without a scale, or if an exponent in it is too large (a finding)."""
     cases = None if facts.floating else bounds.scales.cases(facts)
-    for case in cases or ():
-        if case.rule.factors and not bounds.exponents_fit(case.rule, facts.span("scale")):
-            facts.failed.add("scale")
-            return None
-    return cases
+    if cases is None or not any(case.rule.factors for case in cases):
+        return cases
+    try:
+        return tuple([replace(case, rule=bounds.with_exponents(case.rule, facts.span("scale"))) for case in cases])
+    except UnknownError:
+        facts.failed.add("scale")
+        return None
 
 
 def _all_named(allowed: Allowed, enum: Enum) -> bool:

@@ -10,7 +10,6 @@ from fieldscribe.arithmetic.words import ends_of, number_of
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.enums import entry_titles, name_of
-from fieldscribe.resolve.point_facts import groups
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
@@ -59,7 +58,7 @@ class SpecialCodes:
 
     def check_types(self) -> None:
         """Check all codes under `types`, also those of types that no point has."""
-        for holder in (self.scope.header, *groups(self.scope)):
+        for holder in (self.scope.header, *self.scope.groups):
             for kind, facts in holder.get("types", {}).items():
                 if "special" in facts:
                     self.held(facts["special"], kind, TYPES[kind].bits)

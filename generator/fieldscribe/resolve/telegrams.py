@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.model import Message, Telegram
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.point_facts import humanised
-from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span

@@ -8,7 +8,7 @@ from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
 from fieldscribe.resolve.enums import entries_of
-from fieldscribe.resolve.point_facts import humanised
+from fieldscribe.resolve.scope import humanised
 from fieldscribe.resolve.values import bits_named, integer
 from fieldscribe.schema_types import TEXTS
 

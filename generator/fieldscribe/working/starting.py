@@ -110,7 +110,7 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
 
     Raises FileExistsError, another OSError, or NotStartedError.
     """
-    from fieldscribe.pipeline import load_undigested
+    from fieldscribe.pipeline import load_analysis
 
     if os.path.lexists(folder):
         raise FileExistsError(str(folder))
@@ -124,7 +124,7 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
         if not schema_above:
             write_schema(made / SCHEMA_FILE)
         report = Report()
-        if load_undigested(made / DEVICE_FILE, report) is None:
+        if load_analysis(made / DEVICE_FILE, report) is None:
             raise NotStartedError(report.findings[0])
         names = sorted(os.listdir(made))
         made.rename(folder)

@@ -13,8 +13,7 @@ from fieldscribe.language.formula import FormulaError, evaluate, parse_expressio
 from fieldscribe.language.numbers import NumberError, parse_integer, shown
 from fieldscribe.model import Bus, Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader
-from fieldscribe.resolve.point_facts import humanised
-from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import bits_named, formula_finding, integer
 
 if TYPE_CHECKING:

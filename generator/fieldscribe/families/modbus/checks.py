@@ -14,11 +14,12 @@ from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
-from fieldscribe.resolve.analysis import Analysis, PrintedFact
+from fieldscribe.resolve.printed_facts import PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Point
+    from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.frames import LocatedFrame
     from fieldscribe.resolve.points import ResolvedPoint
 
@@ -108,7 +109,7 @@ def printed_bytes_agree(subject: Analysis) -> None:
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
             span = node["printed"].span("bytes")
-            subject.disagrees(PrintedFact(Named("function", code.number), "bytes", printed, right, span, message))
+            subject.report_printed(PrintedFact(Named("function", code.number), "bytes", printed, right, span, message))
 
 
 def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
@@ -137,7 +138,7 @@ def _request(subject: Analysis, open_frame: LocatedFrame) -> Seen:
     if request.function in profile.most and request.count > most:
         message = f"{request.count} items are asked for, function {request.function:02X}h takes at most {most}"
         span = open_frame.node.span("bytes")
-        subject.disagrees(PrintedFact(open_frame.about, "count", request.count, None, span, message))
+        subject.report_printed(PrintedFact(open_frame.about, "count", request.count, None, span, message))
         request = replace(request, count=_count_of_erratum(subject, open_frame, most))
         frame = replace(frame, valid=False)
     status, rebuilt = build(profile, frame.framing, request)

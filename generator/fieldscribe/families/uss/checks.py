@@ -31,8 +31,8 @@ from fieldscribe.families.uss.telegrams import (
 )
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
-from fieldscribe.resolve.analysis import PrintedFact
 from fieldscribe.resolve.bus import code_list
+from fieldscribe.resolve.printed_facts import PrintedFact
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -116,7 +116,7 @@ def _printed(subject: Analysis, code: Code, node: Map, about: str) -> None:
         if codes != taken:
             message = f"the {key} {_list(codes)} are printed for the {about} {code.number}, taken are {_list(taken)}"
             named, span = Named(about, code.number), printed.span(key)
-            subject.disagrees(PrintedFact(named, key, list(printed[key]), taken, span, message))
+            subject.report_printed(PrintedFact(named, key, list(printed[key]), taken, span, message))
 
 
 def _list(numbers: list[int]) -> str:
