@@ -87,7 +87,7 @@ class Analysis:
 
     @property
     def digested(self) -> tuple[Device, Device]:
-        """Return `device` and `code_device` with their digest. It takes as long as all checks, and only files need it."""
+        """Return `device` and `code_device` with their digest, which takes as long as all checks."""
         return with_digest(self.device, self.code_device)
 
     def report_printed(self, fact: PrintedFact) -> None:
