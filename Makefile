@@ -8,10 +8,11 @@ generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
 	$(FIELDSCRIBE) generate descriptions --out generated
 
-keys:               ## write KEYS.md and schema.json from the table of keys
+keys:               ## write KEYS.md and schema.json from the table of keys, and the export's schema from that of facts
 	@sh generator/setup.sh compiler
 	$(FIELDSCRIBE) schema > descriptions/schema.json
 	$(FIELDSCRIBE) schema --page > descriptions/KEYS.md
+	$(FIELDSCRIBE) schema --export > generator/fieldscribe/export/schema.json
 
 # The tests start Python a few hundred times, so its bytecode is kept even if the environment turns that off.
 test core newer: export PYTHONPYCACHEPREFIX = $(CURDIR)/.cache/python

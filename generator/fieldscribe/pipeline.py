@@ -135,7 +135,7 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
 
     `plain` is the device as generated code may know it, if the caller has it. Raises TargetError if a target fails.
     """
-    from fieldscribe.plain import for_code
+    from fieldscribe.code_view import for_code
     from fieldscribe.targets import target
 
     for name in targets:

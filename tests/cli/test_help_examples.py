@@ -188,6 +188,7 @@ CLAIMS = {
     "schema": {
         "> schema.json": Claim(0, '"\\$schema": '),
         "--page > KEYS.md": Claim(0, "^# All keys of the description language\n"),
+        "--export > exported-model.json": Claim(0, "urn:fieldscribe:export:"),
     },
 }
 

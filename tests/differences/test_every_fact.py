@@ -19,9 +19,8 @@ from fieldscribe import model
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.differences import differences
 from fieldscribe.differences.classes import CLASSES
-from fieldscribe.differences.devices import DEVICE_FOLLOWS, table_of
-from fieldscribe.differences.points import POINT_FOLLOWS
-from fieldscribe.differences.table import Fact, Parts
+from fieldscribe.differences.devices import table_of
+from fieldscribe.differences.table import Fact
 from fieldscribe.export import export_model
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.model import Own
@@ -208,49 +207,6 @@ def test_fields_that_say_nothing_exist() -> None:
     for field in SAYS_NOTHING:
         kind, _, name = field.partition(".")
         assert not name or name in names_of(kinds[kind]), field
-
-
-def keys_told(table: Table) -> set[str]:
-    """The keys of the contract that a table reads."""
-    return {key for entry in table.values() for key in entry.keys}
-
-
-def parts_of(table: Table, *path: str) -> Table:
-    """The table of parts at a path."""
-    for name in path:
-        entry = table[name]
-        assert isinstance(entry, Parts)
-        table = entry.facts
-    return table
-
-
-def test_every_key_of_the_contract_has_a_class() -> None:
-    definitions = SCHEMA["$defs"]
-    told = keys_told(parts_of(table_of("modbus"), "point"))
-    assert told | POINT_FOLLOWS.keys() == definitions["point"]["properties"].keys()
-    whole = {key for name in FAMILIES for key in keys_told(table_of(name))}
-    limits = {f"limits.{key}" for key in definitions["limits"]["properties"]} - {"limits.most"}  # told of functions
-    codes = {f"codes.{key}" for key in SCHEMA["properties"]["codes"]["properties"]}
-    assert whole | DEVICE_FOLLOWS.keys() == (SCHEMA["properties"].keys() - {"limits", "codes"}) | limits | codes
-
-
-@pytest.mark.parametrize("kind", ["command", "message", "telegram", "group", "erratum", "document", "frame"])
-def test_every_key_of_other_things_has_a_class(kind: str) -> None:
-    told = {key for name in FAMILIES for key in keys_told(parts_of(table_of(name), kind))}
-    assert told | {"name", "id"} >= SCHEMA["$defs"][kind]["properties"].keys()
-
-
-@pytest.mark.parametrize(
-    ("path", "definition"),
-    [
-        (("point", "enum"), SCHEMA["$defs"]["entry"]),
-        (("point", "flag"), SCHEMA["$defs"]["flag"]),
-        (("point", "special"), SCHEMA["$defs"]["point"]["properties"]["special"]["items"]),
-        (("function",), SCHEMA["$defs"]["code"]),
-    ],
-)
-def test_every_key_of_parts_has_a_class(path: tuple[str, ...], definition: dict[str, Any]) -> None:
-    assert keys_told(parts_of(table_of("modbus"), *path)) | {"name"} >= definition["properties"].keys()
 
 
 def test_classes_are_known() -> None:

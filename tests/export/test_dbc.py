@@ -14,8 +14,7 @@ import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
-from fieldscribe.export import export_form
-from fieldscribe.export.rules import ExportError
+from fieldscribe.export import ExportError, export_form
 from fieldscribe.families.can import of_bus
 from fieldscribe.families.can.dbc import export_dbc
 from fieldscribe.families.can.dbc_points import decimal, signals_of_point

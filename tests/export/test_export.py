@@ -13,8 +13,8 @@ from typing import Any
 import fieldscribe
 import pytest
 from fieldscribe import export
-from fieldscribe.export import export_model
-from fieldscribe.export.rules import bound_of, use_of
+from fieldscribe.export import export_model, schema_text
+from fieldscribe.facts.scales import bound_of, use_of
 from fieldscribe.families import families, family
 from fieldscribe.model import Factor, Flag, Limit, Special
 from jsonschema import Draft202012Validator
@@ -63,6 +63,11 @@ def _point(name: str) -> dict[str, Any]:
 def test_the_schema_is_valid_and_the_model_follows_it() -> None:
     Draft202012Validator.check_schema(SCHEMA)
     assert [error.message for error in Draft202012Validator(SCHEMA).iter_errors(_model())] == []
+
+
+def test_the_committed_schema_is_current() -> None:
+    """`make keys` writes it."""
+    assert (Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8") == schema_text()
 
 
 def test_the_schema_describes_every_key_and_refuses_others() -> None:

@@ -17,7 +17,7 @@ from fieldscribe.cli import main
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.export import export_model
-from fieldscribe.plain import digest
+from fieldscribe.facts.digest import code_digest
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
@@ -125,8 +125,8 @@ def test_it_belongs_to_the_digest_of_those_who_say_it() -> None:
     """Code says it, so that it is another code without it; others keep their digest."""
     point = named(DEVICE, "shown_frequency")
     without = replace(point, shape=replace(point.shape, display=None))
-    assert digest(DEVICE) != digest(replace(DEVICE, points=(without,)))
-    assert digest(replace(DEVICE, points=(point,))) != digest(replace(DEVICE, points=(without,)))
+    assert code_digest(DEVICE) != code_digest(replace(DEVICE, points=(without,)))
+    assert code_digest(replace(DEVICE, points=(point,))) != code_digest(replace(DEVICE, points=(without,)))
 
 
 def test_python_says_it(tmp_path: Path) -> None:

@@ -6,12 +6,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
+from fieldscribe.facts.digest import code_digest
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
-from fieldscribe.plain import digest, for_code
 from fieldscribe.wording import default_text
 from support.described import compile_in, group, head, made, together
 
@@ -351,7 +352,7 @@ def test_what_is_for_people_does_not_reach_code(name: str) -> None:
     """Titles, notes, sources and lines are not in the digest; they are gone before targets that make code."""
     device = made(name)
     plain = for_code(device)
-    assert digest(plain) == device.digest
+    assert code_digest(plain) == device.digest
     named = [(one.name, one.title) for one in plain.messages]
     named += [(one.name, one.title) for one in plain.telegrams]
     named += [(one.name, one.title) for one in plain.bus.codes("responses")]

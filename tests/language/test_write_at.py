@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
 import pytest
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.listener import decode
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.requests import write_text
-from fieldscribe.export.points import export_point
+from fieldscribe.export import export_model
 from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.render import render
@@ -98,9 +97,7 @@ def test_frames_are_heard_at_the_right_address(frame: str, said: str, finding: s
 
 
 def test_the_export_has_both_places() -> None:
-    chosen = [named(DEVICE, "wanted_speed"), named(DEVICE, "speed")]
-    points: Any = [export_point(point, {point.name: point for point in DEVICE.points}) for point in chosen]
-    places = {point["name"]: point["places"] for point in points}
+    places = {point["name"]: point["places"] for point in export_model(DEVICE)["points"]}
     assert places["wanted_speed"] == [
         {"for": "read", "space": "holding", "address": 0x6000, "function": None},
         {"for": "write", "space": "holding", "address": 0x6100, "function": None},

@@ -6,8 +6,8 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.model import Allowed, Enum, Flag, Interner, Limit, Point, Shape, Special
-from fieldscribe.plain import for_code
 from support.described import loaded
 from support.models import allowed, changed, entry, linear, point, sample_bus, scaled, titles, value_of
 from support.places import ROOT

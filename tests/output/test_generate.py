@@ -22,7 +22,7 @@ from support.toolchains import succeed, tool
 
 DOCS = [
     *("docs/jumo_controller.csv", "docs/jumo_controller.md", "docs/jumo_controller_meanings.csv"),
-    *("manifest/jumo_controller.facts.json", "manifest/jumo_controller.json"),
+    "manifest/jumo_controller.json",
 ]
 
 

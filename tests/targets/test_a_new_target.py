@@ -76,7 +76,6 @@ def test_it_is_named(compiler: Compiler) -> None:
     compiler.describe()
     listed = compiler.run("generate", ".", "--out", "made", "--target", "toy", "--list-outputs").stdout.splitlines()
     assert listed == [
-        "made/manifest/made_up.facts.json",
         "made/manifest/made_up.json",
         "made/toy/made_up.csv",
         "made/toy/spaces.csv",

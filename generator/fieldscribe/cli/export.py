@@ -38,7 +38,7 @@ def run(arguments: Namespace) -> int:
     """Print it; the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.export.rules import ExportError
+    from fieldscribe.export import ExportError
 
     for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
         if value is not None and arguments.form == _JSON:

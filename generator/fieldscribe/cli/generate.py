@@ -21,12 +21,12 @@ EXAMPLE = """examples:
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)
   fieldscribe generate --check --strict-version
 
-what a version said when it was generated first is kept beside the output; when facts changed since then and the version
-was not raised by the step that `fieldscribe diff` asks for, a warning says which one, until it is
+the manifest records the version and a digest of its facts; facts that change under the same version are a warning until
+the version is raised (`fieldscribe diff` says by which step)
 
 a device with an error, or with somebody else's file in its way, writes nothing; the others are written
-ends with 1 when there is such a device, with --check when anything is stale, and with --strict-version when a version
-was not raised enough"""
+ends with 1 when there is such a device, with --check when anything is stale, and with --strict-version when facts
+changed under the same version"""
 
 
 def add_where(parser: ArgumentParser) -> None:
@@ -52,12 +52,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_where(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
     parser.add_argument(
-        "--strict-version", action="store_true", help="with --check: a version that was not raised enough is an error"
+        "--strict-version",
+        action="store_true",
+        help="with --check: facts that change under the same version are an error",
     )
     parser.add_argument(
         "--unreleased",
         action="store_true",
-        help="nobody has the present versions yet: take what they say now as what they said, without a warning",
+        help="nobody has the present versions yet: record their present facts, without a warning",
     )
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
@@ -87,7 +89,7 @@ def run(arguments: Namespace) -> int:
     if arguments.strict_version and not arguments.check:
         return usage_error("--strict-version is for --check", "write `generate --check --strict-version`")
     if arguments.unreleased and (arguments.check or arguments.list_outputs):
-        return usage_error("--unreleased writes what versions say; --check and --list-outputs write nothing")
+        return usage_error("--unreleased records facts; --check and --list-outputs write nothing")
     report = Report()
     device_files = find_devices(description_paths(arguments.paths), report)
     writes = not (arguments.check or arguments.list_outputs)

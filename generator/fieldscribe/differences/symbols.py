@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.plain import for_code
+from fieldscribe.code_view import for_code
 from fieldscribe.targets import TARGETS, knows, target
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.export import FORMAT
+from fieldscribe.facts.devices import FORMAT
 from fieldscribe.families import FAMILIES
 
 if TYPE_CHECKING:

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from fieldscribe.output.manifests import Manifests
     from fieldscribe.output.memory import Memory
     from fieldscribe.output.plan import Made, Plan
-    from fieldscribe.output.versions import Owed
     from fieldscribe.pipeline import Models
 
 
@@ -36,11 +35,11 @@ class Generation:
     known: dict[str, Path] = field(default_factory=dict)
     """The device.yaml of each device that was met, by its id."""
     strict: bool = False
-    """Whether a version that was not raised is an error."""
+    """Whether changed facts under the same version are an error."""
     unreleased: bool = False
-    """Whether nobody has the present versions yet, so that they may say other things than before."""
-    is_owed: bool = False
-    """Whether some version was not raised."""
+    """Whether nobody has the present versions yet, so that their facts may change."""
+    has_changed_version: bool = False
+    """Whether the facts of some device changed under the same version."""
     devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
@@ -60,10 +59,8 @@ class Generation:
 
     def list_outputs(self) -> None:
         """Note all outputs, without a look at the folder."""
-        from fieldscribe.output.versions import facts_path
-
         for device, files in self._made():
-            self.result.wanted.update(_paths(device, files), (facts_path(device.id),))
+            self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
         """Note what is stale. Files that changed while we compared are stale too: somebody is writing them."""
@@ -72,7 +69,7 @@ class Generation:
 
         manifests, result = Manifests(self.out), self.result
         for device, files in self._made():
-            self._add_facts(manifests, device, files)
+            self._record_version(manifests, device, files)
             plan = plan_of(self.out, manifests, device.id, files)
             result.wanted.update(_paths(device, files))
             result.stale.update(plan.stale)
@@ -88,7 +85,7 @@ class Generation:
             return
         with only_run(self.out, waiting):
             self._write_all(force=force)
-            if memory and not (self.report.has_errors or self.is_owed):  # a step that is owed is told until it is taken
+            if memory and not (self.report.has_errors or self.has_changed_version):  # which is reported in each run
                 memory.keep(self.inputs, self.result.states, self.result.digests)
 
     def _write_all(self, *, force: bool) -> None:
@@ -98,7 +95,7 @@ class Generation:
 
         manifests, result = Manifests(self.out), self.result
         for device, files in self._made():
-            self._add_facts(manifests, device, files)
+            self._record_version(manifests, device, files)
             plan = plan_of(self.out, manifests, device.id, files, force=force)
             if plan.refused:
                 self._report_refused(plan)
@@ -132,31 +129,27 @@ class Generation:
                     continue
                 yield device, files
 
-    def _add_facts(self, manifests: Manifests, device: Device, files: Made) -> None:
-        """Add the record of what the version says; a version that was to be raised keeps its record, and a finding."""
-        from fieldscribe.output.manifests import FOLDER
-        from fieldscribe.output.spool import kept
-        from fieldscribe.output.versions import facts_path, kept_record, owed, record_of
+    def _record_version(self, manifests: Manifests, device: Device, files: Made) -> None:
+        """Record the version with the digest of its facts; the same version with other facts is a finding instead."""
+        from fieldscribe.facts.digest import facts_digest
+        from fieldscribe.output.manifests import FOLDER, Record
 
-        record = kept_record(self.out, manifests, device)
-        if record is not None and not self.unreleased and (lacking := owed(record, device)):
-            self._report_owed(device, lacking)
-        elif record is None or self.unreleased or record.version != device.version:
-            record = record_of(device)
-        files[FOLDER] = {facts_path(device.id): kept(record.data)}
+        before, now = manifests.record(device.id), Record(device.version, facts_digest(device))
+        if before is None or before.version != now.version or self.unreleased:
+            manifests.set_record(device.id, now)
+        elif before != now:
+            self._report_changed_version(device)
+        if FOLDER in manifests.of(device.id):
+            files[FOLDER] = {}  # an earlier compiler kept the facts there: they go
 
-    def _report_owed(self, device: Device, lacking: Owed) -> None:
-        """Report that the version takes a smaller step than the changes ask for."""
-        if lacking.recorded == device.version:
-            message = f"`{device.id}` has changed since its version {device.version} was generated"
-        else:
-            message = f"`{device.id}` went from version {lacking.recorded} to {device.version}"
-        message += f", and the changes ask for a {lacking.step} step, to {lacking.least}"
+    def _report_changed_version(self, device: Device) -> None:
+        """Report that the facts changed and the version did not."""
+        message = f"`{device.id}` has changed since its version {device.version} was generated"
         hint = (
-            f"write `version: {lacking.least}`; `fieldscribe diff` tells the changes. If nobody has "
-            f"{lacking.recorded} yet, `generate --unreleased` takes this as what it says"
+            f"raise the version: `fieldscribe diff` says by which step. If nobody has {device.version} yet, "
+            "`generate --unreleased` records its present facts"
         )
-        self.is_owed = True
+        self.has_changed_version = True
         report = self.report.error if self.strict else self.report.warning
         report("version-not-raised", message, self.devices[device.id][1].version, hint)
 

@@ -1,8 +1,8 @@
 """Which files of an output folder are ours: those that a manifest records, and those that carry our head.
 
-`manifest/<device>.json` names the files of each target of a device with their checksums; what is vendored lies flat,
-beside `<device>.manifest.json`. While a run writes, a manifest also holds the new checksums under `pending`, so that
-after a killed run all files are still known as ours.
+`manifest/<device>.json` names the files of each target of a device with their checksums, and records the version of the
+description with the digest of its facts. What is vendored lies flat, beside `<device>.manifest.json`. While a run
+writes, a manifest also holds the new checksums under `pending`: after a killed run all files are still known as ours.
 """
 
 from __future__ import annotations
@@ -35,6 +35,13 @@ Digests = tuple[str, ...]
 
 Targets = dict[str, dict[str, Digests]]
 """The checksums of the files of each target, by path relative to the output folder."""
+
+
+class Record(NamedTuple):
+    """The version of a description and the digest of its facts."""
+
+    version: str
+    digest: str
 
 
 class Layout(NamedTuple):
@@ -76,12 +83,15 @@ class Manifests:
         self.layout = layout
         self._of: dict[str, Targets] = {}
         self._asked: dict[str, dict[str, Any]] = {}
+        self._records: dict[str, Record] = {}
         self._users: dict[str, dict[tuple[str, str], Digests]] = {}
         for place in sorted((out / layout.folder).glob(f"*{layout.ending}")):
             device = place.name.removesuffix(layout.ending)
             if "." in device:
-                continue  # facts of a device; no device has a dot in its name
-            targets, self._asked[device] = _read(place, device, layout)
+                continue  # written by an earlier version; no device has a dot in its name
+            targets, self._asked[device], record = _read(place, device, layout)
+            if record is not None:
+                self._records[device] = record
             self.settle(device, targets)
 
     def of(self, device: str) -> Targets:
@@ -100,6 +110,20 @@ class Manifests:
     def ask(self, device: str, target: str, said: Mapping[str, object]) -> None:
         """Say what is asked for in a target from now on."""
         self._asked[device] = dict(sorted({**self.asked(device), target: said}.items()))
+
+    def record(self, device: str) -> Record | None:
+        """Return the version and the digest that the manifest records; None if it has none."""
+        return self._records.get(device)
+
+    def set_record(self, device: str, record: Record) -> None:
+        """Set the version and the digest that the manifest will record."""
+        self._records[device] = record
+
+    def further_keys(self, device: str) -> dict[str, object]:
+        """Return what the manifest of a device holds beside its files."""
+        record = self._records.get(device)
+        keys = {"asked": self.asked(device), "facts": record and record._asdict()}
+        return {key: value for key, value in keys.items() if value}
 
     def settle(self, device: str, targets: Targets) -> None:
         """Record the device's files as they are from now on."""
@@ -139,36 +163,38 @@ def made_of(data: bytes) -> str | None:
     return None if match is None else match[1].decode()
 
 
-def manifest_text(device: str, targets: Targets, asked: Mapping[str, object] | None = None) -> str:
-    """The manifest's text, with what was `asked` for. A file with two checksums is about to get the last."""
+def manifest_text(device: str, targets: Targets, further_keys: Mapping[str, object]) -> str:
+    """Return the text of a manifest. A file with two checksums is about to get the last."""
     named = {
-        name: {path: digests[0] for path, digests in sorted(files.items())} for name, files in sorted(targets.items())
+        name: {path: digests[0] for path, digests in sorted(files.items())}
+        for name, files in sorted(targets.items())
+        if files
     }
     pending = {
         path: digests[-1] for files in targets.values() for path, digests in files.items() if len(set(digests)) > 1
     }
-    document: dict[str, object] = {"format": FORMAT, "device": device, "targets": named}
-    if asked:
-        document["asked"] = asked
+    document: dict[str, object] = {"format": FORMAT, "device": device, "targets": named, **further_keys}
     if pending:
         document["pending"] = dict(sorted(pending.items()))
     return json.dumps(document, indent=2) + "\n"
 
 
-def _read(place: Path, device: str, layout: Layout) -> tuple[Targets, dict[str, Any]]:
-    """The files by target that a manifest names where they may be, and what was asked for; empty if unreadable."""
+def _read(place: Path, device: str, layout: Layout) -> tuple[Targets, dict[str, Any], Record | None]:
+    """The files by target that a manifest names where they may be, what was asked for, and the recorded version."""
     try:
         loaded = json.loads(read_regular(place, _MOST_BYTES).data)
         if loaded["device"] != device:
-            return {}, {}
+            return {}, {}, None
         pending = loaded.get("pending", {})
         targets = {
             str(target): {path: digests for path, digests in _files(files, pending) if layout.holds(path, target)}
             for target, files in loaded["targets"].items()
         }
-        return targets, {str(target): asked for target, asked in loaded.get("asked", {}).items()}
+        facts = loaded.get("facts")
+        record = None if facts is None else Record(str(facts["version"]), str(facts["digest"]))
+        return targets, {str(target): asked for target, asked in loaded.get("asked", {}).items()}, record
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return {}, {}
+        return {}, {}, None
 
 
 def _files(files: Mapping[str, Any], pending: Mapping[str, Any]) -> Iterator[tuple[str, Digests]]:

@@ -48,8 +48,8 @@ class Plan:
     """Those of them that `force` would replace."""
     kept: list[str] = field(default_factory=list)
     """Files that are no longer generated, but stay because somebody edited them, or because they are not ours."""
-    asked: Mapping[str, object] | None = None
-    """What the manifest also says: how the files were asked for."""
+    further_keys: Mapping[str, object] = field(default_factory=dict)
+    """What the manifest holds beside the files."""
 
     def advice(self, path: str) -> str:
         """What to do about a refused file."""
@@ -65,7 +65,7 @@ class Plan:
     @property
     def manifest(self) -> bytes:
         """The manifest as it will stand."""
-        return manifest_text(self.device, self.targets, self.asked).encode()
+        return manifest_text(self.device, self.targets, self.further_keys).encode()
 
     @property
     def stale(self) -> list[str]:
@@ -80,9 +80,9 @@ def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made
         target: {path: (contents.digest,) for path, contents in files.items()}
         for target, files in files_of_targets.items()
     }
-    asked = manifests.asked(device)
-    pending = manifest_text(device, _both(before, now), asked).encode()
-    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending, asked=asked)
+    further_keys = manifests.further_keys(device)
+    pending = manifest_text(device, _both(before, now), further_keys).encode()
+    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending, further_keys=further_keys)
     planner = _Planner(out, manifests, plan, force)
     for files in files_of_targets.values():
         for path, contents in files.items():

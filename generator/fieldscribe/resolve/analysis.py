@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.code_view import for_code
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Block, Device, Enum, Group
-from fieldscribe.plain import for_code, with_digest
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.printed_facts import fact_text, same
 from fieldscribe.resolve.scope import humanised, source_of, titles
@@ -88,6 +88,8 @@ class Analysis:
     @property
     def digested(self) -> tuple[Device, Device]:
         """Return `device` and `code_device` with their digest, which takes as long as all checks."""
+        from fieldscribe.facts.digest import with_digest  # `check` does without the table of facts
+
         return with_digest(self.device, self.code_device)
 
     def report_printed(self, fact: PrintedFact) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         """What a target's module offers."""
 
         FOR_PEOPLE: bool
-        """Whether it also sees titles, notes and sources; the others see names only (plain.py)."""
+        """Whether it also sees titles, notes and sources; the others see names only (code_view.py)."""
 
         NEEDS_FAMILY: bool
         """Whether it can say only devices whose family has a part for it."""

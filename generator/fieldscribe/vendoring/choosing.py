@@ -6,10 +6,11 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
+from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find, near
+from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
 from fieldscribe.model import Interval
-from fieldscribe.plain import for_code, with_digest
 from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.plain import for_code
+from fieldscribe.code_view import for_code
 from fieldscribe.targets.heads import LEFT_OUT
 
 if TYPE_CHECKING:

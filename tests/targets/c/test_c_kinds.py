@@ -6,10 +6,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.model import Enum, Erratum, Place, Special
 from fieldscribe.pipeline import device_files_below
-from fieldscribe.plain import for_code
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import c

@@ -7,8 +7,8 @@ from functools import cache, partial
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.model import Place
-from fieldscribe.plain import for_code
 from fieldscribe.render import render
 from fieldscribe.targets import python
 from fieldscribe.targets.python import attributes, enums, words

@@ -7,8 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.pipeline import outputs
-from fieldscribe.plain import for_code
 from fieldscribe.targets import TARGETS
 from support.described import group, head, loaded_in, together
 from support.python_package import Slave, error, imported, write_package

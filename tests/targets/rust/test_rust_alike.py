@@ -7,9 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.model import Limit, Place, Variant
-from fieldscribe.plain import for_code
 from fieldscribe.render import render
 from fieldscribe.targets.rust import conformance, identity, points, subjects
 from fieldscribe.targets.rust.conformance import conformance_tables

@@ -6,9 +6,9 @@ from dataclasses import fields, replace
 from typing import Any
 
 import pytest
+from fieldscribe.code_view import for_code
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
-from fieldscribe.plain import for_code
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
 from fieldscribe.targets.vectors.identity import Form, Identities

@@ -1,42 +1,47 @@
-"""What the family adds to exports: its facts in the limits, and a form of its own, the CAN database."""
+"""The facts of a bus and of frames that only this family has, and what people must know about the line."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can import CanBus, identifier_of, of_bus
-from fieldscribe.targets.docs.bus import span
+from fieldscribe.facts.schema import ADDRESS, INTEGER, null_or
+from fieldscribe.facts.table import DOCS, WIRE, Fact
+from fieldscribe.families.can import identifier_of, of_bus
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Bus, Code, Device, Frame
+    from fieldscribe.model import Bus, Code
 
 
-LIMIT_CLASSES = {"bitrate": "wire", "identifier_bits": "wire"}
-"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+LIMITS = (
+    Fact(
+        "bitrate",
+        "CAN and USS: bits a second.",
+        null_or(INTEGER),
+        value=lambda bus, _: of_bus(bus).bitrate,
+        weight=WIRE,
+    ),
+    Fact(
+        "identifier_bits",
+        "CAN: how many bits the identifiers have.",
+        null_or(INTEGER),
+        value=lambda bus, _: of_bus(bus).identifier_bits,
+        weight=WIRE,
+    ),
+)
+"""The family's own facts of a bus; they are empty on a bus of another family."""
 
-FRAME_CLASSES = {"can_id": "docs"}
+FRAME = (
+    Fact(
+        "can_id",
+        "The identifier of a CAN frame.",
+        null_or(ADDRESS),
+        value=lambda frame, _: identifier_of(frame),
+        weight=DOCS,
+    ),
+)
 """The same for worked examples."""
-
-
-def limits(bus: Bus | None) -> dict[str, object]:
-    """The family's own facts of a bus; empty values for a bus of another family."""
-    can_bus = CanBus() if bus is None else of_bus(bus)
-    return {"bitrate": can_bus.bitrate, "identifier_bits": can_bus.identifier_bits}
-
-
-def frame(frame: Frame | None) -> dict[str, object]:
-    """The identifier of a worked example; of a frame of another family what stands for nothing."""
-    return {"can_id": None if frame is None else identifier_of(frame)}
-
-
-def export(form: str, device: Device, unit: int | None) -> bytes:
-    """The device in a form that only this family has. Raises ExportError."""
-    del form  # the family has only this one
-    from fieldscribe.families.can.dbc import export_dbc
-
-    return export_dbc(device, unit).encode("latin-1")
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
@@ -46,7 +51,7 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
         yield "Bit rate", f"{own.bitrate} bit/s"
     if own.identifier_bits is not None:
         yield "Identifier", f"{own.identifier_bits} bits"
-    yield "Unit numbers", span(bus.units)
+    yield "Unit numbers", "{}..{}".format(*bus.units)
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.export.rules import ExportError
+from fieldscribe.export import ExportError
 from fieldscribe.families.can import USUAL_BITS, identifier_bits, of_bus
 from fieldscribe.families.can.dbc_signals import DbcMessage, messages_of
 from fieldscribe.text import dbc_string
@@ -35,8 +35,13 @@ _ATTRIBUTES = (
 )
 
 
+def export(device: Device, unit: int | None) -> bytes:
+    """Return the bytes of the database. Raises ExportError."""
+    return export_dbc(device, unit).encode("latin-1")
+
+
 def export_dbc(device: Device, unit: int | None = None) -> str:
-    """The database of a device for one unit (1, or the lowest that it may have). Raises ExportError."""
+    """Return the database of a device for one unit (1, or the lowest that it may have). Raises ExportError."""
     low, high = device.bus.units
     chosen = device.bus.usual_unit if unit is None else unit
     if not low <= chosen <= high:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from fieldscribe.export.rules import ExportError
+from fieldscribe.export import ExportError
 from fieldscribe.families.can.dbc_points import Meaning, signals_of_point
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text

@@ -1,12 +1,12 @@
-"""What the documentation and exports say of a Modbus bus."""
+"""The facts of a bus that only this family has, and what people must know about the line."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import BROADCAST, ModbusBus, of_bus
-from fieldscribe.targets.docs.bus import span
-from fieldscribe.targets.docs.cells import cell
+from fieldscribe.facts.schema import STRING, null_or
+from fieldscribe.facts.table import WIRE, Fact
+from fieldscribe.families.modbus import BROADCAST, of_bus
 from fieldscribe.wording import address_text
 
 if TYPE_CHECKING:
@@ -14,29 +14,33 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus, Code
 
-LIMIT_CLASSES = {"pad_coil_bytes": "wire"}
-"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+
+LIMITS = (
+    Fact(
+        "pad_coil_bytes",
+        "Modbus: to which number of bytes the data of written coils is padded.",
+        null_or(STRING),
+        value=lambda bus, _: of_bus(bus).pad_coil_bytes,
+        weight=WIRE,
+    ),
+)
+"""The family's own facts of a bus; they are empty on a bus of another family."""
 
 _DIGITS = {"discrete": 1, "input": 3, "holding": 4}
 """The first digit of traditional references; that of coils is 0, which leaves the number as it is."""
 
 
-def limits(bus: Bus | None) -> dict[str, object]:
-    """Return the facts that only this family has; empty values for a bus of another family."""
-    return {"pad_coil_bytes": (ModbusBus() if bus is None else of_bus(bus)).pad_coil_bytes}
-
-
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     """Yield label and text of each fact about the line."""
-    yield "Framing", cell(", ".join(bus.framings))
-    yield "Unit numbers", span(bus.units)
+    yield "Framing", (", ".join(bus.framings))
+    yield "Unit numbers", "{}..{}".format(*bus.units)
     yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
     padding = of_bus(bus).pad_coil_bytes
     if padding:
-        yield "Data bytes when coils are written", cell(f"padded to an {padding} number")
+        yield "Data bytes when coils are written", (f"padded to an {padding} number")
     for space, gaps in bus.gaps.items():
         spans = ", ".join(f"{address_text(low)} to {address_text(high)}" for low, high in gaps)
-        yield cell(f"No request may cross ({space})"), spans
+        yield (f"No request may cross ({space})"), spans
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:

@@ -1,42 +1,63 @@
-"""What the family adds to exports: its facts in the limits, and the tasks that read or write a point."""
+"""The facts of a bus and of frames that only this family has, and the tasks that read or write a point."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss import UssBus, of_bus, of_frame
+from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or
+from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact
+from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, write_task
-from fieldscribe.targets.docs.bus import span
-from fieldscribe.targets.docs.cells import cell
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Bus, Code, Frame, Point
+    from fieldscribe.model import Bus, Code, Point
 
 
-LIMIT_CLASSES = {"pkw": "wire", "pzd": "wire", "variant_pzd": "behaviour", "bitrate": "wire"}
-"""How grave a difference in a fact of `limits` is: a class of `differences`."""
+LIMITS = (
+    Fact(
+        "pkw",
+        "USS: the lengths in words that the parameter part may have; 127 is variable.",
+        list_of(INTEGER),
+        value=lambda bus, _: of_bus(bus).pkw,
+        weight=WIRE,
+    ),
+    Fact(
+        "pzd",
+        "USS: the least and the most words of process data.",
+        list_of(INTEGER, 2, 2),
+        value=lambda bus, _: of_bus(bus).pzd,
+        weight=WIRE,
+    ),
+    Fact(
+        "variant_pzd",
+        "USS: the most words of process data of variants that take fewer, by axis=value.",
+        map_of(INTEGER),
+        value=lambda bus, _: {str(variant): most for variant, most in of_bus(bus).variant_pzd},
+        weight=BEHAVIOUR,
+    ),
+    Fact(
+        "bitrate",
+        "CAN and USS: bits a second.",
+        null_or(INTEGER),
+        value=lambda bus, _: of_bus(bus).bitrate,
+        weight=WIRE,
+    ),
+)
+"""The family's own facts of a bus; they are empty on a bus of another family."""
 
-FRAME_CLASSES = {"pkw": "docs"}
+FRAME = (
+    Fact(
+        "pkw",
+        "The words of the parameter part of a USS telegram, as set for the link.",
+        null_or(INTEGER),
+        value=lambda frame, _: of_frame(frame).pkw,
+        weight=DOCS,
+    ),
+)
 """The same for worked examples."""
-
-
-def limits(bus: Bus | None) -> dict[str, object]:
-    """What the family alone knows of a bus; of a bus of another family what stands for nothing."""
-    uss_bus = UssBus() if bus is None else of_bus(bus)
-    return {
-        "pkw": list(uss_bus.pkw),
-        "pzd": list(uss_bus.pzd),
-        "variant_pzd": {str(variant): most for variant, most in uss_bus.variant_pzd},
-        "bitrate": uss_bus.bitrate,
-    }
-
-
-def frame(frame: Frame | None) -> dict[str, object]:
-    """The parameter part of a worked example; of a frame of another family what stands for nothing."""
-    return {"pkw": None if frame is None else of_frame(frame).pkw}
 
 
 def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:
@@ -55,12 +76,12 @@ def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     """Label and text of each fact that people must know about the line."""
     own = of_bus(bus)
-    yield "Unit numbers", span(bus.units)
+    yield "Unit numbers", "{}..{}".format(*bus.units)
     if bus.broadcast is not None:
         yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
     lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in own.pkw)
-    yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
-    yield "Words of process data (PZD)", span(own.pzd)
+    yield "Words of the parameter part (PKW)", (", ".join(lengths))
+    yield "Words of process data (PZD)", "{}..{}".format(*own.pzd)
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:

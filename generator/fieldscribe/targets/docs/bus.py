@@ -49,7 +49,7 @@ def bus_view(device: Device) -> BusView:
     )
     return BusView(
         paragraph(title_text(bus.note)) if bus.note else "",
-        by_rows(("Fact", "Value"), [*part.facts(bus)]),
+        by_rows(("Fact", "Value"), [(cell(label), cell(text)) for label, text in part.facts(bus)]),
         tuple((heading, table) for heading, table in sections if table),
     )
 
@@ -65,7 +65,7 @@ class OfFamily:
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
         """Facts about the line, with their labels."""
-        yield "Unit numbers", span(bus.units)
+        yield "Unit numbers", "{}..{}".format(*bus.units)
 
     def goes_to_all(self, function: Code) -> bool:
         """Whether a function may be broadcast, where the description does not say it."""
@@ -76,11 +76,6 @@ class OfFamily:
         """The numbers that people of this family use for an address, whatever the manual prints."""
         del space, address
         return {}
-
-
-def span(ends: tuple[int, int]) -> str:
-    """An interval as text."""
-    return f"{ends[0]}..{ends[1]}"
 
 
 def _answered(bus: Bus) -> str:

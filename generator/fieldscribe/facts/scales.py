@@ -15,10 +15,6 @@ _MOST_REPEATS = 8
 _MOST_DIGITS = 1000
 
 
-class ExportError(ValueError):
-    """A form cannot say the device without changing its meaning."""
-
-
 def scale_of(point: Point, by_name: PointsByName) -> list[dict[str, object]] | None:
     """The cases of a scale: `raw = value * num / den + offset`, `uses` beside `num`."""
     if point.scale is None:

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from functools import lru_cache
-from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from fieldscribe.model import (
     Code,
@@ -18,7 +16,6 @@ from fieldscribe.model import (
     Flag,
     Interner,
     Own,
-    Place,
     Point,
     ScaleCase,
     Shape,
@@ -28,19 +25,7 @@ from fieldscribe.model import (
     Titles,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 _NOWHERE = Source("", None, None, None)
-
-
-_SHARED = ("source", "shape", "terms")
-"""What many points have in common, so that its text is written once."""
-_common = attrgetter(*_SHARED)
-_identity = attrgetter(
-    *[field.name for field in fields(Point) if field.name not in (*_SHARED, "allowed", "place")],
-    *[f"place.{field.name}" for field in fields(Place)],
-)
 
 
 def for_code(device: Device) -> Device:
@@ -78,46 +63,6 @@ def for_code(device: Device) -> Device:
             replace(telegram, title=_title(telegram.name), source=_NOWHERE) for telegram in device.telegrams
         ),
     )
-
-
-def digest(device: Device) -> str:
-    """A checksum over all that code may know of the device, except the digest itself."""
-    return with_digest(device, for_code(device))[0].digest
-
-
-def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
-    """A device and the same as code may know it, both with their digest."""
-    digest = checksum_of(replace(plain, digest=""))
-    return replace(device, digest=digest), replace(plain, digest=digest)
-
-
-def checksum_of(device: Device) -> str:
-    """A checksum that differs wherever a fact of the device does, be it for people."""
-    from hashlib import sha256
-
-    checksum = sha256()
-    for text in _texts(device):
-        checksum.update(text)
-    return checksum.hexdigest()
-
-
-def _texts(plain: Device) -> Iterator[bytes]:
-    """Texts that differ wherever a fact of the device does: all but the points, then each point."""
-    yield _encoded(replace(plain, points=()))
-    texts: dict[object, bytes] = {}
-    for point in plain.points:
-        yield _encoded(_identity(point))
-        limits, shared = id(point.allowed), (id(point.source), id(point.shape), id(point.terms))
-        if limits not in texts:
-            texts[limits] = _encoded(point.allowed)
-        if shared not in texts:
-            texts[shared] = _encoded(_common(point))
-        yield texts[limits]
-        yield texts[shared]
-
-
-def _encoded(facts: object) -> bytes:
-    return repr(facts).encode("utf-8", "surrogatepass")
 
 
 def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:

@@ -1,0 +1,417 @@
+"""The facts of a device and of its things other than points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache, partial
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINT, POINTS, SOURCE, TITLE, grown, items
+from fieldscribe.facts.schema import (
+    ADDRESS,
+    BOOLEAN,
+    COUNT,
+    DIRECTION,
+    INTEGER,
+    STRING,
+    TITLES,
+    by_number,
+    list_of,
+    map_of,
+    null_or,
+    one_of,
+    ref,
+)
+from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, Parts, View
+from fieldscribe.families import families, family
+from fieldscribe.wording.lines import without_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.facts.table import Table, Weight
+    from fieldscribe.families import Family
+    from fieldscribe.model import Bus, Code
+
+FORMAT = 5
+"""The version of the exported shape."""
+_HEX = {**STRING, "pattern": "^([0-9A-F]{2}( [0-9A-F]{2})*)?$"}
+
+
+# What `diff` compares of the parts of a device.
+
+
+def _named(key: str, device: Exported, name: str = "name") -> Iterator[Exported]:
+    """The things under a key by their names."""
+    return ({**thing, "name": str(thing[name])} for thing in device[key])
+
+
+def _axes(device: Exported) -> Iterator[Exported]:
+    return ({"name": axis, "values": values} for axis, values in device["variants"].items())
+
+
+def _numbered(section: str, device: Exported) -> Iterator[Exported]:
+    """The numbered codes of a section; only functions have a largest count."""
+    most = device["limits"]["most"] if section == "functions" else {}
+    for number, code in device["codes"][section].items():
+        yield {**code, "number": int(number), "most": most.get(number)}
+
+
+def _groups(device: Exported) -> Iterator[Exported]:
+    """The groups, each with the names of its points."""
+    members: dict[str, list[str]] = {}
+    for point in items(device):
+        members.setdefault(point["group"], []).append(point["name"])
+    return ({**group, "points": members.get(group["name"], [])} for group in device["groups"])
+
+
+def _errata(device: Exported) -> Iterator[Exported]:
+    """The errata by their ids, each with the list of its points."""
+    for erratum in device["errata"]:
+        points = erratum["point"]
+        yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
+
+
+def _erratum_in_short(erratum: Exported) -> Exported:
+    return {"points": erratum["point"], **{key: erratum[key] for key in ("where", "printed", "taken") if erratum[key]}}
+
+
+def _sentence(old: str, new: str) -> str:
+    """The class of a sentence: the lines of the manual that it names are for people."""
+    return DOCS if without_lines(old) == without_lines(new) else BEHAVIOUR
+
+
+def _things(key: str, kind: str, table: Table, *same_by: str) -> Parts:
+    """Things listed under a key of the device."""
+    return Parts(kind, kind, partial(_named, key), table, same_by=same_by)
+
+
+def _of_class(parts: Parts, weight: Weight) -> Parts:
+    """Parts of which all that comes, goes or gets another name is of one class."""
+    return replace(parts, added=weight, removed=weight, renamed=weight)
+
+
+# The tables.
+
+DOCUMENT: Table = (
+    Fact("id", "What sources call it.", STRING),
+    Fact("title", "Its title.", STRING, weight=DOCS),
+    Fact("language", "The language it is written in.", STRING, weight=DOCS),
+    Fact("file", "The name of the file that was read.", null_or(STRING), weight=DOCS),
+    Fact("sha256", "The SHA-256 of that file.", null_or(STRING), weight=DOCS),
+)
+GROUP: Table = (NAME, TITLE, NOTE, SOURCE)
+COMMAND: Table = (
+    NAME,
+    TITLE,
+    NOTE,
+    Fact("space", "The space of its address.", STRING, weight=WIRE),
+    Fact("address", "The address on the wire.", ADDRESS, weight=WIRE),
+    Fact("function", "The function to write with.", INTEGER, weight=WIRE),
+    Fact("value", "What to write; null where any value does.", null_or(INTEGER), weight=WIRE),
+    Fact("wears", "How many such writes the memory stands.", null_or(INTEGER), weight=BEHAVIOUR),
+    Fact(
+        "busy",
+        "The point that tells that the command is at work.",
+        null_or(STRING),
+        weight=BEHAVIOUR,
+        refers="point",
+    ),
+    SOURCE,
+)
+_SENDER = Fact(
+    "direction",
+    "Who sends it: `request` the master, `response` the device when asked, `cyclic` the device by itself.",
+    DIRECTION,
+    weight=WIRE,
+)
+MESSAGE: Table = (
+    NAME,
+    TITLE,
+    _SENDER,
+    Fact("answers", "The message that it answers.", null_or(STRING), weight=WIRE, refers="message"),
+    Fact("identifier", "The identifier.", ADDRESS, weight=WIRE),
+    Fact(
+        "adds_unit",
+        "Whether the unit number is added to the identifier.",
+        BOOLEAN,
+        views=(View("adds the unit", WIRE, itemgetter("adds_unit")),),
+    ),
+    Fact(
+        "layout",
+        "What each byte holds.",
+        list_of(ref("role"), 8, 8),
+        value=lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles],
+        weight=WIRE,
+    ),
+    SOURCE,
+)
+TELEGRAM: Table = (
+    NAME,
+    TITLE,
+    _SENDER,
+    Fact("words", "How many words it has.", COUNT, weight=WIRE),
+    Fact(
+        "message",
+        "The message whose frames carry the words.",
+        null_or(STRING),
+        weight=WIRE,
+        refers="message",
+    ),
+    SOURCE,
+)
+_FRAME: Table = (
+    NAME,
+    Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, weight=DOCS),
+    TITLE,
+    Fact(
+        "bytes",
+        "The bytes as printed, in hexadecimal with spaces.",
+        _HEX,
+        value=lambda frame, _: frame.printed.hex(" ").upper(),
+        weight=DOCS,
+    ),
+    Fact(
+        "corrected",
+        "The bytes as they should read; those that are printed unless it is misprinted.",
+        _HEX,
+        value=lambda frame, _: frame.corrected.hex(" ").upper(),
+        weight=DOCS,
+    ),
+    Fact("direction", "`request`, `response` or `cyclic`.", STRING, weight=DOCS),
+    Fact("answers", "The request that a response answers.", null_or(STRING), weight=DOCS, refers="frame"),
+    Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point"),
+    Fact("valid", "False when the frame is misprinted.", BOOLEAN, weight=DOCS),
+)
+_CODE_VIEWS = (View("number", WIRE, itemgetter("number")), View("max", BEHAVIOUR, itemgetter("most")))
+CODE: Table = (
+    NAME,
+    TITLE,
+    Fact(
+        "broadcast",
+        "Whether it may be sent to all units at once; null: as the protocol says.",
+        null_or(BOOLEAN),
+        weight=BEHAVIOUR,
+    ),
+    Fact(
+        "answers",
+        "USS: of a task the responses that it can get, of a response or an error the tasks.",
+        list_of(INTEGER),
+        weight=WIRE,
+    ),
+    Fact("refusals", "USS: of a task the responses that refuse it.", list_of(INTEGER), weight=BEHAVIOUR),
+)
+ERRATUM: Table = (
+    Fact("id", "Its name, never reused.", STRING),
+    Fact(
+        "point",
+        "The point it is about; a list for several; null for none.",
+        {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]},
+        value=lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
+        views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point"),),
+    ),
+    Fact("where", "The place, in words.", STRING, value=lambda erratum, _: str(erratum.where), weight=DOCS),
+    SOURCE,
+    Fact("printed", "What is printed.", STRING, weight=_sentence),
+    Fact("taken", "What this description takes instead.", STRING, weight=_sentence),
+    Fact("facts", "The printed facts by their keys.", map_of(STRING), published=False),
+    Fact("reason", "Why.", STRING, attribute="why", weight=DOCS),
+    Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), weight=BEHAVIOUR),
+)
+_LIMITS: Table = (
+    Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", list_of(STRING), weight=grown),
+    Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), weight=BEHAVIOUR),
+    Fact("broadcast", "The unit number of a broadcast; null when there is none.", null_or(INTEGER), weight=WIRE),
+    Fact(
+        "most",
+        "The most items in one request, by function number as decimal text.",
+        by_number(COUNT),
+        value=lambda bus, _: {str(code.number): code.most for code in bus.functions if code.most is not None},
+    ),
+    Fact(
+        "gaps",
+        "Address ranges that no request may cross, by space: the first and the last address of each.",
+        map_of(list_of(list_of(INTEGER, 2, 2))),
+        value=lambda bus, _: {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
+        weight=BEHAVIOUR,
+    ),
+    Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), weight=DOCS),
+    Fact("note", "A remark for people; empty without one.", TITLES, weight=DOCS, for_people=True),
+)
+
+
+@cache
+def _with_family_facts(kind: str, table: Table, own_family: str) -> Table:
+    """The table with the facts that families add; those of other families have their empty values."""
+    facts = {fact.key: replace(fact, **_FOREIGN) for each in families() for fact in _offered(each, kind)}
+    facts |= {fact.key: fact for fact in _offered(family(own_family), kind)}
+    return (*table, *facts.values())
+
+
+def _offered(of_family: Family, kind: str) -> Table:
+    table: Table = getattr(of_family.part("bus_facts"), kind, ())
+    return table
+
+
+_FOREIGN: Mapping[str, Any] = {"derived": "it is a fact of another family", "weight": "", "views": ()}
+
+
+def limits_table(own_family: str) -> Table:
+    """Return the facts of the bus of a device of that family."""
+    return _with_family_facts("LIMITS", _LIMITS, own_family)
+
+
+def frame_table(own_family: str) -> Table:
+    """Return the facts of worked examples of that family."""
+    return (*_with_family_facts("FRAME", _FRAME, own_family), SOURCE, ERRATA)
+
+
+_SECTIONS = {
+    "exceptions": ("exception", "Exceptions"),
+    "functions": ("function", "Functions"),
+    "responses": ("response", "Responses of USS"),
+}
+
+
+@cache
+def codes_table(own_family: str) -> Table:
+    """The numbered codes by section; those that generated code has no names for break no code."""
+    emitted = {codes.section for codes in family(own_family).codes if codes.emitted}
+    sections = []
+    for section, (kind, what) in _SECTIONS.items():
+        parts = Parts(kind, kind, partial(_numbered, section), CODE, _CODE_VIEWS, same_by=("number",))
+        if section not in emitted:
+            parts = replace(parts, added=BEHAVIOUR, removed=BEHAVIOUR, renamed=DOCS)
+        sections.append(
+            Fact(
+                section,
+                f"{what}, by number as decimal text.",
+                by_number(ref("code")),
+                value=partial(_codes_of, section),
+                table=CODE,
+                views=(parts,),
+            )
+        )
+    serial = Fact(
+        "serial",
+        "Codes of serial settings, by setting: what each code means.",
+        map_of(map_of(STRING)),
+        value=lambda bus, _: {setting: dict(codes) for setting, codes in bus.serial.items()},
+        views=(View("serial", BEHAVIOUR, lambda device: device["codes"]["serial"]),),
+    )
+    return (*sections, serial)
+
+
+def _codes_of(section: str, bus: Bus, _: Context) -> dict[str, Code]:
+    return {str(code.number): code for code in bus.codes(section)}
+
+
+@cache
+def device_table(own_family: str) -> Table:
+    """Return the facts of a device of that family."""
+    limits, frame, codes = limits_table(own_family), frame_table(own_family), codes_table(own_family)
+    return (
+        Fact(
+            "format",
+            "The number of this contract.",
+            {**INTEGER, "const": FORMAT},
+            value=lambda _device, _: FORMAT,
+            derived="it is the number of the contract",
+        ),
+        Fact("device", "The id of the device.", STRING, attribute="id"),
+        Fact("version", "The version of its description.", STRING),
+        Fact("family", "The rules of addressing and framing.", STRING, weight=WIRE),
+        Fact("vendor", "Who makes it.", STRING, weight=DOCS),
+        Fact("model", "The maker's name of the product.", STRING, weight=DOCS),
+        TITLE,
+        NOTE,
+        Fact(
+            "documents",
+            "The manuals.",
+            list_of(ref("document")),
+            table=DOCUMENT,
+            views=(_of_class(Parts("document", "document", partial(_named, "documents", name="id"), DOCUMENT), DOCS),),
+        ),
+        Fact(
+            "variants",
+            "The values of each variant axis.",
+            map_of(list_of(STRING)),
+            value=lambda device, _: {axis: list(values) for axis, values in device.variants.items()},
+            views=(Parts("variant", "variant", _axes, (), (View("values", grown, itemgetter("values")),), added=API),),
+        ),
+        Fact(
+            "limits",
+            "What the line allows.",
+            ref("limits"),
+            attribute="bus",
+            table=limits,
+            views=tuple(_inside("limits", view) for fact in limits for view in fact.compared()),
+        ),
+        Fact(
+            "groups",
+            "The groups of points, in the author's order.",
+            list_of(ref("group")),
+            table=GROUP,
+            views=(Parts("group", "group", _groups, GROUP, same_by=(View("points", API, itemgetter("points")),)),),
+        ),
+        Fact(
+            "points",
+            "All points, in the author's order.",
+            list_of(ref("point")),
+            table=POINT,
+            views=(POINTS,),
+        ),
+        Fact(
+            "commands",
+            "Named constant writes.",
+            list_of(ref("command")),
+            table=COMMAND,
+            views=(_things("commands", "command", COMMAND, "space", "address", "function", "value"),),
+        ),
+        Fact(
+            "messages",
+            "Layouts of frames.",
+            list_of(ref("message")),
+            table=MESSAGE,
+            views=(_things("messages", "message", MESSAGE, "identifier", "direction", "layout"),),
+        ),
+        Fact(
+            "telegrams",
+            "Cyclic layouts of words.",
+            list_of(ref("telegram")),
+            table=TELEGRAM,
+            views=(_things("telegrams", "telegram", TELEGRAM, "direction", "words", "message"),),
+        ),
+        Fact(
+            "frames",
+            "The worked frames of the manual.",
+            list_of(ref("frame")),
+            table=frame,
+            views=(_of_class(_things("frames", "frame", frame, "bytes"), DOCS),),
+        ),
+        Fact(
+            "codes",
+            "Numbers of the protocol.",
+            ref("codes"),
+            attribute="bus",
+            table=codes,
+            views=tuple(view for fact in codes for view in fact.views),
+        ),
+        Fact(
+            "errata",
+            "Where the manual is wrong, unclear or silent.",
+            list_of(ref("erratum")),
+            table=ERRATUM,
+            views=(_of_class(Parts("erratum", "erratum", _errata, ERRATUM, shown=_erratum_in_short), BEHAVIOUR),),
+        ),
+    )
+
+
+def _inside(key: str, view: View | Parts) -> View:
+    """A view of an object as a view of the device, which has the object under that key."""
+    assert isinstance(view, View)
+    return view._replace(label=_BUS_LABELS.get(view.label, view.label), value=lambda device: view.value(device[key]))
+
+
+_BUS_LABELS = {"note": "note of the bus"}

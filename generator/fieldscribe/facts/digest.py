@@ -1,0 +1,85 @@
+"""Digests of the facts of a device in a canonical form.
+
+Only facts that differ from their usual value count, under their published keys, and numbers are exact. So neither a
+change of the compiler's own data structures nor an optional key that nobody uses changes a digest.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from hashlib import sha256
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.facts.devices import device_table
+from fieldscribe.facts.points import POINT
+from fieldscribe.facts.table import Context, stated
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from fieldscribe.facts.table import Fact
+    from fieldscribe.model import Device, Point
+
+
+def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
+    """Return a device, and the same as code sees it, both with the digest for code."""
+    digest = code_digest(plain)
+    return replace(device, digest=digest), replace(plain, digest=digest)
+
+
+def code_digest(plain: Device) -> str:
+    """Return the digest of all facts that code may depend on; `plain` is the device as code sees it."""
+    return _digest(plain, Context(plain, for_code=True), ("points",))
+
+
+def facts_digest(device: Device) -> str:
+    """Return the digest of all facts of a device, also those for people, but not of its version."""
+    return _digest(device, Context(device), ("points", "version"))
+
+
+def _digest(device: Device, context: Context, left_out: tuple[str, ...]) -> str:
+    table = tuple(fact for fact in device_table(device.family) if fact.key not in left_out)
+    checksum = sha256(_canonical(stated(table, device, context)))
+    for text in _points(device, context):
+        checksum.update(text)
+    return checksum.hexdigest()
+
+
+def _points(device: Device, context: Context) -> Iterator[bytes]:
+    """The facts of the points: those that points share point by point, the others fact by fact."""
+    for shared, holder in _HOLDERS.items():
+        table = tuple(fact for fact in POINT if fact.shared == shared)
+        keys = list(map(holder, device.points))
+        points = dict(zip(keys, device.points, strict=True))
+        texts = {key: _canonical(stated(table, point, context)) for key, point in points.items()}
+        yield b"".join(map(texts.__getitem__, keys))
+    for fact in sorted(POINT, key=attrgetter("key")):
+        if not (fact.shared or fact.derived or (fact.for_people and context.for_code)):
+            values = _values(fact, device, context)
+            if any(value is not None and value != fact.usual for value in values):
+                yield _canonical({fact.key: values})
+
+
+_HOLDERS: Mapping[str, Callable[[Point], object]] = {
+    "shape": lambda point: id(point.shape),
+    "terms": lambda point: id(point.terms),
+    "shape and terms": lambda point: (id(point.shape), id(point.terms)),
+    "limits": lambda point: (id(point.allowed), id(point.shape)),
+}
+"""What points share, and what tells that two points have the same."""
+
+
+def _values(fact: Fact, device: Device, context: Context) -> list[Any]:
+    """The value of a fact for each point."""
+    if fact.value is None:
+        return list(map(attrgetter(fact.attribute or fact.key), device.points))
+    return [fact.value(point, context) for point in device.points]
+
+
+_ENCODER = json.JSONEncoder(sort_keys=True, separators=(",", ":"))
+
+
+def _canonical(value: object) -> bytes:
+    return _ENCODER.encode(value).encode()

@@ -1,0 +1,167 @@
+"""What an entry of the table of facts is, and how the facts of a thing are exported from the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from operator import attrgetter, itemgetter
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
+
+WIRE, API, BEHAVIOUR, COMPATIBLE, DOCS = "wire", "api", "behaviour", "compatible", "docs"
+"""The classes of differences: breaks on the wire, breaks code, changes behaviour, compatible, for people only."""
+
+Schema: TypeAlias = Mapping[str, Any]
+"""A JSON Schema."""
+
+Exported: TypeAlias = Mapping[str, Any]
+"""A device, or a thing in it, in the form of the exported model."""
+
+Weight: TypeAlias = "str | Callable[[Any, Any], str]"
+"""A class of differences, or a function that tells it from the old and the new value."""
+
+
+@dataclass(frozen=True, eq=False)
+class Context:
+    """What the values of facts need beside the thing itself; `for_code` leaves out what is for people."""
+
+    device: Device
+    for_code: bool = False
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Point]:
+        """The points by name, and by their names with the variant."""
+        return {name: point for point in self.device.points for name in (point.item, point.name)}
+
+    @cached_property
+    def directions(self) -> Mapping[str, str]:
+        """The directions of the telegrams by name."""
+        return {telegram.name: telegram.direction for telegram in self.device.telegrams}
+
+
+class View(NamedTuple):
+    """What `diff` compares of an exported thing: a label, the class of a difference, and the compared value.
+
+    No difference is reported if one of the labels that it `follows` differs, too. `refers` is the kind of the things
+    that the value names: a new name of such a thing is no difference.
+    """
+
+    label: str
+    weight: Weight
+    value: Callable[[Exported], Any]
+    follows: tuple[str, ...] = ()
+    refers: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """Named parts of a thing for `diff`: what `listed` gives of it, with the facts of `table` and `views`.
+
+    Two parts are the same if their names are, or if they alone have equal values for `same_by`: labels of their facts,
+    or further views. `whole` is the class where all parts come or go at once; without it each part is reported. `shown`
+    is what is reported of a part that came or went. `in_code` gives the class of a fact from the part on both sides,
+    the label of the fact (empty for parts of it) and its usual class.
+    """
+
+    label: str
+    kind: str
+    listed: Callable[[Exported], Iterable[Exported]]
+    table: Table
+    views: tuple[View, ...] = ()
+    same_by: tuple[str | View, ...] = ()
+    added: Weight = COMPATIBLE
+    removed: Weight = API
+    renamed: Weight = API
+    whole: str = ""
+    shown: Callable[[Exported], Any] = itemgetter("name")
+    in_code: Callable[[Exported, Exported, str, str], str] = lambda _old, _new, _label, weight: weight
+
+
+@dataclass(frozen=True, eq=False)
+class Fact:
+    """One fact: its published key, what it says, its JSON Schema, its value, and what `diff` compares of it.
+
+    The value is the attribute of the same name (or `attribute`), or what the function `value` returns of the thing and
+    its context. With `table` it is a thing of that table, a list of such things or a mapping to them. `shared` names
+    the part of a point that alone decides the value: `shape`, `terms` or `limits`.
+
+    `weight` is short for one view of the exported value. `derived` says what a fact follows from that is not compared
+    and not in the digest; one that is not `published` is only in the digest. A fact `for_people` never reaches code.
+    """
+
+    key: str
+    doc: str
+    schema: Schema
+    _: KW_ONLY
+    attribute: str = ""
+    value: Callable[[Any, Context], Any] | None = None
+    table: Table | None = None
+    shared: str = ""
+    weight: Weight = ""
+    follows: tuple[str, ...] = ()
+    refers: str = ""
+    views: tuple[View | Parts, ...] = ()
+    derived: str = ""
+    published: bool = True
+    for_people: bool = False
+
+    def compared(self) -> tuple[View | Parts, ...]:
+        """What `diff` compares of the fact."""
+        if self.weight:
+            label = self.key.replace("_", " ")
+            return View(label, self.weight, itemgetter(self.key), self.follows, self.refers), *self.views
+        return self.views
+
+    @cached_property
+    def get(self) -> Callable[[Any, Context], Any]:
+        """The value of the fact in the model."""
+        if self.value is not None:
+            return self.value
+        attribute = attrgetter(self.attribute or self.key)
+        return lambda thing, _: attribute(thing)
+
+    @cached_property
+    def usual(self) -> Any:
+        """The value that stands for nothing: null where the schema allows it, else what is empty or false."""
+        types = self.schema.get("type")
+        if "null" in types if isinstance(types, list) else {"type": "null"} in self.schema.get("anyOf", ()):
+            return None
+        return _EMPTY.get(str(types), ...)
+
+
+_EMPTY: Mapping[str, Any] = {"array": [], "object": {}, "string": "", "boolean": False}
+
+Table: TypeAlias = tuple[Fact, ...]
+FactsOf: TypeAlias = Callable[[Table, Any, Context], dict[str, Any]]
+
+
+def exported(table: Table, thing: object, context: Context) -> dict[str, Any]:
+    """Return all published facts of a thing by key, in the order of the table."""
+    return {
+        fact.key: plain_value(fact, fact.get(thing, context), context, exported) for fact in table if fact.published
+    }
+
+
+def stated(table: Table, thing: object, context: Context) -> dict[str, Any]:
+    """Return the facts of a thing that follow from no others and differ from their usual value."""
+    values: dict[str, Any] = {}
+    for fact in table:
+        left_out = fact.derived or (fact.for_people and context.for_code)
+        value = None if left_out else plain_value(fact, fact.get(thing, context), context, stated)
+        if value is not None and value != fact.usual:
+            values[fact.key] = value
+    return values
+
+
+def plain_value(fact: Fact, value: Any, context: Context, facts_of: FactsOf) -> Any:
+    """Return a value as JSON knows it; `facts_of` turns the things of the fact's own table into objects."""
+    if fact.table is None or value is None:
+        return list(value) if isinstance(value, tuple) else value
+    if isinstance(value, dict):
+        return {key: facts_of(fact.table, thing, context) for key, thing in value.items()}
+    if isinstance(value, tuple):
+        return [facts_of(fact.table, thing, context) for thing in value]
+    return facts_of(fact.table, value, context)
