@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import __version__
-from fieldscribe.cli import COMMANDS, command_of, main
+from fieldscribe.cli import COMMANDS, command_module, main
 from fieldscribe.cli.common import description_paths, print_json
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, write
@@ -75,7 +75,7 @@ def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_every_command_is_listed_as_it_says(run: Callable[..., Result]) -> None:
     listed = run("--help").out
     for name, does in COMMANDS.items():
-        module = command_of(name)
+        module = command_module(name)
         assert does == module.HELP
         assert does in listed
         shown = run(name, "--help")

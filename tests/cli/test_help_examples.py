@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import COMMANDS, command_of
+from fieldscribe.cli import COMMANDS, command_module
 from support.described import shipped
 from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
 
@@ -196,11 +196,12 @@ CLAIMS = {
 def test_every_command_has_examples_and_every_example_a_claim() -> None:
     """A new example needs a line in the table above."""
     printed = {
-        name: {_called(example.printed, name) for example in examples_of(command_of(name).EXAMPLE)} for name in COMMANDS
+        name: {_called(example.printed, name) for example in examples_of(command_module(name).EXAMPLE)}
+        for name in COMMANDS
     }
     assert printed == {name: set(claims) for name, claims in CLAIMS.items()}
     for name in COMMANDS:
-        assert command_of(name).EXAMPLE.count(f"fieldscribe {name}") >= len(printed[name])
+        assert command_module(name).EXAMPLE.count(f"fieldscribe {name}") >= len(printed[name])
 
 
 def _called(printed: str, command: str) -> str:
@@ -225,7 +226,7 @@ def test_examples_do_what_they_show(
     if command in ("decode", "encode", "explain"):
         monkeypatch.setattr(pipeline, "load_device", _load_once)
     capsys.readouterr()
-    for example in examples_of(command_of(command).EXAMPLE):
+    for example in examples_of(command_module(command).EXAMPLE):
         claim = CLAIMS[command][_called(example.printed, command)]
         result = ran(example, folder, capsys, monkeypatch)
         assert result.code == claim.code, (example.printed, result)

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_analysis
-from fieldscribe.search.entries import things_of
+from fieldscribe.pipeline import load_subject
+from fieldscribe.search.entries import entries_of
 from fieldscribe.search.matching import near_words, search
 from support.places import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.search.entries import Thing
+    from fieldscribe.search.entries import Entry
 
 DEVICES = ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
 
@@ -38,13 +38,13 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
 
 
 @pytest.fixture(scope="module")
-def things() -> list[Thing]:
-    subjects = [load_analysis(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
-    return [thing for subject in subjects if subject is not None for thing in things_of(subject)]
+def entries() -> list[Entry]:
+    subjects = [load_subject(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
+    return [entry for subject in subjects if subject is not None for entry in entries_of(subject)]
 
 
 @pytest.mark.parametrize(
-    ("words", "first", "told"),
+    ("words", "first", "expected"),
     [
         ("E07", "hitachi_l200 d081 trip_1_error", "enum Overvoltage (E07) enums.yaml:25"),
         ("error:21h", "hitachi_l200 exception 21h value_out_of_range", "number 33 bus.yaml:21"),
@@ -64,28 +64,26 @@ def things() -> list[Thing]:
         ("ENTER-Befehl", "hitachi_l200 command enter", "title ENTER-Befehl bus.yaml"),
     ],
 )
-def test_the_first_hit(words: str, first: str, told: str, things: list[Thing]) -> None:
-    hit = search(things, words.split())[0]
-    assert f"{hit.thing.device} {hit.thing.heading}".startswith(f"{first}:")
-    spans = [(fact, fact.place()) for fact in hit.facts]
-    said = [f"{fact.kind} {fact.text} {span.file.rpartition('/')[2]}:{span.line}" for fact, span in spans]
-    assert any(text.startswith(told) for text in said), said
-    for fact, span in spans:
-        text = (
-            (ROOT / span.file).read_text("utf-8").splitlines()[span.line - 1] if fact.kind in ("title", "code") else ""
-        )
-        assert fact.text in text or not text
+def test_the_first_hit(words: str, first: str, expected: str, entries: list[Entry]) -> None:
+    hit = search(entries, words.split())[0]
+    assert f"{hit.entry.device} {hit.entry.heading}".startswith(f"{first}:")
+    spans = [(text, text.place()) for text in hit.texts]
+    found = [f"{text.kind} {text.text} {span.file.rpartition('/')[2]}:{span.line}" for text, span in spans]
+    assert any(text.startswith(expected) for text in found), found
+    for text, span in spans:
+        if text.kind in ("title", "code"):
+            assert text.text in (ROOT / span.file).read_text("utf-8").splitlines()[span.line - 1]
 
 
-def test_a_section_is_no_beginning_of_another(things: list[Thing]) -> None:
-    sections = {fact.text for hit in search(things, ["4.2.4"]) for fact in hit.facts}
+def test_a_section_is_no_beginning_of_another(entries: list[Entry]) -> None:
+    sections = {text.text for hit in search(entries, ["4.2.4"]) for text in hit.texts}
     assert sections <= {"4.2.4", *(f"4.2.4.{number}" for number in range(100))}
-    assert {hit.thing.device for hit in search(things, ["4.2"])} >= {"woodward_mpu2s"}
+    assert {hit.entry.device for hit in search(entries, ["4.2"])} >= {"woodward_mpu2s"}
 
 
-def test_near_words(things: list[Thing]) -> None:
-    assert search(things, ["Hochlaufzeitt"]) == []
-    assert near_words(things, ["Hochlaufzeitt"])[0] == "Hochlaufzeit"
+def test_near_words(entries: list[Entry]) -> None:
+    assert search(entries, ["Hochlaufzeitt"]) == []
+    assert near_words(entries, ["Hochlaufzeitt"])[0] == "Hochlaufzeit"
 
 
 def test_search(run: Callable[..., Output]) -> None:

@@ -6,14 +6,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.conversation.encoding import encode_point
-from fieldscribe.conversation.explain_other_items import explain_others
+from fieldscribe.asked import Options, RefusedError, UnclearError
+from fieldscribe.cli.frame_options import refuse_foreign
+from fieldscribe.conversation.decoder import StreamDecoder, decode
+from fieldscribe.conversation.encoding import encode_point, frames_for
+from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.options import refuse_foreign
-from fieldscribe.conversation.requests import frames_for
-from fieldscribe.conversation.texts import shown
+from fieldscribe.conversation.meanings import quoted_text
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder, Recogniser
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
@@ -194,7 +194,7 @@ def test_bits_that_are_always_written() -> None:
     ],
 )
 def test_texts_are_shown_as_they_are(text: str, words: str) -> None:
-    assert shown(text) == words
+    assert quoted_text(text) == words
 
 
 def test_answers_that_do_not_follow() -> None:
@@ -283,10 +283,10 @@ _HEADS = st.sampled_from([b"", b"\xdd", b"\xff\x01", b"\xee\x01", b"\xdd\x0e", b
 
 @given(st.lists(st.tuples(_IDS, _HEADS, st.binary(max_size=12)), min_size=1, max_size=8))
 def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
-    listening = Listener(DEVICE, {}, CanFrameDecoder(DEVICE))
+    listening = StreamDecoder(DEVICE, {}, CanFrameDecoder(DEVICE))
     for number, start, rest in frames:
         for data in (start + rest, (start + rest)[:8]):
-            heard = listening.hear(Pasted(CanFrame(number, data)))
+            heard = listening.decode(Pasted(CanFrame(number, data)))
             assert heard.summary
             assert heard.as_data()
 
@@ -418,7 +418,7 @@ def test_explained() -> None:
     [("can:321", 3), ("can:0x33F", 2), ("can:33Eh", 3), ("can:123", 0), ("can:zz", 0), ("read_answer", 1)],
 )
 def test_messages_are_explained(what: str, count: int) -> None:
-    assert len(explain_others(DEVICE, what)) == count
+    assert len(explain_other_items(DEVICE, what)) == count
 
 
 def test_a_device_without_messages() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.conversation.listener import decode
+from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.modbus import exchange as modbus
 from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import telegrams as uss

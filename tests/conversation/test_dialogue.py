@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.conversation.listener import Listener
-from fieldscribe.conversation.requests import read_text
+from fieldscribe.asked import RefusedError
+from fieldscribe.conversation.decoder import StreamDecoder
+from fieldscribe.conversation.explanation import read_text
 from fieldscribe.families.frame_results import refused
 from fieldscribe.families.modbus.frame_builder import words_of, write_request
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
@@ -35,10 +36,10 @@ def rtu(text: str) -> bytes:
 
 def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> FrameResult:
     """The last of the frames, heard after the others."""
-    listening = Listener(DEVICE, settings, ModbusFrameDecoder(DEVICE))
+    listening = StreamDecoder(DEVICE, settings, ModbusFrameDecoder(DEVICE))
     if request is not None:
-        listening.expect_reply_to(request)
-    return [listening.hear(data) for data in frames][-1]
+        listening.decode(request, expecting=True)
+    return [listening.decode(data) for data in frames][-1]
 
 
 def said(heard: FrameResult) -> list[str]:
@@ -91,10 +92,10 @@ def test_read_and_reply() -> None:
 
 def test_a_second_expected_request_takes_the_place_of_the_first() -> None:
     """It is a request whatever was expected before, and the replies that follow are its own."""
-    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE))
-    listening.expect_reply_to(rtu("01 03 10 13 00 02"))
-    assert listening.expect_reply_to(rtu("01 03 10 28 00 01")).kind == "request"
-    heard = listening.hear(rtu("01 03 02 01 F4"))
+    listening = StreamDecoder(DEVICE, {}, ModbusFrameDecoder(DEVICE))
+    listening.decode(rtu("01 03 10 13 00 02"), expecting=True)
+    assert listening.decode(rtu("01 03 10 28 00 01"), expecting=True).kind == "request"
+    heard = listening.decode(rtu("01 03 02 01 F4"))
     assert (heard.kind, heard.faults) == ("reply", ())
     assert said(heard) == ["A020 base_frequency = 50 Hz (raw 500 = 01F4h): Base frequency"]
 
@@ -236,11 +237,13 @@ def test_commands_and_loopback() -> None:
 
 def test_tcp_is_known_by_its_header() -> None:
     rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
-    heard = Listener(rtu_only, {}, ModbusFrameDecoder(rtu_only)).hear(bytes.fromhex("000700000006050310280001"))
+    heard = StreamDecoder(rtu_only, {}, ModbusFrameDecoder(rtu_only)).decode(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.findings == ("the manual knows only RTU frames",)
-    wrong = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE, "tcp")).hear(bytes.fromhex("000700000009050310280001"))
+    wrong = StreamDecoder(DEVICE, {}, ModbusFrameDecoder(DEVICE, "tcp")).decode(
+        bytes.fromhex("000700000009050310280001")
+    )
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)
 
@@ -254,12 +257,12 @@ def test_pieces_are_no_frames(text: str) -> None:
 
 @given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
 def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
-    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE, framing))
+    listening = StreamDecoder(DEVICE, {}, ModbusFrameDecoder(DEVICE, framing))
     if asked:
-        listening.expect_reply_to(frames[0])
+        listening.decode(frames[0], expecting=True)
     for data in frames:
         for whole in (data, data + crc16(data).to_bytes(2, "little")):
-            assert listening.hear(whole).summary
+            assert listening.decode(whole).summary
 
 
 @given(st.integers(0, 0xFFFF), st.sampled_from([1, 2, 3, 4, 5, 6, 8, 15, 16]), st.binary(min_size=2, max_size=20))
@@ -324,7 +327,7 @@ def test_why_no_frame_writes_a_point(status: str, why: str) -> None:
 def test_what_a_person_says_is_a_request_is_read_as_one_whatever_came_before() -> None:
     """An echo looks like its request: with --request it is the request."""
     frame = rtu("05 06 10 28 01 F4")
-    listening = Listener(DEVICE, {}, ModbusFrameDecoder(DEVICE))
-    assert listening.hear(frame).kind == "request_or_reply"
-    assert listening.expect_reply_to(frame).kind == "request_or_reply"
-    assert listening.hear(frame).kind == "reply"
+    listening = StreamDecoder(DEVICE, {}, ModbusFrameDecoder(DEVICE))
+    assert listening.decode(frame).kind == "request_or_reply"
+    assert listening.decode(frame, expecting=True).kind == "request_or_reply"
+    assert listening.decode(frame).kind == "reply"

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.conversation.listener import Listener
+from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span
 from fieldscribe.families.frame_results import FrameResult, Item
 from support.models import sample_device
@@ -39,10 +39,10 @@ class Script:
 
 def summaries(*frames: DecodedFrame, expected: DecodedFrame | None = None) -> list[str]:
     """Which request was open at each frame."""
-    listening = Listener(DEVICE, {}, Script())
+    listening = StreamDecoder(DEVICE, {}, Script())
     if expected is not None:
-        listening.expect_reply_to(expected)
-    return [listening.hear(frame).summary for frame in frames]
+        listening.decode(expected, expecting=True)
+    return [listening.decode(frame).summary for frame in frames]
 
 
 ASKS, ANSWERS = DecodedFrame(QUIET, request="first"), DecodedFrame(QUIET, answers=True)
@@ -71,6 +71,6 @@ def carrying(*words: int) -> DecodedFrame:
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:
     told = Item("", 0, 1, "as it is")
-    heard = Listener(DEVICE, {}, Script()).hear(replace(carrying(7), contents=(told, told)))
+    heard = StreamDecoder(DEVICE, {}, Script()).decode(replace(carrying(7), contents=(told, told)))
     assert heard.items == (told, told)
-    assert [item.raw for item in Listener(DEVICE, {}, Script()).hear(carrying(7)).items] == [7]
+    assert [item.raw for item in StreamDecoder(DEVICE, {}, Script()).decode(carrying(7)).items] == [7]

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import with_fixed
-from fieldscribe.conversation.encoding import encode_point
-from fieldscribe.conversation.explain_other_items import explain_others
+from fieldscribe.asked import Options, RefusedError, UnclearError
+from fieldscribe.cli.frame_options import refuse_foreign
+from fieldscribe.conversation.decoder import StreamDecoder, decode
+from fieldscribe.conversation.encoding import encode_point, frames_for
+from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.listener import Listener, decode
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.options import refuse_foreign
-from fieldscribe.conversation.requests import frames_for
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
@@ -284,11 +284,11 @@ def test_a_part_longer_than_any_telegram_is_read_after_a_request() -> None:
     st.sampled_from([None, "request", "response"]),
 )
 def test_any_bytes_are_safe(frames: list[bytes], framing: str, words: int, direction: str | None) -> None:
-    listening = Listener(DEVICE, {}, UssFrameDecoder(DEVICE, Link(words, 2), framing, direction))
+    listening = StreamDecoder(DEVICE, {}, UssFrameDecoder(DEVICE, Link(words, 2), framing, direction))
     for data in frames:
         even = data[: len(data) & ~1]
         for whole in (data, telegram(1, [int.from_bytes(even[at : at + 2], "big") for at in range(0, len(even), 2)])):
-            heard = listening.hear(whole)
+            heard = listening.decode(whole)
             assert heard.summary
             assert heard.as_data()
 
@@ -309,9 +309,9 @@ def test_answers_without_faults_are_those_of_the_reference(
     part = (code << 12 | number, place, value >> 16, value & 0xFFFF)[: link.sent]
     answer = telegram(1, (*part, 0, 0))
     status = parse(DEVICE.bus, link, asked, answer).status
-    listening = Listener(DEVICE, {}, UssFrameDecoder(DEVICE, link))
-    listening.hear(telegram(1, (*(0x143A, 0, 0, 0)[: link.sent], 0, 0)))
-    heard = listening.hear(answer)
+    listening = StreamDecoder(DEVICE, {}, UssFrameDecoder(DEVICE, link))
+    listening.decode(telegram(1, (*(0x143A, 0, 0, 0)[: link.sent], 0, 0)))
+    heard = listening.decode(answer)
     assert (heard.kind in ("reply", "exception")) == (status in ("ok", "refused", "no_rights", "no_answer"))
     assert heard.faults == ()
 
@@ -412,7 +412,7 @@ def test_explained() -> None:
     ],
 )
 def test_codes_are_explained(what: str, heading: str) -> None:
-    assert [told.heading.partition(":")[0] for _, told in explain_others(DEVICE, what)] == [heading]
+    assert [told.heading.partition(":")[0] for _, told in explain_other_items(DEVICE, what)] == [heading]
 
 
 def test_every_point_is_explained() -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.conversation.units import find_units
+from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.language.units import factor_between, shipped, shipped_unit, unit_hint
 from fieldscribe.model import Unit
 from support.models import point, sample_device
@@ -142,7 +142,8 @@ def test_explain_tells_of_a_unit(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_unit_names_its_first_points(count: int, rest: str) -> None:
     hertz = Unit("Hz", "hertz", "frequency")
     points = (*(point(f"p_{at}", at, unit=hertz) for at in range(count)), point("other", 99))
-    ((reading, heading, rows),) = find_units(sample_device(points), "Hz")
-    assert (reading, heading) == ("unit Hz", "Hz: hertz")
-    assert dict(rows)["Quantity"] == "frequency"
-    assert dict(rows)["Points"] == (", ".join(f"p_{at}" for at in range(min(count, 20))) + rest or "none")
+    ((readings, explanation),) = explain_other_items(sample_device(points), "unit:Hz")
+    rows = dict(explanation.rows)
+    assert (readings, explanation.heading) == (["unit Hz"], "Hz: hertz")
+    assert rows["Quantity"] == "frequency"
+    assert rows["Points"] == (", ".join(f"p_{at}" for at in range(min(count, 20))) + rest or "none")

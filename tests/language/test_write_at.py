@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 import pytest
-from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.listener import decode
+from fieldscribe.user_errors import Options
+from fieldscribe.conversation.decoder import decode
+from fieldscribe.conversation.explanation import explain_point, write_text
 from fieldscribe.conversation.lookup import find
-from fieldscribe.conversation.requests import write_text
 from fieldscribe.export import export_model
 from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16

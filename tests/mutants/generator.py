@@ -35,7 +35,7 @@ STARTED = 0.3
 """Seconds that a file of tests takes before its first test."""
 LIMIT = 45
 """Seconds of a processor after which a mutant is taken to hang."""
-_LOADED = ("jinja2", "yaml", "rich.console", "rich.table", "hypothesis", "jsonschema")
+_LOADED = ("jinja2", "yaml", "hypothesis", "jsonschema")
 
 Codes = dict[str, CodeType]
 

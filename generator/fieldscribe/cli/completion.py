@@ -1,22 +1,32 @@
-"""`fieldscribe completion`: what makes a shell complete commands, options, devices and points."""
+"""`fieldscribe completion`: shell scripts that complete commands, options, devices and points, and their answers."""
 
 from __future__ import annotations
 
+import re
+import sys
+from argparse import ArgumentParser
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+from fieldscribe.cli import COMMANDS, FINE, command_module
+from fieldscribe.cli.common import default_folders, known_devices
+from fieldscribe.language.keys.forms import ID
+from fieldscribe.search.summaries import summary_of
 
-HELP = "print what makes a shell complete commands, options, devices and points"
+if TYPE_CHECKING:
+    from argparse import Action, Namespace
+    from collections.abc import Iterable, Sequence
+
+HELP = "print the script with which a shell completes commands, options, devices and points"
 EXAMPLE = """examples:
   fieldscribe completion bash > ~/.local/share/bash-completion/completions/fieldscribe
   fieldscribe completion zsh > ~/.zfunc/_fieldscribe
   fieldscribe completion fish > ~/.config/fish/completions/fieldscribe.fish
 
-For zsh, ~/.zfunc must be in fpath before compinit runs. Or for the running shell alone:
+For zsh, ~/.zfunc must be in fpath before compinit runs. For the running shell alone:
   source <(fieldscribe completion bash)
 
-ends with 2 for a shell that it does not know"""
+ends with 2 for an unknown shell"""
 
 SCRIPTS = {
     "bash": """# completion of fieldscribe for bash
@@ -52,29 +62,98 @@ end
 complete -c fieldscribe -f -a '(__fieldscribe_words)'
 """,
 }
+"""The script of each shell; it runs `fieldscribe completion words -- WORD...` for each tab."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+    """Add the command's arguments."""
     parser.add_argument(
-        "shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (words answers their scripts)"
+        "shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (their scripts call `words`)"
     )
     parser.add_argument(
-        "typed", nargs="*", metavar="WORD", help="with words: what is typed so far, the last one in part"
+        "typed", nargs="*", metavar="WORD", help="with `words`: the words typed so far, the last one in part"
     )
 
 
 def run(arguments: Namespace) -> int:
-    """Print it; the exit code."""
-    import sys
-
-    from fieldscribe.cli import FINE
-
+    """Print the script of the shell, or the completions of typed words, and return the exit code."""
     if arguments.shell == "words":
-        from fieldscribe.cli.completing import candidates
-
-        words = (word for word in candidates(arguments.typed) if word.isprintable())
+        words = (word for word in completions(arguments.typed) if word.isprintable())
         sys.stdout.writelines(f"{word}\n" for word in words)
     else:
         sys.stdout.write(SCRIPTS[arguments.shell])
     return FINE
+
+
+def completions(typed: Sequence[str]) -> list[str]:
+    """Return the words that may replace the last one; none where files may stand, or nothing is known."""
+    words = [word for place, word in enumerate(typed) if word != "=" or place + 1 == len(typed)]  # bash splits at `=`
+    *before, word = [text.strip() for text in words] or [""]
+    if not before:
+        return _starting_with(word, (*COMMANDS, "--help", "--version"))
+    return _CommandLine(before[0], before[1:]).completions(word) if before[0] in COMMANDS else []
+
+
+def _starting_with(word: str, known: Iterable[str]) -> list[str]:
+    return [name for name in dict.fromkeys(known) if name.casefold().startswith(word.casefold())]
+
+
+class _CommandLine:
+    """The words of a command before the one that is completed."""
+
+    def __init__(self, command: str, before: list[str]) -> None:
+        parser = ArgumentParser(prog=command, add_help=True)
+        command_module(command).add_arguments(parser)
+        actions: list[Action] = parser._actions  # argparse offers no other way
+        self._options = {name: action for action in actions for name in action.option_strings}
+        self._positionals = [action for action in actions if not action.option_strings]
+        self._given: list[str] = []
+        self._open_option: Action | None = None
+        self._folder: Path | None = None
+        for word in before:
+            self._take(word)
+
+    def _take(self, word: str) -> None:
+        option = self._options.get(word)
+        if self._open_option is not None:
+            self._folder = Path(word) if self._open_option.dest == "descriptions" else self._folder
+            self._open_option = None
+        elif option is not None:
+            self._open_option = option if option.nargs != 0 else None
+        elif not word.startswith("-"):
+            self._given.append(word)
+
+    def completions(self, word: str) -> list[str]:
+        """Return the words that may replace `word` at the end of the line."""
+        name, equals, value = word.partition("=")
+        if equals and name in self._options:
+            return [f"{name}={known}" for known in _starting_with(value, self._values(self._options[name]))]
+        if self._open_option is not None:
+            return _starting_with("" if word == "=" else word, self._values(self._open_option))
+        if word.startswith("-"):
+            return _starting_with(word, self._options)
+        place = min(len(self._given), len(self._positionals) - 1)
+        return _starting_with(word, self._values(self._positionals[place])) if place >= 0 else []
+
+    def _values(self, action: Action) -> Iterable[str]:
+        """Return the values that an argument takes, as far as they are known."""
+        if action.choices is not None:
+            return [str(choice) for choice in action.choices]
+        metavar = str(action.metavar or "")
+        if metavar in ("DEVICE", "PATH"):
+            return self._devices()
+        if metavar in ("POINT", "WHAT"):
+            return self._points()
+        return [f"{name}=" for name in self._points()] if metavar.startswith("POINT=") else []
+
+    def _devices(self) -> dict[str, Path]:
+        """Return the devices whose folders are named by an id; others cannot be one word on a command line."""
+        known = known_devices(default_folders() if self._folder is None else [self._folder])
+        return {name: file for name, file in known.items() if re.fullmatch(ID.pattern, name)}
+
+    def _points(self) -> Iterable[str]:
+        """Return the names and codes of the points of the device that is named before."""
+        known = self._devices()
+        file = next((known[word] for word in self._given if word in known), None)
+        summary = None if file is None else summary_of(file)
+        return () if summary is None else summary.names

@@ -1,20 +1,28 @@
-"""`fieldscribe decode`: frames into meaning."""
+"""`fieldscribe decode`: frames, from arguments or streams, into meaning."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import gc
+import sys
+from itertools import groupby
+from typing import IO, TYPE_CHECKING
+
+from fieldscribe.asked import UnclearError
+from fieldscribe.cli.common import StopError, add_device, add_format, open_device, usage_error
+from fieldscribe.cli.decoded_frames import frame_printer
+from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
+from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Iterable, Iterator
-    from typing import IO
+    from collections.abc import Callable, Iterable, Iterator
 
-    from fieldscribe.cli.heard import Shown
-    from fieldscribe.conversation.listener import Listener
+    from fieldscribe.cli.decoded_frames import FramePrinter
     from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.user_errors import UnclearError
 
-HELP = "say what frames from the line mean"
+HELP = "decode frames from the line into points and values"
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
   fieldscribe decode hitachi_l200 0801000600051C91 --format json
@@ -27,27 +35,28 @@ EXAMPLE = """examples:
   fieldscribe decode siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"
   fieldscribe decode siemens_mm4 --framing pzd --direction response "FA31 0000"
 
-Each FRAME is one argument, or several whole frames behind each other; a reply is read by the request before it.
-Streams are decoded line by line as they come, for as long as they last. --format json is one object and whole when the
-last frame has come; --format jsonl has an object for each frame.
+A FRAME argument holds one frame, or several whole frames in a row. A reply is decoded with the request before it.
+A stream is decoded line by line as it arrives. --format json prints one object, which is whole after the last frame;
+--format jsonl prints one object for each frame.
 
-Ends with 1 when a frame is damaged, is no frame of the device (wrong length, checksum, header) or does not answer the
-request before it; when it asks for what the device does not do (a unit, function, task, count, multiplexer, framing or
-address that it has not, an address that the manual closes), or writes what it does not take (a value outside its range,
-a point that is read only, other bits than those always written). What a reply brings is never a finding: any raw number
-may come. Notes are no findings. Ends with 2 when a line of a stream is no frame; the others are decoded."""
+ends with 0 when no frame is wrong; notes do not count, and neither do raw numbers in replies: a device may send any
+ends with 1 when a frame
+  - is damaged or foreign (length, checksum, header), or does not answer the request before it
+  - asks for what the device does not have: unit, function, task, count, multiplexer, framing, address
+  - writes what the device does not take: out of range, read only, or against bits that are always written
+ends with 2 when a line of a stream is no frame; the other lines are decoded"""
 
-_OBJECTS = 100_000
-"""After so many new objects a collection is worth its time."""
-_MOST_UNREAD = 10
-"""Of so many lines that are no frames each has its message."""
+_GC_THRESHOLD = 100_000
+"""The new objects after which a stream collects garbage; the default is too often for short-lived texts."""
+_MOST_MESSAGES = 10
+"""How many lines that are no frames get a message of their own."""
+_CHUNK = 1 << 16
+_LONGEST_LINE = 1 << 16
+"""The bytes of a line that are read; a longer line ends in dots, and so is no frame."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_device, add_format
-    from fieldscribe.cli.link import add_framing, add_own, add_with
-
+    """Add the command's arguments."""
     add_device(parser)
     parser.add_argument(
         "frames",
@@ -64,108 +73,114 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="read frames from a file, one a line; may be repeated",
     )
     parser.add_argument("--request", metavar="FRAME", help="the request that the frames answer")
-    add_framing(parser, "default: seen from the bytes; uss")
+    add_framing(parser, "found from the bytes; uss")
     parser.add_argument("--unit", type=int, metavar="N", help="only frames to or from this unit")
-    add_own(parser, "decode")
+    add_family_options(parser, "decode")
     add_with(parser)
     add_format(parser, ("jsonl",), "; json is one object, jsonl one object a line")
 
 
 def run(arguments: Namespace) -> int:
-    """Decode; the exit code: 1 when there is a fault or a finding."""
-    from fieldscribe.cli.common import StopError, open_device, settings_of
-    from fieldscribe.cli.heard import shown_as
-    from fieldscribe.cli.link import options_of
-    from fieldscribe.conversation.listener import Listener, decoder_of
-    from fieldscribe.user_errors import UnclearError
-
+    """Decode and print frames; return the exit code."""
     if not arguments.frames and not arguments.log:
         raise StopError("there is nothing to decode", "give frames, - for standard input, or --log FILE")
     device = open_device(arguments)
     options = options_of(device, arguments)
-    settings = settings_of(device, arguments.given)
+    settings = settings_of(device, arguments)
     try:
-        listening = Listener(device, settings, decoder_of(device, options))
-        telling = _Telling(listening, shown_as(arguments.format, device), arguments.unit)
-        asked = listening.requests(options)
-        for frames in _runs(arguments.frames):
-            telling.tell([*asked, *listening.pasted(frames)]) if frames else telling.follow_input()
-            asked = []
+        decoder = StreamDecoder(device, settings, frame_decoder(device, options))
+        output = _Output(decoder, frame_printer(arguments.format, device), arguments.unit)
+        requests = decoder.requests(options)
+        for frames in _groups(arguments.frames):
+            output.print([*requests, *decoder.pasted(frames)]) if frames else output.follow_input()
+            requests = []
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    telling.tell(asked)
+    output.print(requests)
     for name in arguments.log:
         with open(name, "rb") as log:
-            telling.follow(log, name)
-    return telling.end()
+            output.follow(log, name)
+    return output.end()
 
 
-def _runs(words: list[str]) -> Iterator[list[str]]:
-    """The arguments that belong together; an empty list stands for standard input."""
-    from itertools import groupby
-
-    for is_input, run_of_words in groupby(words, key=lambda word: word == "-"):
-        yield [] if is_input else list(run_of_words)
+def _groups(words: list[str]) -> Iterator[list[str]]:
+    """Return the FRAME arguments in groups of neighbours; an empty list stands for standard input."""
+    for is_input, group in groupby(words, key=lambda word: word == "-"):
+        yield [] if is_input else list(group)
 
 
-class _Telling:
-    """Prints what is heard as it is heard, and keeps how it ends."""
+class _Output:
+    """Prints decoded frames as they come, and keeps what the exit code depends on."""
 
-    def __init__(self, listening: Listener, shown: Shown, unit: int | None) -> None:
-        self._listening = listening
-        self._shown = shown
+    def __init__(self, decoder: StreamDecoder, printer: FramePrinter, unit: int | None) -> None:
+        self._decoder = decoder
+        self._printer = printer
         self._unit = unit
         self._wrong = False
         self._unread = 0
 
-    def tell(self, heard: Iterable[FrameResult]) -> None:
-        """Print frames."""
-        for frame in heard:
+    def print(self, frames: Iterable[FrameResult]) -> None:
+        """Print those of the frames that are to or from the chosen unit."""
+        for frame in frames:
             if self._unit is None or frame.unit == self._unit:
-                self._shown.frame(frame)
+                self._printer.frame(frame)
                 self._wrong = self._wrong or frame.wrong
 
     def follow_input(self) -> None:
         """Decode the lines of standard input."""
-        import sys
-
-        from fieldscribe.cli.common import StopError
-
         if sys.stdin is None:
             raise StopError("standard input is closed", "give frames, or --log FILE")
         self.follow(sys.stdin, "standard input")
 
     def follow(self, stream: IO[str] | IO[bytes], name: str) -> None:
-        """Decode the lines of a stream; what they say is out before more of it is waited for."""
-        import gc
-        import sys
-
-        from fieldscribe.cli.lines import lines_of
-        from fieldscribe.user_errors import UnclearError
-
-        gc.set_threshold(_OBJECTS)
-        gc.enable()  # it may last for days
-        for number, text in lines_of(stream, sys.stdout.flush):
+        """Decode the lines of a stream, and print each before waiting for the next; skip lines that are no frames."""
+        gc.set_threshold(_GC_THRESHOLD)
+        gc.enable()  # a stream may last for days
+        for number, text in stream_lines(stream, sys.stdout.flush):
             try:
-                self.tell(self._listening.pasted([text]))
+                self.print(self._decoder.pasted([text]))
             except UnclearError as error:
-                self._pass_over(f"{name}:{number}", error)
+                self._unread += 1
+                if self._unread <= _MOST_MESSAGES:
+                    usage_error(f"{name}:{number}: {error.message}", error.hint if self._unread == 1 else "")
         gc.disable()
 
-    def _pass_over(self, where: str, error: UnclearError) -> None:
-        """Say that a line is no frame; one of thousands must not hide what the others say."""
-        from fieldscribe.cli.common import usage_error
-
-        self._unread += 1
-        if self._unread <= _MOST_UNREAD:
-            usage_error(f"{where}: {error.message}", error.hint if self._unread == 1 else "")
-
     def end(self) -> int:
-        """Print what belongs behind the last frame; the exit code."""
-        from fieldscribe.cli import FINDINGS, FINE, USAGE
-        from fieldscribe.cli.common import usage_error
-
-        self._shown.end()
-        if self._unread > _MOST_UNREAD:
-            usage_error(f"{self._unread - _MOST_UNREAD} more lines are no frames")
+        """Print what follows the last frame and return the exit code."""
+        self._printer.end()
+        if self._unread > _MOST_MESSAGES:
+            usage_error(f"{self._unread - _MOST_MESSAGES} more lines are no frames")
         return USAGE if self._unread else FINDINGS if self._wrong else FINE
+
+
+def stream_lines(stream: IO[str] | IO[bytes], before_waiting: Callable[[], object]) -> Iterator[tuple[int, str]]:
+    """Return the lines of a stream that are not blank, with their numbers, in constant memory.
+
+    `before_waiting` is called each time all that has arrived is decoded.
+    """
+    rest, number = b"", 0
+    for chunk in _chunks(stream, before_waiting):
+        *whole, rest = (rest + chunk).splitlines(keepends=True)
+        if rest.endswith(b"\n"):
+            whole, rest = [*whole, rest], b""
+        rest = rest[: _LONGEST_LINE + 1]
+        for line in whole:
+            number += 1
+            if line.strip():
+                yield number, _decoded(line, number)
+    if rest.strip():
+        yield number + 1, _decoded(rest, number + 1)
+
+
+def _decoded(line: bytes, number: int) -> str:
+    text = line[:_LONGEST_LINE].decode("utf-8", "replace").strip()
+    text = text.removeprefix("\ufeff") if number == 1 else text
+    return text if len(line) <= _LONGEST_LINE else f"{text}..."
+
+
+def _chunks(stream: IO[str] | IO[bytes], before_waiting: Callable[[], object]) -> Iterator[bytes]:
+    source = getattr(stream, "buffer", stream)
+    read = getattr(source, "read1", source.read)
+    while chunk := read(_CHUNK):
+        yield chunk if isinstance(chunk, bytes) else chunk.encode()
+        before_waiting()

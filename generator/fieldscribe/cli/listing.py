@@ -1,16 +1,34 @@
-"""`fieldscribe list`: the devices there are, and the points of one."""
+"""`fieldscribe list`: the known devices, or the points of one."""
 
 from __future__ import annotations
 
+from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.cli.common import (
+    StopError,
+    add_descriptions,
+    add_format,
+    add_variant,
+    open_device,
+    print_json,
+    searched_devices,
+)
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.conversation.selection import points_by_name, present
+from fieldscribe.report import visible
+from fieldscribe.search.summaries import summary_of
+from fieldscribe.text import csv_cell, line
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
 
-HELP = "list the devices there are, or the points of one"
+HELP = "list the known devices, or the points of one"
 EXAMPLE = """examples:
   fieldscribe list
   fieldscribe list --family modbus --format json
@@ -19,15 +37,36 @@ EXAMPLE = """examples:
   fieldscribe list woodward_mpu2s --unit Hz --space telegram
   fieldscribe list siemens_mm4 --group parameters --format csv
 
-ends with 1 when nothing is like that"""
+ends with 1 when the list is empty"""
 
 _COLUMNS = ("code", "name", "space", "address", "access", "type", "unit", "range", "group", "title")
+_DEVICE_COLUMNS = ("device", "family", "version", "points", "vendor", "model", "title")
+
+
+def _same(value: str | None, given: str) -> bool:
+    return (value or "").casefold() == given.casefold()
+
+
+_FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
+    "group": ("NAME", "of this group", lambda point, given: _same(point.group, given)),
+    "access": (
+        "r|w",
+        "that can be read (r), written (w) or both (rw)",
+        lambda point, given: set(given) <= set(point.access),
+    ),
+    "space": (
+        "NAME",
+        "of this space: coil, holding, parameter, telegram, ...",
+        lambda point, given: _same(point.space, given),
+    ),
+    "unit": ("SYMBOL", "in this unit, as in Hz", lambda point, given: point.unit.symbol == given),
+    "type": ("TYPE", "of this type, as in u16", lambda point, given: _same(point.type, given)),
+}
+"""The options that choose points: metavar, help text, and the test of a point."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_descriptions, add_format
-
+    """Add the command's arguments."""
     parser.add_argument(
         "device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml"
     )
@@ -36,80 +75,47 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--matching", action="append", default=[], metavar="GLOB", help="only names or codes like this; may be repeated"
     )
     parser.add_argument("--family", metavar="NAME", help="only devices of this family")
-    for option, what in _FILTERS.items():
-        parser.add_argument(f"--{option}", metavar=what[0], help=f"only points {what[1]}")
-    parser.add_argument(
-        "--variant",
-        action="append",
-        default=[],
-        metavar="AXIS=VALUE",
-        help="only points of this variant; may be repeated",
-    )
+    for option, (metavar, which, _) in _FILTERS.items():
+        parser.add_argument(f"--{option}", metavar=metavar, help=f"only points {which}")
+    add_variant(parser, "only points of this variant; may be repeated")
     add_format(parser, ("csv",))
 
 
-def _starts(have: str | None, asked: str) -> bool:
-    return (have or "").casefold() == asked.casefold()
-
-
-_FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
-    "group": ("NAME", "of this group", lambda point, asked: _starts(point.group, asked)),
-    "access": (
-        "r|w",
-        "that can be read (r), written (w) or both (rw)",
-        lambda point, asked: set(asked) <= set(point.access),
-    ),
-    "space": (
-        "NAME",
-        "of this space: coil, holding, parameter, telegram, ...",
-        lambda point, asked: _starts(point.space, asked),
-    ),
-    "unit": ("SYMBOL", "in this unit, as in Hz", lambda point, asked: point.unit.symbol == asked),
-    "type": ("TYPE", "of this type, as in u16", lambda point, asked: _starts(point.type, asked)),
-}
-"""The options that choose points: what they take, what they mean, and whether a point is meant."""
-
-
 def run(arguments: Namespace) -> int:
-    """List them; the exit code."""
+    """List devices or points; return the exit code."""
     return _devices(arguments) if arguments.device is None else _points(arguments)
 
 
 def _devices(arguments: Namespace) -> int:
-    from fieldscribe.cli.common import StopError, devices_asked
-    from fieldscribe.search.summaries import outlines_of
-
     about_points = [f"--{name}" for name in (*_FILTERS, "variant") if getattr(arguments, name)]
     if about_points:
         raise StopError(f"{about_points[0]} chooses points", "name their DEVICE, too")
-    outlines = [
-        outline
-        for outline in outlines_of(devices_asked(arguments).values())
-        if arguments.family in (None, outline.family) and _is_like(arguments.matching, (outline.id,))
+    data = [
+        summary.as_data()
+        for file in searched_devices(arguments).values()
+        if (summary := summary_of(file)) is not None
+        and arguments.family in (None, summary.family)
+        and _matches(arguments.matching, (summary.id,))
     ]
-    rows = [[outline.id, outline.family, outline.version, str(outline.points), outline.vendor, outline.model,
-             " / ".join(dict.fromkeys(outline.title.values()))] for outline in outlines]  # fmt: skip
-    head = ("device", "family", "version", "points", "vendor", "model", "title")
-    return _print(arguments.format, head, rows, {"devices": [outline.as_data() for outline in outlines]})
+    rows = [{**device, "title": " / ".join(dict.fromkeys(device["title"].values()))} for device in data]
+    cells = [[str(row[column]) for column in _DEVICE_COLUMNS] for row in rows]
+    return _print(arguments.format, _DEVICE_COLUMNS, cells, {"devices": data})
 
 
 def _points(arguments: Namespace) -> int:
-    from fieldscribe.cli.common import StopError, open_device
-    from fieldscribe.conversation.selection import present
-
     if arguments.family is not None:
         raise StopError("--family chooses devices", "leave out DEVICE, or --family")
     device = open_device(arguments)
-    chosen = [
-        (holds, asked) for name, (_, _, holds) in _FILTERS.items() if (asked := getattr(arguments, name)) is not None
+    tests = [
+        (test, given) for name, (_, _, test) in _FILTERS.items() if (given := getattr(arguments, name)) is not None
     ]
     points = [
         point
         for point in present(device, device.points)
-        if all(holds(point, asked) for holds, asked in chosen)
-        and _is_like(arguments.matching, (point.item, point.name, point.code or ""))
+        if all(test(point, value) for test, value in tests)
+        and _matches(arguments.matching, (point.item, point.name, point.code or ""))
     ]
-    described = [_described(device, point) for point in points]
+    rows = [_cells(device, point) for point in points]
     data = [
         {
             **dict(zip(_COLUMNS, row, strict=True)),
@@ -117,40 +123,29 @@ def _points(arguments: Namespace) -> int:
             "address": point.address,
             "title": dict(point.title),
         }
-        for point, row in zip(points, described, strict=True)
+        for point, row in zip(points, rows, strict=True)
     ]
-    return _print(arguments.format, _COLUMNS, described, {"device": device.id, "points": data})
+    return _print(arguments.format, _COLUMNS, rows, {"device": device.id, "points": data})
 
 
-def _described(device: Device, point: Point) -> list[str]:
-    from fieldscribe import wording
-    from fieldscribe.conversation.selection import points_by_name
-    from fieldscribe.text import line
-    from fieldscribe.wording.exact import hex_text
-
-    where = "" if point.address is None else hex_text(point.address)
-    allowed = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
+def _cells(device: Device, point: Point) -> list[str]:
+    """Return the cells of a point's row, in the order of `_COLUMNS`."""
+    address = "" if point.address is None else hex_text(point.address)
+    values = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
     space = point.space if point.telegram is None else f"{point.space} {point.telegram}"
-    cells = (point.code or "", point.item, space, where, point.access, wording.type_text(point), point.unit.symbol,
-             allowed, point.group, wording.title_text(point.title))  # fmt: skip
+    cells = (point.code or "", point.item, space, address, point.access, wording.type_text(point), point.unit.symbol,
+             values, point.group, wording.title_text(point.title))  # fmt: skip
     return [line(cell) for cell in cells]
 
 
-def _is_like(globs: Iterable[str], names: Iterable[str]) -> bool:
-    """Whether some name is like every glob, whatever the case; without any glob all are."""
-    from fnmatch import fnmatchcase
-
+def _matches(globs: Iterable[str], names: Iterable[str]) -> bool:
+    """Return True if each glob matches one of the names, in any case."""
     known = [name.casefold() for name in names if name]
     return all(any(fnmatchcase(name, glob.casefold()) for name in known) for glob in globs)
 
 
-def _print(form: str, head: Sequence[str], rows: Sequence[Sequence[str]], data: dict[str, object]) -> int:
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import print_json
-    from fieldscribe.cli.terminal import print_lines
-    from fieldscribe.report import visible
-    from fieldscribe.text import csv_cell
-
+def _print(form: str, head: Sequence[str], rows: Sequence[Sequence[str]], data: Mapping[str, object]) -> int:
+    """Print the list; return the exit code."""
     if form == "json":
         print_json(data)
     elif form == "csv":

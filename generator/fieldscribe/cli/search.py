@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
+from fieldscribe.asked import did_you_mean, quoted
+from fieldscribe.cli.common import add_descriptions, add_format, device_file, print_json, searched_devices, usage_error
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_subject
+from fieldscribe.report import place_text, visible
+from fieldscribe.search.entries import entries_of
+from fieldscribe.search.matching import near_words, search
+
 if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+    from argparse import ArgumentParser
     from collections.abc import Sequence
 
-    from fieldscribe.search.entries import Thing
+    from fieldscribe.search.entries import Entry
     from fieldscribe.search.matching import Hit
 
 HELP = "find words in titles, codes, sections, names, flags, labels and numbers of all devices"
@@ -20,16 +30,16 @@ EXAMPLE = """examples:
   fieldscribe search 4.2.40 --device woodward_mpu2s
   fieldscribe search ueberspannung --format json
 
-All WORDS must occur in the texts of one thing, in any case and language; ä and ae are the same.
-Exact codes and names come first. ends with 1 when nothing has them"""
+All WORDs must occur in the texts of one point, command, message or code, in any case and language; ä and ae are the
+same. Exact codes and names come first.
+
+ends with 1 when nothing has all words"""
 
 _MOST = 20
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_descriptions, add_format
-
+    """Add the command's arguments."""
     parser.add_argument(
         "words", nargs="+", metavar="WORD", help="a word, a code, a section, or a number with its kind: error:21h"
     )
@@ -38,22 +48,17 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add_descriptions(parser)
     parser.add_argument(
-        "--most", type=int, default=_MOST, metavar="N", help=f"show the nearest N, 0 for all (default: {_MOST})"
+        "--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
     )
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Search; the exit code."""
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import print_json, usage_error
-    from fieldscribe.search.matching import near_words, search
-    from fieldscribe.user_errors import did_you_mean, quoted
-
-    things = _things(arguments)
+    """Search and print the hits; return the exit code."""
+    entries = _entries(arguments)
     words = [word for text in arguments.words for word in text.split()]
-    hits = search(things, words) if words else []
-    near = [] if hits else near_words(things, words)
+    hits = search(entries, words) if words else []
+    near = [] if hits else near_words(entries, words)
     if arguments.format == "json":
         print_json({"words": words, "hits": [_as_data(hit) for hit in hits], "near": near})
     elif hits:
@@ -63,47 +68,37 @@ def run(arguments: Namespace) -> int:
     return FINE if hits else FINDINGS
 
 
-def _things(arguments: Namespace) -> list[Thing]:
-    """Everything that has a name in the devices that are meant; those with findings are left out, and named."""
-    from argparse import Namespace as Chosen
-
-    from fieldscribe.cli.common import device_file, devices_asked, usage_error
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_analysis
-    from fieldscribe.search.entries import things_of
-
+def _entries(arguments: Namespace) -> list[Entry]:
+    """Return the entries of the chosen devices; those with errors are left out, with a message."""
     folder = arguments.descriptions
-    named = {name: device_file(Chosen(device=name, descriptions=folder)) for name in arguments.device}
-    things: list[Thing] = []
-    for name, file in (named or devices_asked(arguments)).items():
-        subject = load_analysis(file, Report())
+    named = {name: device_file(Namespace(device=name, descriptions=folder)) for name in arguments.device}
+    entries: list[Entry] = []
+    for name, file in (named or searched_devices(arguments)).items():
+        subject = load_subject(file, Report())
         if subject is None:
-            usage_error(f"`{name}` has findings and is left out", f"fieldscribe check {name}")
+            usage_error(f"`{name}` has errors and is left out", f"fieldscribe check {name}")
         else:
-            things += things_of(subject)
-    return things
+            entries += entries_of(subject)
+    return entries
 
 
 def _as_data(hit: Hit) -> dict[str, object]:
-    thing = hit.thing
     matched = []
-    for fact in hit.facts:
-        span = fact.place()
+    for text in hit.texts:
+        span = text.place()
         matched.append(
-            {"what": fact.kind, "text": fact.text, "file": span.file, "line": span.line, "column": span.column}
+            {"what": text.kind, "text": text.text, "file": span.file, "line": span.line, "column": span.column}
         )
-    return {"device": thing.device, "kind": thing.kind, "name": thing.name, "code": thing.code, "matched": matched}
+    entry = hit.entry
+    return {"device": entry.device, "kind": entry.kind, "name": entry.name, "code": entry.code, "matched": matched}
 
 
 def _print(hits: Sequence[Hit], most: int) -> None:
-    from fieldscribe.cli.terminal import print_lines
-    from fieldscribe.report import place_text, visible
-
     for hit in hits[: most or None]:
-        print_lines([[("strong", visible(f"{hit.thing.device} {hit.thing.heading}"))]])
-        for fact in hit.facts:
-            said = f"{fact.kind} `{visible(fact.text)}`"
-            number = "" if fact.number is None or fact.text == str(fact.number) else f" ({fact.number})"
-            print_lines([[("", f"  {said}{number}, "), ("place", place_text(fact.place()))]])
+        print_lines([[("strong", visible(f"{hit.entry.device} {hit.entry.heading}"))]])
+        for text in hit.texts:
+            number = "" if text.number is None or text.text == str(text.number) else f" ({text.number})"
+            found = f"  {text.kind} `{visible(text.text)}`{number}, "
+            print_lines([[("", found), ("place", place_text(text.place()))]])
     if most and len(hits) > most:
         print_lines([[("hint", f"and {len(hits) - most} more: --most 0 shows all")]])

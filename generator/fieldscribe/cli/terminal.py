@@ -1,10 +1,9 @@
-"""Printing: plain text, or colours and layout by rich on a terminal."""
+"""Exit codes, and printing: plain text, or colours and wrapped columns on a terminal."""
 
 from __future__ import annotations
 
 import os
 import sys
-from functools import cache
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -12,83 +11,66 @@ if TYPE_CHECKING:
 
     from fieldscribe.report import Line
 
-Row = tuple[str, str]
-"""A label and what it says."""
+FINE, FINDINGS, USAGE = 0, 1, 2
+"""Exit codes: no finding; findings in the input, or stale output; wrong usage, or an error of the machine."""
 
-_STYLES = {
-    "error": "bold red",
-    "warning": "bold yellow",
-    "strong": "bold",
-    "place": "cyan",
-    "frame": "blue",
-    "hint": "green",
-}
-_LABEL_STYLES = {"Wrong": "bold red", "Note": "yellow", "Erratum": "yellow", "Not generated": "yellow"}
+Row = tuple[str, str]
+"""A label and its text."""
+
+_STYLES = {"error": "1;31", "warning": "1;33", "strong": "1", "place": "36", "frame": "34", "hint": "32"}
+"""The terminal's code (SGR) of each style."""
+_LABEL_STYLES = {"Wrong": "1;31", "Note": "33", "Erratum": "33", "Not generated": "33"}
+"""Labels whose rows stand out; all others are cyan, and their texts plain."""
+_MARGIN, _GAP = 2, 2
 
 
 def is_coloured(stream: TextIO) -> bool:
-    """Whether the stream is a terminal with colours, and the environment does not forbid them."""
+    """Return True if the stream is a terminal with colours and the environment does not forbid them."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
         return False
     return stream.isatty()
+
+
+def terminal_width() -> int:
+    """Return the columns of the terminal, 80 if there is none; `shutil` would take long to import."""
+    try:
+        return int(os.environ.get("COLUMNS", "0")) or os.get_terminal_size(sys.stdout.fileno()).columns
+    except (OSError, ValueError):
+        return 80
 
 
 def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
     """Print styled lines."""
     stream = stream or sys.stdout
     if is_coloured(stream):
-        text = ("".join(_styled(style, piece) for style, piece in line) for line in lines)
+        text = ("".join(_styled(_STYLES.get(style, ""), piece) for style, piece in line) for line in lines)
     else:
         text = ("".join(piece for _, piece in line) for line in lines)
     stream.writelines(f"{line}\n" for line in text)
 
 
 def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) -> None:
-    """Print a heading and rows of label and text below it; on a terminal long texts are wrapped in their column."""
+    """Print a heading and rows of label and text below it; a terminal gets long texts wrapped in their column."""
     stream = stream or sys.stdout
-    if is_coloured(stream):
-        _print_table(heading, rows, stream)
-        return
-    stream.write(rows_text(heading, rows))
+    width = max((len(label) for label, _ in rows), default=0)
+    if not is_coloured(stream):
+        margin, gap = " " * _MARGIN, " " * _GAP
+        lines = [heading, *(f"{margin}{label:<{width}}{gap}{text}".rstrip() for label, text in rows)]
+    else:
+        lines = [_styled("1", heading), *(line for label, text in rows for line in _wrapped(label, text, width))]
+    stream.writelines(f"{line}\n" for line in lines)
 
 
-def rows_text(heading: str, rows: Sequence[Row]) -> str:
-    """A heading and rows of label and text below it, where nothing is coloured or wrapped."""
-    width = max([len(label) for label, _ in rows], default=0)
-    margins = {label: f"  {label:<{width}}  " for label, _ in rows}
-    lines = [(margins[label] + text).rstrip() for label, text in rows]
-    return "\n".join([heading, *lines, ""])
+def _wrapped(label: str, text: str, width: int) -> Iterable[str]:
+    """Return the coloured lines of one row, with the text wrapped in its column."""
+    from textwrap import wrap  # only a terminal needs it
+
+    style = _LABEL_STYLES.get(label, "")
+    space = max(20, terminal_width() - _MARGIN - width - _GAP)
+    for place, line in enumerate(wrap(text, space, break_on_hyphens=False) or [""]):
+        shown = _styled(style or "36", f"{label:<{width}}") if place == 0 else " " * width
+        yield f"{' ' * _MARGIN}{shown}{' ' * _GAP}{_styled(style, line)}"
 
 
-def _print_table(heading: str, rows: Sequence[Row], stream: TextIO) -> None:
-    from rich.console import Console
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
-    console = Console(file=stream, highlight=False)
-    table = Table.grid(padding=(0, 2))
-    table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    for label, text in rows:
-        style = _LABEL_STYLES.get(label, "")
-        table.add_row(Text(label, style or "cyan"), Text(text, style))
-    console.print(Text(heading, "bold"))
-    console.print(Padding(table, (0, 0, 0, 2)))
-
-
-@cache
-def _marks(style: str) -> tuple[str, str]:
-    """The control codes around a text of that style; rich is asked only once, because findings may be thousands."""
-    from rich.color import ColorSystem
-    from rich.style import Style
-
-    before, _, behind = Style.parse(_STYLES[style]).render("-", color_system=ColorSystem.STANDARD).partition("-")
-    return before, behind
-
-
-def _styled(style: str, text: str) -> str:
-    if style not in _STYLES:
-        return text
-    before, behind = _marks(style)
-    return f"{before}{text}{behind}"
+def _styled(code: str, text: str) -> str:
+    return f"\x1b[{code}m{text}\x1b[0m" if code else text

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.asked import quoted
+from fieldscribe.cli.common import add_format, print_json, usage_error
+from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
+from fieldscribe.language.units import shipped, shipped_unit, unit_hint
+
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Sequence
@@ -17,13 +22,12 @@ EXAMPLE = """examples:
   fieldscribe units pressure --format json
 
 A description declares other units under `units`, and may give one of these symbols another meaning there.
+
 ends with 1 when a WORD names no unit"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_format
-
+    """Add the command's arguments."""
     parser.add_argument(
         "words", nargs="*", metavar="WORD", help="a symbol (its case counts), a name or a quantity (default: all units)"
     )
@@ -31,67 +35,51 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """List them and return the exit code."""
-    from fieldscribe.cli.common import print_json
-    from fieldscribe.language.units import shipped
-
-    known = list(shipped().values())
-    chosen, code = _chosen(known, arguments.words) if arguments.words else (known, 0)
+    """List the units; return the exit code."""
+    chosen: dict[str, Known] = {} if arguments.words else dict(shipped())
+    code = FINE
+    for word in arguments.words:
+        found = _named(word)
+        chosen |= {known.unit.symbol: known for known in found}
+        if not found:
+            code = FINDINGS
+            usage_error(f"no unit, name or quantity is `{quoted(word)}`", unit_hint(word, ()))
     if arguments.format == "json":
-        print_json({"units": [_as_data(known_unit) for known_unit in chosen]})
+        print_json({"units": [_as_data(known) for known in chosen.values()]})
     else:
-        _print(chosen, every=bool(arguments.words))
+        _print(list(chosen.values()), with_prefixes=bool(arguments.words))
     return code
 
 
-def _chosen(known: Sequence[Known], words: Sequence[str]) -> tuple[list[Known], int]:
-    """The units that the words name, and the exit code; reports words that name none."""
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import usage_error
-    from fieldscribe.language.units import shipped_unit, unit_hint
-    from fieldscribe.user_errors import quoted
-
-    chosen: dict[str, Known] = {}
-    code = FINE
-    for word in words:
-        unit = shipped_unit(word)
-        here = [
-            known_unit
-            for known_unit in known
-            if known_unit.unit == unit or (unit is None and word.casefold() in _words(known_unit))
-        ]
-        chosen |= {known_unit.unit.symbol: known_unit for known_unit in here}
-        if not here:
-            code = FINDINGS
-            usage_error(f"no unit, name or quantity is `{quoted(word)}`", unit_hint(word, ()))
-    return list(chosen.values()), code
-
-
-def _words(known: Known) -> tuple[str, str]:
-    return known.unit.name.casefold(), known.unit.quantity.casefold()
+def _named(word: str) -> list[Known]:
+    """Return the unit with this symbol, else all units with this name or quantity."""
+    unit, name = shipped_unit(word), word.casefold()
+    if unit is not None:
+        return [known for known in shipped().values() if known.unit == unit]
+    return [
+        known for known in shipped().values() if name in (known.unit.name.casefold(), known.unit.quantity.casefold())
+    ]
 
 
 def _as_data(known: Known) -> dict[str, str]:
-    """A unit for JSON; `factor` says exactly how many of `base` it is."""
+    """Return a unit for JSON; `factor` says exactly how many of `base` it is."""
     unit = known.unit
     described = {"symbol": unit.symbol, "name": unit.name, "quantity": unit.quantity}
     return {**described, "base": known.base, "factor": str(known.factor)}
 
 
-def _print(chosen: Sequence[Known], *, every: bool) -> None:
-    """Print a line for each unit; those with a prefix only behind their base unit, unless `every` is set."""
-    from fieldscribe.cli.terminal import print_lines
-
-    prefixes: dict[str, list[str]] = {}
-    for known_unit in chosen:
-        if known_unit.prefix:
-            prefixes.setdefault(known_unit.base, []).append(known_unit.unit.symbol)
-    shown = [known_unit for known_unit in chosen if every or not known_unit.prefix]
-    width = max((len(known_unit.unit.symbol) for known_unit in shown), default=0)
-    for known_unit in shown:
-        behind = f" = {known_unit.factor} {known_unit.base}" if known_unit.prefix else ""
-        also = "" if every else "".join(f", {symbol}" for symbol in prefixes.get(known_unit.base, ()))
-        meaning = f"{known_unit.unit.name} ({known_unit.unit.quantity}){behind}" + (
-            f"; also {also[2:]}" if also else ""
-        )
-        print_lines([[("strong", f"{known_unit.unit.symbol:<{width}}"), ("", f"  {meaning}")]])
+def _print(chosen: Sequence[Known], *, with_prefixes: bool) -> None:
+    """Print a line for each unit; prefixed units have their own only `with_prefixes`, else they follow their base."""
+    prefixed: dict[str, list[str]] = {}
+    for known in chosen:
+        if known.prefix:
+            prefixed.setdefault(known.base, []).append(known.unit.symbol)
+    listed = [known for known in chosen if with_prefixes or not known.prefix]
+    width = max((len(known.unit.symbol) for known in listed), default=0)
+    for known in listed:
+        text = f"{known.unit.name} ({known.unit.quantity})"
+        if known.prefix:
+            text += f" = {known.factor} {known.base}"
+        elif not with_prefixes and known.base in prefixed:
+            text += f"; also {', '.join(prefixed[known.base])}"
+        print_lines([[("strong", f"{known.unit.symbol:<{width}}"), ("", f"  {text}")]])

@@ -1,4 +1,12 @@
-"""What people ask of a device: what frames say, how a value is sent, what is known of a point. All families share it.
+"""What users ask of a device: what frames mean, how a value is sent, what is known of a point. All families share it.
 
-What depends on the family is in the parts `speech`, `sending` and `explaining` of its folder.
+The modules, in the order in which they build on each other:
+
+- `lookup`, `selection`: the points and variants that a user names
+- `typed_values`, `refusals`, `encoding`: a typed value into a raw number and frames, or the reason why not
+- `meanings`: a raw number into words
+- `explanation`, `explain_other_items`: all facts of a point, and of what is no point
+- `decode_state`, `address_items`, `telegram_items`, `frame_warnings`, `decoder`: frames into results
+
+What depends on the family is in the parts `frame_decoder` and `frame_builder` of its folder.
 """

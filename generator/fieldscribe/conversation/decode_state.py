@@ -1,66 +1,184 @@
-"""What is known while frames are decoded: the device, where its points are, and their values so far."""
+"""What decoding keeps from frame to frame: texts of points, and the numbers that frames have brought so far."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from fieldscribe.conversation.items import named_item
+from fieldscribe.conversation.meanings import Meanings, raw_form
+from fieldscribe.conversation.refusals import written_remarks
+from fieldscribe.conversation.selection import absence, same_meaning
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Item
+from fieldscribe.text import line
+from fieldscribe.wording import label, title_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from fractions import Fraction
 
-    from fieldscribe.conversation.items import Base
-    from fieldscribe.conversation.point_formatter import PointFormatter, PointTextCache
+    from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.frame_results import Item
     from fieldscribe.model import Device, Point
+
+Base = tuple[str, int, int]
+"""Space or telegram, address, and number of addresses of an item."""
+
+ItemMaker = Callable[[Sequence[int], "Settings"], Item]
+"""Makes an item from the words of a frame and the known numbers of other points."""
+
+PARAMETER = "parameter"
+"""The space of parameters."""
+
+_MOST_ITEMS = 64
+"""How many items of one point are cached: a stream may last for days."""
+_MOST_LAYOUTS = 4096
+
+Key = TypeVar("Key")
+Layout = TypeVar("Layout")
+
+
+class PointFormatter:
+    """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
+
+    def __init__(self, device: Device, point: Point, base: Base, *, written: bool) -> None:
+        self._device, self._point, self._base, self._written = device, point, base, written
+        self.needs = point.arguments if written else point.scale_arguments
+        self.source_of: Callable[[tuple[str, ...]], str] | None = None
+        """Returns where missing points come from, if that is known."""
+        self._head, self._title = f"{label(point)} = ", english_title(point)
+        self._raw_text = raw_form(point)
+        self._absent = absence(device, point) if written else ""
+        self._meanings = Meanings(device, point)
+        self._items: dict[Any, Item] = {}
+
+    def item(self, raw: int, settings: Settings) -> Item:
+        """Return the point with the meaning of its raw number; if it is written, also why the device refuses it."""
+        key: Any = raw
+        if self.needs:  # the types too: a special code equals the plain number, and is no quantity
+            values = [settings.get(name) for name in self.needs]
+            key = (raw, *values, *map(type, values))
+        item = self._items.get(key)
+        if item is None:
+            if len(self._items) >= _MOST_ITEMS:
+                self._items.clear()
+            item = self._items[key] = self._item(raw, settings)
+        return item
+
+    def lacks(self, settings: Settings) -> bool:
+        """Return True if the scale needs numbers of other points that are not among these."""
+        return self._meanings.lacks(settings)
+
+    def value(self, raw: int, settings: Settings) -> str:
+        """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
+        meaning = self._meanings.of(raw, settings)
+        text = meaning.flags.sentence(raw) if meaning.flags else meaning.text
+        return f"{text} ({self._raw_text(raw)})"
+
+    def _item(self, raw: int, settings: Settings) -> Item:
+        point, meaning, number = self._point, self._meanings.of(raw, settings), self._raw_text(raw)
+        finding, remark = self._absent, self._absent
+        if self._written and not finding:
+            finding, unchecked = written_remarks(self._device, point, raw, settings)
+            remark = finding or unchecked
+        rest = "; ".join(text for text in (self._title, remark, meaning.hint) if text)
+        if meaning.missing and self.source_of:
+            rest += self.source_of(meaning.missing)
+        text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
+        return Item(
+            *self._base, line(self._head + text), point.item, point.code, None if point.text is not None else raw,
+            meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags,
+        )  # fmt: skip
+
+
+class PointTextCache:
+    """The formatters of a device's points, and the layouts of what frames carry, each made once."""
+
+    def __init__(self, device: Device, directory: Directory) -> None:
+        self.device, self.directory = device, directory
+        self._formatters: dict[tuple[str, Base, bool], PointFormatter] = {}
+        self._layouts: BoundedMemo[Any, Any] = BoundedMemo(_MOST_LAYOUTS, lambda wanted: wanted[0](self, wanted[1]))
+
+    def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
+        """Return the formatter of a point at this place."""
+        key = point.item, base, written
+        if key not in self._formatters:
+            self._formatters[key] = PointFormatter(self.device, point, base, written=written)
+        return self._formatters[key]
+
+    def layout(self, make: Callable[[PointTextCache, Key], Layout], key: Key) -> Layout:
+        """Return `make(self, key)`: all about some addresses that does not depend on the numbers of a frame."""
+        layout: Layout = self._layouts[make, key]
+        return layout
 
 
 @dataclass(slots=True)
 class DecodeState:
-    """What one dialogue has told: numbers for rules, words of parameters, and points that wait for others."""
+    """What the frames of one unit have brought: numbers for rules, words of parameters, and incomplete points."""
 
     device: Device
     directory: Directory
-    told: PointTextCache
-    by_person: Mapping[str, int | Fraction]
+    texts: PointTextCache
+    given: Mapping[str, int | Fraction]
     settings: dict[str, int | Fraction]
-    """The numbers for rules: what the person gave, else what was heard."""
+    """The numbers for rules: those that the user gave, else those of frames."""
     words: dict[int, int] = field(default_factory=dict)
-    waiting: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
-    """What speaks for points whose meaning needs others, by item, with their raw numbers."""
-    fresh: set[str] = field(default_factory=set)
-    """The settings that have changed since the waiting points were last tried."""
+    incomplete: dict[str, tuple[PointFormatter, int]] = field(default_factory=dict)
+    """By item, the points whose meaning needs settings that are not known yet, with their raw numbers."""
+    changed: set[str] = field(default_factory=set)
+    """The settings that have changed since the incomplete points were last tried."""
 
     def learn(self, raws: Iterable[tuple[Point, int]]) -> None:
-        """Keep the values of points that the device reported."""
+        """Keep the numbers of points that the device reported."""
         for name, setting in self.directory.settings(raws):
             before = self.settings.get(name)
             # a special code equals the plain number, and is no quantity
-            if name not in self.by_person and (before != setting or type(before) is not type(setting)):
+            if name not in self.given and (before != setting or type(before) is not type(setting)):
                 self.settings[name] = setting
-                self.fresh.add(name)
+                self.changed.add(name)
 
-    def beside(self) -> DecodeState:
-        """The same for one frame whose points are settings for each other: what it learns is not kept."""
-        return replace(self, settings=dict(self.settings), fresh=set())
+    def for_one_frame(self) -> DecodeState:
+        """Return a state for a frame whose points are settings for each other; what it learns is not kept."""
+        return replace(self, settings=dict(self.settings), changed=set())
 
     def forget(self, address: int) -> None:
-        """Forget the values that the device derives from a parameter, once the parameter was written."""
-        for written in {point.name for point in self.directory.at("parameter", address)}:
+        """Forget the numbers that the device derives from a parameter: the parameter was written."""
+        for written in {point.name for point in self.directory.at(PARAMETER, address)}:
             for point in self.directory.derived(written):
-                if point.name not in self.by_person:
+                if point.name not in self.given:
                     self.settings.pop(point.name, None)
                 for at in point.addresses:
                     self.words.pop(at, None)
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
-        """A point with the meaning of its raw number."""
-        return self.told.voice(point, base, written=written).item(raw, self.settings)
+        """Return a point with the meaning of its raw number."""
+        return self.texts.formatter(point, base, written=written).item(raw, self.settings)
 
 
-def odd_item(point: Point, base: Base, said: str, odd: str) -> Item:
-    """A point for which a frame carries something else than its number, and why that is wrong."""
-    return replace(named_item(point, base, f"{said}; {odd}"), findings=(odd,))
+def english_title(point: Point) -> str:
+    """Return the English title."""
+    return title_text({"en": point.title["en"]})
+
+
+def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -> Item:
+    """Return a point that a frame names without a number; `text` replaces its title."""
+    full = f"{label(point)}: {text or english_title(point)}" + (f"; {finding}" if finding else "")
+    return Item(*base, line(full), point.item, point.code, findings=(finding,) if finding else ())
+
+
+def constant(item: Item) -> ItemMaker:
+    """Return a maker of always the same item."""
+    return lambda _words, _settings: item
+
+
+def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
+    """Return the points; variants with the same meaning (with `limits`, also the same limits) become one point."""
+    by_name: dict[str, list[Point]] = {}
+    for point in points:
+        by_name.setdefault(point.name, []).append(point)
+    result: list[Point] = []
+    for first, *others in by_name.values():
+        same = all(same_meaning(other, first) and (not limits or other.allowed == first.allowed) for other in others)
+        result += [replace(first, variant=None)] if others and same else [first, *others]
+    return result

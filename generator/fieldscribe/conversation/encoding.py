@@ -1,27 +1,35 @@
-"""Turns a typed value into a raw number. Raises RefusedError, UnclearError."""
+"""Turns a typed value into a raw number, and a raw number into the frames that write it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
+from fieldscribe.arithmetic import codec
+from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.conversation.meanings import meaning_of, raw_text
+from fieldscribe.conversation.refusals import amount_with_unit
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
-from fieldscribe.conversation.writing import rounding_remarks
+from fieldscribe.families import family
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from fractions import Fraction
+
     from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.asked import Options
+    from fieldscribe.families.frame_results import BuiltFrames
     from fieldscribe.model import Device, Point
 
 
 @dataclass(frozen=True, slots=True)
 class Encoded:
-    """A raw number to write, what it means, and remarks on how the value was changed."""
+    """A raw number to write, its meaning, and notes on how the value was rounded."""
 
     point: str
     code: str | None
@@ -32,7 +40,7 @@ class Encoded:
     words: int = 1
 
     def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
+        """Return the same for JSON."""
         return {
             "point": self.point,
             "code": self.code,
@@ -44,15 +52,30 @@ class Encoded:
 
 
 def encode_point(device: Device, point: Point, value: str, settings: Settings, *, as_raw: bool = False) -> Encoded:
-    """The raw number of a typed value, or a typed raw number itself if it may be written."""
+    """Return the raw number of a typed value, or of a typed raw number. Raises RefusedError, UnclearError."""
     _refuse_unwritable(device, point)
     typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)
-    notes = () if typed.value is None else tuple(rounding_remarks(point, typed.value, raw, settings))
+    notes = () if typed.value is None else tuple(_rounding_notes(point, typed.value, raw, settings))
     meaning = meaning_of(device, point, raw, settings)
     text = line(f"{label(point)} = {meaning.text}: {raw_text(point, raw)}")
     width = 16 * point.words if point.text is not None else point.width
     return Encoded(point.item, point.code, raw, raw & ((1 << width) - 1), text, notes, point.words)
+
+
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
+    """Return the frames that write a raw number. Raises RefusedError, UnclearError."""
+    frames: BuiltFrames = family_part(device, "frame_builder").frames_for(device, point, raw, settings, options)
+    return frames
+
+
+def family_part(device: Device, name: str) -> Any:
+    """Return a part of the device's family, such as `frame_builder`. Raises UnclearError if it has none."""
+    part = family(device.family).part(name)
+    if part is None:
+        message = f"frames of the family {device.family} are not known here"
+        raise UnclearError(message, "ask for raw numbers, without frames")
+    return part
 
 
 def _refuse_unwritable(device: Device, point: Point) -> None:
@@ -63,3 +86,19 @@ def _refuse_unwritable(device: Device, point: Point) -> None:
         raise RefusedError("not_generated", line(f"{label(point)} cannot be written: {reason}"))
     if not point.writable:
         raise RefusedError("read_only", f"{label(point)} is {wording.access_text(point.access)}")
+
+
+def _rounding_notes(point: Point, value: Fraction, raw: int, settings: Settings) -> Iterator[str]:
+    """Return notes on the rounding of a value that the point cannot hold exactly."""
+    if point.info.floating:
+        return
+    rounded = codec.decode(point, raw, settings)
+    if rounded != value:
+        texts = amount_with_unit(point, value), amount_with_unit(point, rounded)
+        yield f"{texts[0]} is between two raw numbers; rounded to {texts[1]}"
+    coarse = next((step for start, step in reversed(point.steps) if raw >= start), 1)
+    if raw % coarse:
+        kept = raw - raw % coarse
+        special = point.special(kept)
+        back = special.name if special else amount_with_unit(point, codec.decode(point, kept, settings))
+        yield f"here the device keeps only raw numbers divisible by {coarse}; expect {back} back"

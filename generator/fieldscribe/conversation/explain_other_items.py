@@ -1,96 +1,184 @@
-"""Explains what is not a point: commands, errata, frames, and addresses that the manual closes."""
+"""Explains what is no point: commands, errata, messages, codes, units, and addresses that the manual closes."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.exchanges import find_exchanges
-from fieldscribe.conversation.explanation import Explanation
-from fieldscribe.conversation.units import find_units
+from fieldscribe.conversation.explanation import Explanation, source_text
+from fieldscribe.families import family
+from fieldscribe.language.units import shipped, shipped_unit
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Command, Device, Erratum, Source
+    from fieldscribe.families import Codes
+    from fieldscribe.model import Code, Command, Device, Erratum, Message
 
-Answer = tuple[list[str], Explanation]
-"""How the question was understood, and the answer."""
+Row = tuple[str, str]
+
+_MOST_POINTS = 20
+_ROLES = {"address": "address", "raw": "value"}
 
 
-def explain_others(device: Device, what: str) -> list[Answer]:
-    """Every meaning of a name or a wire address that is not a point."""
+def explain_other_items(device: Device, what: str) -> list[tuple[list[str], Explanation]]:
+    """Return the readings and the explanation of each item with this name, or kind and number: `task:1`, `can:321`."""
     prefix, colon, rest = what.strip().partition(":")
-    if colon and prefix.strip().lower() == "unit":
-        return [([reading], _clean(heading, rows)) for reading, heading, rows in find_units(device, rest.strip())]
-    return list(_others(device, what.strip()))
-
-
-def _others(device: Device, what: str) -> Iterator[Answer]:
-    prefix, colon, rest = what.partition(":")
     forced = prefix.strip().lower() if colon else ""
-    asked = rest.strip() if colon else what
-    number = number_of(asked) if forced in ("", "wire") else None
+    text = (rest if colon else prefix).strip()
+    found = _units(device, text) if forced == "unit" else _items(device, text, forced)
+    return [
+        ([reading], Explanation(line(heading), tuple((label, line(cell)) for label, cell in rows if cell)))
+        for reading, heading, rows in found
+    ]
+
+
+Found = tuple[str, str, list[Row]]
+"""How the text was read, a heading, and rows; an empty row is left out."""
+
+
+def _items(device: Device, text: str, forced: str) -> Iterator[Found]:
+    name = text.lower() if forced in ("", "name") else None
+    number = number_of(text) if forced in ("", "wire") else None
     for command in device.commands:
-        if forced in ("", "name") and asked.lower() == command.name:
-            yield [f"command {command.name}"], _command(command)
+        if name == command.name:
+            yield f"command {command.name}", *_command(device, command)
         elif number is not None and number == command.address:
-            yield [f"wire address {wording.address_text(number)}, {command.space}"], _command(command)
+            yield f"wire address {wording.address_text(number)}, {command.space}", *_command(device, command)
     for erratum in device.errata:
-        if forced in ("", "name") and asked.lower() == erratum.id:
-            yield [f"erratum {erratum.id}"], _erratum(erratum)
-    for reading, heading, rows in find_exchanges(device, what):
-        yield [reading], _clean(heading, rows)
+        if name == erratum.id:
+            yield f"erratum {erratum.id}", *_erratum(device, erratum)
+    yield from _codes(device, text, forced)
+    yield from _messages(device, text, forced)
     for space, gaps in device.bus.gaps.items():
         for low, high in gaps:
             if number is not None and low <= number <= high:
-                yield [f"wire address {wording.address_text(number)}, {space}"], _gap(space, low, high)
+                yield f"wire address {wording.address_text(number)}, {space}", *_gap(space, low, high)
 
 
-def _clean(heading: str, rows: list[tuple[str, str]]) -> Explanation:
-    return Explanation(line(heading), tuple((label, line(text)) for label, text in rows if text))
-
-
-def _command(command: Command) -> Explanation:
+def _command(device: Device, command: Command) -> tuple[str, list[Row]]:
     value = "any value" if command.value is None else f"{command.value} ({hex_text(command.value)})"
     where = f"{command.space} {wording.address_text(command.address)}"
-    return _clean(
-        f"command {command.name}: {wording.title_text(command.title)}",
-        [
-            ("Write", f"{value} to {where}, function {hex_text(command.function, 2)}"),
-            ("Memory", f"stands {command.wears} writes" if command.wears else ""),
-            ("Busy", f"while {command.busy} is set" if command.busy else ""),
-            ("Note", wording.title_text(command.note) if command.note else ""),
-            ("Source", _source(command.source)),
-        ],
-    )
+    return f"command {command.name}: {wording.title_text(command.title)}", [
+        ("Write", f"{value} to {where}, function {hex_text(command.function, 2)}"),
+        ("Memory", f"stands {command.wears} writes" if command.wears else ""),
+        ("Busy", f"while {command.busy} is set" if command.busy else ""),
+        ("Note", wording.title_text(command.note) if command.note else ""),
+        ("Source", source_text(device, command.source)),
+    ]
 
 
-def _erratum(erratum: Erratum) -> Explanation:
-    return _clean(
-        f"erratum {erratum.id} ({erratum.certainty})",
-        [
-            ("About", ", ".join(erratum.points) or str(erratum.where)),
-            ("Printed", erratum.printed),
-            ("Taken", erratum.taken),
-            ("Why", erratum.why),
-            ("Source", _source(erratum.source)),
-        ],
-    )
+def _erratum(device: Device, erratum: Erratum) -> tuple[str, list[Row]]:
+    return f"erratum {erratum.id} ({erratum.certainty})", [
+        ("About", ", ".join(erratum.points) or str(erratum.where)),
+        ("Printed", erratum.printed),
+        ("Taken", erratum.taken),
+        ("Why", erratum.why),
+        ("Source", source_text(device, erratum.source)),
+    ]
 
 
-def _gap(space: str, low: int, high: int) -> Explanation:
+def _gap(space: str, low: int, high: int) -> tuple[str, list[Row]]:
     where = f"{wording.address_text(low)} to {wording.address_text(high)}"
-    return _clean(
-        f"{space} {where}: closed",
-        [("Meaning", "the manual gives these addresses no meaning; no request may reach across them")],
+    meaning = "the manual gives these addresses no meaning; no request may reach across them"
+    return f"{space} {where}: closed", [("Meaning", meaning)]
+
+
+def _codes(device: Device, text: str, forced: str) -> Iterator[Found]:
+    """Return functions, tasks, responses, errors, ... with this name, or with this number after their kind."""
+    for codes in family(device.family).codes:
+        for code in device.bus.codes(codes.section):
+            by_number = forced == codes.kind and number_of(text) == code.number
+            if by_number or (forced in ("", "name", codes.kind) and text.lower() == code.name):
+                heading = f"{codes.kind} {code.number} {code.name}: {wording.title_text(code.title)}"
+                yield f"{codes.kind} {code.number}", heading, list(_code_rows(device, codes, code))
+
+
+def _code_rows(device: Device, codes: Codes, code: Code) -> Iterator[Row]:
+    if code.most is not None:
+        yield "At most", f"{code.most} in one request"
+    if code.broadcast is not None:
+        yield "Broadcast", "yes" if code.broadcast else "no"
+    for other in family(device.family).codes:
+        if other.section == codes.belongs_to:
+            names = {other_code.number: other_code.name for other_code in device.bus.codes(other.section)}
+            none = "none" if codes.section == "functions" else ""  # a request without an answer gets a row, too
+            yield f"{other.kind.capitalize()}s", _named(code.answers, names) or none
+            yield "Refused by", _named(code.refusals, names)
+
+
+def _named(numbers: tuple[int, ...], names: Mapping[int, str]) -> str:
+    return ", ".join(f"{number} {names.get(number, '')}".strip() for number in numbers)
+
+
+def _messages(device: Device, text: str, forced: str) -> Iterator[Found]:
+    """Return messages with this name, or with this identifier after the name of the family."""
+    own = family(device.family)
+    number = _identifier(text) if own.lays_out_messages and forced == own.name else None
+    for message in device.messages:
+        if forced in ("", "name") and text.lower() == message.name:
+            yield f"message {message.name}", *_message(device, message)
+        low, high = device.bus.units if message.adds_unit else (0, 0)
+        if number is not None and message.identifier + low <= number <= message.identifier + high:
+            unit = f" of unit {number - message.identifier}" if message.adds_unit else ""
+            yield f"{own.name.upper()} identifier {hex_text(number, 3)}{unit}", *_message(device, message)
+
+
+def _identifier(text: str) -> int | None:
+    """Return an identifier, hexadecimal as in the tools for the bus: `321`, `0x321`, `321h`."""
+    digits = text.lower().removeprefix("0x").removesuffix("h")
+    plain = 0 < len(digits) <= 8 and all(digit in "0123456789abcdef" for digit in digits)
+    return int(digits, 16) if plain else None
+
+
+def _message(device: Device, message: Message) -> tuple[str, list[Row]]:
+    low, high = device.bus.units
+    where = hex_text(message.identifier, 3)
+    if message.adds_unit:
+        where = f"{where} + unit: {hex_text(message.identifier + low, 3)} to {hex_text(message.identifier + high, 3)}"
+    telegrams = [telegram.name for telegram in device.telegrams if telegram.message == message.name]
+    return f"message {message.name}: {wording.title_text(message.title)}", [
+        (f"{device.family.upper()} identifier", where),
+        ("Direction", message.direction),
+        ("Answers", message.answers or ""),
+        *((f"Byte {place}", _role_text(role.kind, role.number)) for place, role in enumerate(message.roles)),
+        ("Telegram", ", ".join(telegrams)),
+    ]
+
+
+def _role_text(kind: str, number: int) -> str:
+    if kind == "constant":
+        return f"always {hex_text(number, 2)}"
+    if kind == "xor":
+        places = [str(place) for place in range(8) if number >> place & 1]
+        return f"bytes {', '.join(places)} combined by exclusive or"
+    if kind == "word":
+        return f"word {number // 2} of the frame, {'low' if number & 1 else 'high'} byte"
+    if kind in _ROLES:
+        return f"{_ROLES[kind]}, {'high' if number else 'low'} byte"
+    return {"unit": "unit number", "multiplexer": "multiplexer: which words of the telegram follow"}.get(kind, kind)
+
+
+def _units(device: Device, symbol: str) -> Iterator[Found]:
+    """Return the unit with this symbol, as the device uses it; else the shipped unit."""
+    used = {point.unit.symbol: point.unit for point in device.points if point.unit.symbol}
+    unit = used.get(symbol) or shipped_unit(symbol)
+    if unit is None:
+        return
+    known = shipped().get(unit.symbol)
+    declared = known is None or known.unit != unit
+    names = list(dict.fromkeys(point.name for point in device.points if point.unit == unit))
+    rest = f" and {len(names) - _MOST_POINTS} more" if len(names) > _MOST_POINTS else ""
+    yield (
+        f"unit {unit.symbol}",
+        f"{unit.symbol}: {unit.name}",
+        [
+            ("Quantity", unit.quantity),
+            ("Means", f"{known.factor} {known.base}" if known is not None and known.prefix and not declared else ""),
+            ("Declared", "by the description" if declared else "no need: it comes with fieldscribe"),
+            ("Points", ", ".join(names[:_MOST_POINTS]) + rest if names else "none"),
+        ],
     )
-
-
-def _source(source: Source) -> str:
-    parts = [source.document, source.section or "", f"page {source.page}" if source.page else ""]
-    parts.append("" if source.line is None else f"line {source.line} of its text")
-    return ", ".join(part for part in parts if part)

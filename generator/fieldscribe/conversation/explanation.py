@@ -1,4 +1,4 @@
-"""Everything about one point in words: what the `explain` command shows. Pure data, no printing."""
+"""Explains one point: a heading and rows with all its facts, for the `explain` command."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.requests import read_text, write_text
 from fieldscribe.families import family
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.samples import sample_raw, sample_said
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from fieldscribe.families.frame_results import WriteMethod
     from fieldscribe.model import Device, Erratum, Point, Source
 
 Row = tuple[str, str]
@@ -35,11 +36,6 @@ class Explanation:
 
     heading: str
     rows: tuple[Row, ...]
-
-    def as_text(self) -> str:
-        """Lines for a terminal, the labels aligned."""
-        width = max((len(label) for label, _ in self.rows), default=0)
-        return "\n".join((self.heading, *(f"  {label:<{width}}  {text}" for label, text in self.rows)))
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -107,6 +103,23 @@ def _type_text(point: Point) -> str:
     return f"{wording.type_text(point)} of a shared word ({kind})"
 
 
+def read_text(device: Device, point: Point) -> str:
+    """Return how the point is read, with an example; empty if it cannot be read."""
+    part = family(device.family).part("frame_builder")
+    return str(part.read_text(device, point)) if part and point.readable and point.addresses else ""
+
+
+def write_text(device: Device, point: Point) -> str:
+    """Return how the point is written, with an example; empty if it cannot be written."""
+    part = family(device.family).part("frame_builder")
+    way: WriteMethod | None = part.way_to_write(device, point) if part and point.writable and point.addresses else None
+    if way is None:
+        return ""
+    raw = None if way.example is None else sample_raw(point)
+    frames = "" if way.example is None or raw is None else way.example(raw)
+    return way.how if raw is None or not frames else f"{way.how}{way.joint}{sample_said(point, raw)}{frames}"
+
+
 def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     by_name = {name: other for other in device.points for name in (other.item, other.name)}
     unit = point.unit
@@ -165,10 +178,11 @@ def _last_rows(device: Device, point: Point) -> Iterator[Row]:
         yield "Note", wording.title_text(point.note)
     if not point.generated:
         yield "Not generated", point.reason or "no reason given"
-    yield "Source", _source_text(device, point.source)
+    yield "Source", source_text(device, point.source)
 
 
-def _source_text(device: Device, source: Source) -> str:
+def source_text(device: Device, source: Source) -> str:
+    """Return where in which document a fact stands."""
     document = next(
         (document.title for document in device.documents if document.id == source.document), source.document
     )

@@ -1,4 +1,4 @@
-"""What is odd about a frame, whatever its family: a foreign framing, an address that counts from 1, a misprint."""
+"""Warnings about frames that all families share: a foreign framing, an address that counts from 1, a misprint."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class FrameWarnings:
-    """What looks odd or like a mistake in frames of one device."""
+    """Finds what looks like a mistake in frames of one device."""
 
     def __init__(self, device: Device, directory: Directory) -> None:
         self._framings = device.bus.framings
@@ -28,39 +28,37 @@ class FrameWarnings:
         self._misprints = {frame.printed: frame for frame in misprinted}
 
     def findings(self, decoded: DecodedFrame) -> tuple[str, ...]:
-        """The finding that the device does not use the framing."""
+        """Return the finding that the device does not use the framing, if so."""
         known = self._framings
         if not known or decoded.result.framing in known:
             return ()
         return (f"the manual knows only {' and '.join(known).upper()} frames",)
 
     def notes(self, decoded: DecodedFrame) -> tuple[str, ...]:
-        """Notes on what looks like a mistake."""
-        asked = [content for content in decoded.contents if isinstance(content, Span)] if decoded.request else ()
-        misprint = self._misprints.get(decoded.frame.data if decoded.frame else decoded.result.data)
-        if not asked and misprint is None:
-            return ()
-        said = [] if misprint is None else [_misprint_text(misprint)]
-        return (*(note for span in asked for note in _off_by_one(self._directory, span)), *said)
+        """Return notes on what may be a mistake."""
+        spans = [content for content in decoded.contents if isinstance(content, Span)] if decoded.request else []
+        misprint = self._misprints.get((decoded.frame or decoded.result).data)
+        notes = [note for span in spans for note in _off_by_one(self._directory, span)]
+        return (*notes, _misprint_text(misprint)) if misprint is not None else tuple(notes)
 
 
 def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
-    """A note if no point stands at the address, but one stands just below: probably a Modicon number (from 1)."""
+    """Return a note if a point starts one below the address, and none at it: probably a Modicon number (from 1)."""
     if span.address == 0 or directory.starting_at(span.space, span.address):
         return
     for point, place in directory.starting_at(span.space, span.address - 1):
         if len(place.addresses) > span.count:
             continue
         keys = [key for key, number in place.references.items() if number == span.address]
-        called = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
+        named = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
         below = hex_text(span.address - 1)
         yield (
-            f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {called}on "
+            f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {named}on "
             "the wire addresses count from 0, so this frame may be one too high"
         )
 
 
 def _misprint_text(frame: Frame) -> str:
-    """The note for a frame that the manual prints with this very error, where the bytes alone make the frame."""
+    """Return the note for a frame that the manual prints with this very error."""
     known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
     return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

@@ -1,4 +1,4 @@
-"""Why a value cannot be written, or a raw number cannot be read, in words."""
+"""Says in words why a value cannot be written, or a raw number cannot be read."""
 
 from __future__ import annotations
 
@@ -18,122 +18,140 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from fractions import Fraction
 
-    from fieldscribe.model import Device, Point, Special
+    from fieldscribe.model import Device, Enum, Point, Special
 
 _MOST_DIGITS = 12
 _MOST_NAMES = 30
 
 
-def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str = ": ") -> RefusedError:
-    """The refusal with the label of the point in front of the reason."""
-    return RefusedError(status, line(f"{label(point)}{joint}{why}"), hint, why=line(why))
+def refusal(
+    device: Device, point: Point, value: Fraction | None, raw: int, why: tuple[CodecError, Settings]
+) -> RefusedError:
+    """Return the codec's error in words. `value` is what the user gave, or None for a raw number.
 
-
-Circumstances = tuple[CodecError, Settings]
-"""The error, and the raw numbers of other points that led to it."""
-
-
-def refusal(device: Device, point: Point, value: Fraction | None, raw: int, why: Circumstances) -> RefusedError:
-    """The error of the codec in words; `value` is what was asked for, or None if `raw` was."""
+    `why` is the error, and the numbers of other points that led to it.
+    """
     error, settings = why
     if error.status in ("out_of_range", "unknown_value"):
-        return _out_of_range_refusal(device, point, value, raw, settings)
+        return _out_of_range(device, point, value, raw, settings)
     if error.special is not None:
-        return _special_code_refusal(point, value, raw, error.special)
+        return _special_code(point, value, raw, error.special)
     message, hint = failure(device, point, error)
     return _refused(point, error.status, message, hint)
 
 
-def _special_code_refusal(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
-    """The refusal of a special code: it was given as a quantity, or it can only be read."""
-    title = f"`{special.name}` ({wording.title_text(special.title)})"
-    if value is not None:
-        code = wording.special_numbers(special, point.width)
-        why = f"{amount_with_unit(point, value)} would be {code}, the special code {title}"
-    else:
-        shown = wording.code_text(raw, point.width, hexadecimal=special.hexadecimal)
-        why = f"{shown} is the special code {title}, which is only read"
-    hint = "the code is no quantity, and is only read"
-    if special.writable:
-        hint = f"write `{special.name}` if that is meant"
-        hint = hint if special.low == special.high else f"if that is meant, give {point.name}.raw a raw number"
-    return _refused(point, "special", why, hint if value is not None else "give a quantity")
+def written_remarks(device: Device, point: Point, raw: int, settings: Settings) -> tuple[str, str]:
+    """Return why the device refuses a raw number in a frame, and why it was not checked; both may be empty."""
+    if not point.writable:
+        return f"it is {wording.access_text(point.access)}", ""
+    try:
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        if error.status != "missing":
+            return refusal(device, point, _value(point, raw, settings), raw, (error, settings)).why, ""
+        options = " ".join(f"--with {name}=VALUE" for name in error.missing)
+        names = names_text(device, error.missing)
+        return "", f"not held against its limits, which depend on {names}: give {options}"
+    return "", ""
+
+
+def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
+    try:
+        return codec.decode(point, raw, settings) if point.form in ("scaled", "integer", "float") else None
+    except CodecError:
+        return None
 
 
 def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
-    """The message for any other error, and a hint (or empty)."""
-    blamed = names_text(device, error.missing)
+    """Return the message and the hint (may be empty) for an error that is not about a range or a special code."""
+    names = names_text(device, error.missing)
     if error.status == "missing":
-        hint = "give " + " ".join(f"--with {_short(device, name)}=VALUE" for name in error.missing)
+        points = points_by_name(device)
+        codes = {name: line(points[name].code or "") if name in points else "" for name in error.missing}
+        hint = "give " + " ".join(f"--with {code or name}=VALUE" for name, code in codes.items())
         part = "its scale" if set(error.missing) <= set(point.scale_arguments) else "its range"
-        return f"{part} depends on {blamed}", hint
+        return f"{part} depends on {names}", hint
     return {
-        "zero_factor": (f"{blamed} is zero or no quantity, and nothing can be computed with that", ""),
-        "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
-        "overflow": (f"the exponent {blamed} is outside the range that it has", ""),
-        "special": ("this raw number is a special code and no quantity", ""),
-        "not_a_number": ("the bit pattern is no number", ""),
-    }.get(error.status, (error.status, ""))
+        "zero_factor": f"{names} is zero or no quantity, and nothing can be computed with that",
+        "no_case": f"the manual gives no scale for what {names} holds",
+        "overflow": f"the exponent {names} is outside the range that it has",
+        "special": "this raw number is a special code and no quantity",
+        "not_a_number": "the bit pattern is no number",
+    }.get(error.status, error.status), ""
 
 
 def names_text(device: Device, names: Iterable[str]) -> str:
-    """The names that people know points by: `A062 lower_frequency_limit and A004 maximum_frequency`."""
-    points = points_by_name(device) if (names := tuple(names)) else {}
-    return " and ".join(_name(points[name]) if name in points else line(name) for name in names)
-
-
-def _name(point: Point) -> str:
-    """The name that rules use for a point, common to all its variants."""
-    return f"{line(point.code)} {point.name}" if point.code else point.name
+    """Return the codes and names of points: `A062 lower_frequency_limit and A004 maximum_frequency`."""
+    names = tuple(names)
+    points = points_by_name(device) if names else {}
+    codes = {name: points[name].code if name in points else None for name in names}
+    return " and ".join(f"{line(code)} {name}" if code else line(name) for name, code in codes.items())
 
 
 def amount(number: Fraction) -> str:
-    """A number for people: exact if that is short, else rounded and marked as rounded."""
-    exactly = number_text(number)
-    return exactly if is_short(exactly) or abs(number) >= 10**300 else f"about {float(number):.9g}"
+    """Return a number as text: exact if that is short, else rounded and marked as rounded."""
+    text = number_text(number)
+    return text if is_short(text) or abs(number) >= 10**300 else f"about {float(number):.9g}"
 
 
-def is_short(exactly: str) -> bool:
-    """Whether the text of an exact number ends, and soon."""
-    return "/" not in exactly and (len(exactly) <= _MOST_DIGITS + (exactly[0] == "-") or "." not in exactly)
+def is_short(text: str) -> bool:
+    """Return True if the text of an exact number is no fraction, and has few decimals."""
+    return "/" not in text and (len(text) <= _MOST_DIGITS + (text[0] == "-") or "." not in text)
 
 
 def amount_with_unit(point: Point, number: Fraction) -> str:
-    """A number for people, with the point's unit."""
+    """Return a number as text with the point's unit."""
     return wording.with_unit(amount(number), point)
 
 
-def _short(device: Device, name: str) -> str:
-    point = points_by_name(device).get(name)
-    return line(point.code) if point is not None and point.code else name
+def _refused(point: Point, status: str, why: str, hint: str = "", *, joint: str = ": ") -> RefusedError:
+    """Return the refusal: the point's label, then the reason."""
+    return RefusedError(status, line(f"{label(point)}{joint}{why}"), line(hint), why=line(why))
 
 
-def _out_of_range_refusal(
-    device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings
-) -> RefusedError:
+def _special_code(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
+    """Return the refusal of a special code: it was given as a quantity, or it can only be read."""
+    title = f"`{special.name}` ({wording.title_text(special.title)})"
+    if value is None:
+        code = wording.code_text(raw, point.width, hexadecimal=special.hexadecimal)
+        return _refused(point, "special", f"{code} is the special code {title}, which is only read", "give a quantity")
+    code = wording.special_numbers(special, point.width)
+    why = f"{amount_with_unit(point, value)} would be {code}, the special code {title}"
+    if not special.writable:
+        hint = "the code is no quantity, and is only read"
+    elif special.low == special.high:
+        hint = f"write `{special.name}` if that is meant"
+    else:
+        hint = f"if that is meant, give {point.name}.raw a raw number"
+    return _refused(point, "special", why, hint)
+
+
+def _out_of_range(device: Device, point: Point, value: Fraction | None, raw: int, settings: Settings) -> RefusedError:
     if point.enum is not None and all(isinstance(interval.low, int) for interval in point.allowed.intervals):
-        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.enum.entries[:_MOST_NAMES])
-        status = "unknown_value" if point.enum.closed else "out_of_range"
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
-        return _refused(point, status, f"does not take {raw}", line(f"it has {known}{beyond}"), joint=" ")
+        status = "unknown_value" if point.enum.closed else "out_of_range"
+        return _refused(point, status, f"does not take {raw}", f"it has {_entries(point.enum)}{beyond}", joint=" ")
     if point.digits is not None and codec.strange_digits(point, raw):
-        known = ", ".join(f"{entry.raw} {entry.name}" for entry in point.digits.enum.entries[:_MOST_NAMES])
-        hint = line(f"each digit is one of {known}")
+        hint = f"each digit is one of {_entries(point.digits.enum)}"
         return _refused(point, "unknown_value", f"does not take {raw}", hint, joint=" ")
     if with_fixed(point, raw) != raw:
         always = wording.fixed_text(point)
         return _refused(point, "out_of_range", f"raw {raw} breaks what is always written: {always}")
-    asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"
+    given = amount_with_unit(point, value) if value is not None else f"raw {raw}"
     span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
     if point.form in ("enum", "flags", "bit") or not span:
         span = f"raw {wording.raw_range_text(point) or f'{point.least}..{point.greatest}'}"
     span = (_range_now(point, settings) if point.limit_arguments else "") or span
     nearest = _nearest(point, value, raw, settings)
-    return _refused(point, "out_of_range", f"{asked} is outside {line(span)}", nearest)
+    return _refused(point, "out_of_range", f"{given} is outside {span}", nearest)
+
+
+def _entries(enum: Enum) -> str:
+    return ", ".join(f"{entry.raw} {entry.name}" for entry in enum.entries[:_MOST_NAMES])
 
 
 def _range_now(point: Point, settings: Settings) -> str:
-    """The range with the limits from other points filled in, if all of them are known."""
+    """Return the range with the limits from other points filled in; empty if one of them is not known."""
     try:
         spans = [window for window in codec.windows(point, settings) if not window.missing]
         parts = [_span(point, window.low, window.high, settings) for window in spans if window.low <= window.high]
@@ -152,21 +170,19 @@ def _span(point: Point, low: int, high: int, settings: Settings) -> str:
 
 
 def _nearest(point: Point, value: Fraction | None, raw: int, settings: Settings) -> str:
-    try:
-        if point.info.floating:
-            return _nearest_float(point, value)
-        wanted = raw if value is None else codec.encode(point, value, settings)
-        nearest = codec.nearest_allowed(point, wanted, settings)
-        if nearest is None:
+    """Return the hint that names the nearest allowed value; empty if there is none."""
+    if point.info.floating:
+        if value is None or not point.allowed.units:
             return ""
-        said = _span(point, nearest, nearest, settings) if value is not None else f"raw {nearest}"
-    except CodecError:
-        return ""
-    return f"the nearest allowed value is {said}"
-
-
-def _nearest_float(point: Point, value: Fraction | None) -> str:
-    if value is None or not point.allowed.units:
-        return ""
-    ends = [min(max(value, low), high) for low, high in point.allowed.units]
-    return f"the nearest allowed value is {amount_with_unit(point, min(ends, key=lambda end: abs(end - value)))}"
+        ends = [min(max(value, low), high) for low, high in point.allowed.units]
+        text = amount_with_unit(point, min(ends, key=lambda end: abs(end - value)))
+    else:
+        try:
+            wanted = raw if value is None else codec.encode(point, value, settings)
+            nearest = codec.nearest_allowed(point, wanted, settings)
+            if nearest is None:
+                return ""
+            text = _span(point, nearest, nearest, settings) if value is not None else f"raw {nearest}"
+        except CodecError:
+            return ""
+    return f"the nearest allowed value is {text}"

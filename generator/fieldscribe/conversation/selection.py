@@ -1,4 +1,4 @@
-"""The choices of a person: variants of a device, and one point. Raises UnclearError with a hint."""
+"""Finds the variants of a device and the one point that a user names. Raises UnclearError with a hint."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from fieldscribe.wording import label
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from fieldscribe.conversation.lookup import Match
     from fieldscribe.model import Device, Point
 
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
-    """The device with only the points of the chosen variants, each given as `axis=value`, and only their values.
+    """Return the device with only the points of the chosen variants, each given as `axis=value`, and only their values.
 
     Points that a condition then excludes are kept, so that a question about them can name the condition (`absence`).
     """
@@ -28,67 +29,72 @@ def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     for axis, value in (_variant(device, choice) for choice in chosen):
         if wanted.setdefault(axis, value) != value:
             raise UnclearError(
-                f"`{axis}` is said to be `{wanted[axis]}` and `{value}`", "choose one value of each axis"
+                f"`{axis}` is given as `{wanted[axis]}` and as `{value}`", "choose one value of each axis"
             )
     if not wanted:
         return device
-    points = tuple(point for point in device.points if _stays(point, wanted))
+    points = tuple(point for point in device.points if _is_in(point, wanted))
     left = {axis: (wanted[axis],) if axis in wanted else values for axis, values in device.variants.items()}
     return replace(device, points=points, variants=left)
 
 
 def absence(device: Device, point: Point) -> str:
-    """Why the chosen variants do not have a point, in words; empty where they do, or may."""
+    """Return why the chosen variants do not have a point; empty if they do, or may."""
     if not absent(point.when, device.variants):
         return ""
     return line(f"it exists only when {wording.condition_text(point.when, points_by_name(device))}")
 
 
 def present(device: Device, points: Iterable[Point]) -> list[Point]:
-    """The points that the chosen variants have or may have; all points if there is none."""
+    """Return the points that the chosen variants have or may have; all points if there is none."""
     candidates = list(points)
     return [point for point in candidates if not absent(point.when, device.variants)] or candidates
 
 
-def choose_point(device: Device, asked: str, *, index: int | None = None, alike: bool = False) -> Point:
-    """The one point with this code, name or address; with `alike`, one of several variants with the same meaning.
+def choose_point(device: Device, text: str, *, index: int | None = None, any_variant: bool = False) -> Point:
+    """Return the one point with this code, name or address. Raises UnclearError if there is none, or several.
 
-    `index` chooses one element of an array.
+    `index` chooses one element of an array. With `any_variant`, variants with the same meaning count as one point.
     """
-    matches = find(device, asked if index is None else f"{asked}[{index}]")
+    matches = find(device, text if index is None else f"{text}[{index}]")
     if index is not None and not matches:
-        elements = [str(match.point.index) for match in find(device, asked) if match.point.index is not None]
-        hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
-        raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
-    points = present(device, {match.point.item: match.point for match in matches}.values())
-    if len(points) == 1 or (alike and points and all(same_meaning(point, points[0]) for point in points)):
-        return points[0]
-    if not points:
-        raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
-    if len({point.name for point in points}) == 1:
-        variants = [point.variant for point in points if point.variant]
-        raise UnclearError(
-            f"`{quoted(asked)}` differs between variants",
-            "give " + " or ".join(f"--variant {variant}" for variant in variants),
+        elements = dict.fromkeys(
+            str(match.point.index) for match in find(device, text) if match.point.index is not None
         )
+        raise UnclearError(
+            f"`{quoted(text)}` has no element {index}", f"it has {', '.join(elements)}" if elements else ""
+        )
+    points = present(device, {match.point.item: match.point for match in matches}.values())
+    if not points:
+        raise UnclearError(f"{device.id} has no point `{quoted(text)}`", did_you_mean(near(device, text)))
+    if len(points) == 1 or (any_variant and all(same_meaning(point, points[0]) for point in points)):
+        return points[0]
+    raise _several(text, points, matches)
+
+
+def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearError:
+    """Return the error for a text that names several points: variants, elements of an array, or different points."""
+    if len({point.name for point in points}) == 1:
+        variants = [f"--variant {point.variant}" for point in points if point.variant]
+        return UnclearError(f"`{quoted(text)}` differs between variants", f"give {' or '.join(variants)}")
     if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
-        plain = len({point.index for point in points}) == len(points)  # else they are in several sets
-        names = (f"{line(point.code or asked)}[{point.index}]" if plain else point.item for point in points[:8])
+        in_one_set = len({point.index for point in points}) == len(points)
+        names = (f"{line(point.code or text)}[{point.index}]" if in_one_set else point.item for point in points[:8])
         choices = " or ".join(f"`{name}`" for name in names)
-        raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {choices}")
+        return UnclearError(f"`{quoted(text)}` has {len(points)} elements", f"write {choices}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
-    raise UnclearError(
-        f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
+    return UnclearError(
+        f"`{quoted(text)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
     )
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:
-    """The points by the names that rules and limits use."""
+    """Return the points by the names that rules and limits use."""
     return {point.name: point for point in device.points}
 
 
 def same_meaning(first: Point, second: Point) -> bool:
-    """Whether two points mean the same: they differ only in place or limits."""
+    """Return True if two points differ only in their place or limits."""
     facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (first, second)]
     return facts[0] == facts[1]
 
@@ -96,9 +102,9 @@ def same_meaning(first: Point, second: Point) -> bool:
 def _variant(device: Device, text: str) -> tuple[str, str]:
     axis, equals, value = text.partition("=")
     if not equals:
-        raise UnclearError(f"`{quoted(text)}` is no variant", "write --variant axis=value" + _axes(device))
+        raise UnclearError(f"`{quoted(text)}` is no variant", f"write --variant axis=value; {_axes(device)}")
     if axis not in device.variants:
-        raise UnclearError(f"{device.id} has no variant axis `{quoted(axis)}`", _axes(device).removeprefix("; "))
+        raise UnclearError(f"{device.id} has no variant axis `{quoted(axis)}`", _axes(device))
     values = device.variants[axis]
     if value not in values:
         near_values = get_close_matches(value, values, 1, 0.4) or list(values)
@@ -108,9 +114,9 @@ def _variant(device: Device, text: str) -> tuple[str, str]:
 
 def _axes(device: Device) -> str:
     known = [f"{axis}={'|'.join(values)}" for axis, values in device.variants.items()]
-    return f"; {device.id} has {', '.join(map(line, known))}" if known else f"; {device.id} has no variants"
+    return f"{device.id} has {', '.join(map(line, known)) or 'no variants'}"
 
 
-def _stays(point: Point, wanted: Mapping[str, str]) -> bool:
+def _is_in(point: Point, wanted: Mapping[str, str]) -> bool:
     variant = point.variant
     return variant is None or wanted.get(variant.axis, variant.value) == variant.value

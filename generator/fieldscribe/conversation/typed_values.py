@@ -1,4 +1,4 @@
-"""Reads the values that a person types: a number with or without its unit, a name, on or off, flags."""
+"""Reads the values that users type: a number with or without its unit, a name, on or off, flags, digits, a text."""
 
 from __future__ import annotations
 
@@ -11,23 +11,26 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.words import with_fixed
+from fieldscribe.arithmetic.words import mask_of, with_fixed
+from fieldscribe.asked import RefusedError, UnclearError, did_you_mean, quoted
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.conversation.texts import pattern_of_text
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
-from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
+from fieldscribe.text import line
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Flag, Point
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
 _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
+_MOST_NAMES = 30
+_CHARACTERS = {"ascii": ((0x20, 0x7E),), "latin-1": ((0x20, 0x7E), (0xA0, 0xFF))}
+"""The ranges of characters that may be written, by encoding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,11 +42,11 @@ class Typed:
 
 
 def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
-    """The value that the text gives the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
-    if as_raw and point.text is None:
-        return Typed(None, _whole(text))
+    """Return the value that a text gives the point. Raises UnclearError; RefusedError for a text that does not fit."""
     if point.text is not None:
-        return Typed(None, pattern_of_text(point, text))
+        return Typed(None, _pattern_of_text(point, text))
+    if as_raw:
+        return Typed(None, _whole(text))
     text = text.strip()
     raw = _flags(point, text) if point.flags else _digits(point, text) if point.digits else None
     raw = _named(point, text) if raw is None else raw
@@ -54,7 +57,8 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
     except NumberError as error:
         names = [name for name, _ in _names(point)]
         if names and not text[:1].isdigit():
-            raise _unknown_name(point, text, names) from error
+            known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
+            raise _unknown(f"{label(point)} has no name `{quoted(text)}`", text.casefold(), names, known) from error
         raise UnclearError(error.message, error.hint) from error
     if point.form not in ("enum", "flags", "bit", "digits"):
         return Typed(number, 0)
@@ -64,7 +68,7 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
 
 
 def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings) -> int:
-    """The raw number to write. Raises RefusedError, which says why not in words."""
+    """Return the raw number to write. Raises RefusedError, which says why not in words."""
     if point.text is not None:
         return typed.raw
     coded = typed.value is None and point.special(typed.raw) is not None
@@ -79,21 +83,21 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
 
 
 def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
-    """The settings for rules, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    """Return the settings for rules, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
     settings: dict[str, int | Fraction] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
         if not equals or not text.strip():
             raise UnclearError(f"`{quoted(pair)}` gives no value", "write --with POINT=VALUE")
         name = name.strip()
-        point = choose_point(device, name.removesuffix(".raw"), alike=True)
+        point = choose_point(device, name.removesuffix(".raw"), any_variant=True)
         raw = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
         settings[point.name] = codec.setting_of(point, raw)
     return settings
 
 
 def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
-    """The raw number that another point holds. Only its bits limit it: it may hold what must not be written."""
+    """Return the raw number that another point holds. Only its bits limit it: it may hold what must not be written."""
     if point.text is not None:
         raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
     typed = read_value(point, text, as_raw=as_raw)
@@ -117,7 +121,7 @@ def _whole(text: str) -> int:
 
 
 def _number(point: Point, text: str) -> Fraction:
-    """A number with or without the point's unit. Raises NumberError, UnclearError."""
+    """Return a number with or without the point's unit. Raises NumberError, UnclearError."""
     if point.unit.symbol == "h" and _HOURS.fullmatch(text):
         raise UnclearError(f"`{text}` could be hours or hexadecimal", f"write `{text[:-1]} h`, or 0x{text[:-1]}")
     try:
@@ -126,8 +130,7 @@ def _number(point: Point, text: str) -> Fraction:
         measure = _MEASURE.fullmatch(text)
         if measure is None:
             raise
-    number = parse_number(measure[1])
-    factor = _factor(point, measure[2].strip())
+    number, factor = parse_number(measure[1]), _factor(point, measure[2].strip())
     if factor is None:
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
         raise UnclearError(
@@ -137,21 +140,19 @@ def _number(point: Point, text: str) -> Fraction:
 
 
 def _factor(point: Point, typed: str) -> Fraction | None:
-    """The factor from the typed unit to the point's unit. Case may differ, but not in a prefix: mW is not MW."""
-    symbol = point.unit.symbol
-    if not symbol:
+    """Return the factor from the typed unit to the point's unit; None if they have nothing in common."""
+    if not point.unit.symbol:
         return None
     known = factor_between(typed, point.unit)
     return Fraction(1) if known is None and _is_unit(point, typed) else known
 
 
 def _is_unit(point: Point, typed: str) -> bool:
-    """Whether the text is another spelling of the point's unit."""
-    symbol = point.unit.symbol
+    """Return True for another spelling of the point's unit. Case may differ, but not in a prefix: mW is not MW."""
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
     typed, symbol = (
-        text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, symbol)
+        text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, point.unit.symbol)
     )
     if typed == symbol:
         return True
@@ -159,7 +160,7 @@ def _is_unit(point: Point, typed: str) -> bool:
 
 
 def _names(point: Point) -> Iterator[tuple[str, int]]:
-    """All names for raw numbers of the point, the plain names first."""
+    """Return all names for raw numbers of the point, the plain names first."""
     entries = point.enum.entries if point.enum else ()
     yield from ((special.name, special.low) for special in point.specials if special.low == special.high)
     yield from ((entry.name, entry.raw) for entry in entries)
@@ -181,7 +182,7 @@ def _named(point: Point, text: str) -> int | None:
 
 
 def _digits(point: Point, text: str) -> int | None:
-    """Names or numbers of all digits, the highest first, with commas between; None for the number of the whole word."""
+    """Return the number of named or plain digits with commas between, the highest first; None for a plain number."""
     parts = [part.strip() for part in text.split(",")]
     if point.digits is None or (len(parts) == 1 and point.digits.count > 1):
         return None
@@ -198,37 +199,26 @@ def _digits(point: Point, text: str) -> int | None:
     return raw
 
 
-def _unknown_name(point: Point, text: str, names: list[str]) -> UnclearError:
-    close = get_close_matches(text.casefold(), names, 3)
-    known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
-    hint = did_you_mean(close) or f"it has {', '.join(list(known)[:30])}"
-    return UnclearError(f"{label(point)} has no name `{quoted(text)}`", hint)
-
-
 def _flags(point: Point, text: str) -> int | None:
-    """Names joined by `|`, or `none`: these flags are true, all others are not; None for a number."""
+    """Return the number in which the flags joined by `|` are true and no others; None for a number or special code."""
     wanted = [part.strip().casefold() for part in text.split("|")]
-    if len(wanted) == 1 and wanted[0][:1].isdigit():
+    if len(wanted) == 1 and (wanted[0][:1].isdigit() or any(code.name == wanted[0] for code in point.specials)):
         return None
     raw = sum(1 << flag.low for flag in point.flags if flag.width == 1 and flag.active == 0)
-    if len(wanted) == 1 and any(special.name == wanted[0] for special in point.specials):
-        return None
     for part in wanted:
-        if part in ("none", ""):
-            continue
-        flag, number = _flag(point, part)
-        mask = ((1 << flag.width) - 1) << flag.low
-        raw = raw & ~mask | number << flag.low
+        if part not in ("none", ""):
+            flag, number = _flag(point, part)
+            raw = raw & ~(mask_of(flag.width) << flag.low) | number << flag.low
     return raw
 
 
 def _flag(point: Point, part: str) -> tuple[Flag, int]:
+    """Return the flag and its number, of `name` or `name=number`."""
     name, equals, value = (side.strip() for side in part.partition("="))
     flag = next((flag for flag in point.flags if flag.name == name), None)
     if flag is None:
         names = [flag.name for flag in point.flags]
-        hint = did_you_mean(get_close_matches(name, names, 3)) or f"it has {', '.join(names)}"
-        raise UnclearError(f"{label(point)} has no flag `{quoted(name)}`", hint)
+        raise _unknown(f"{label(point)} has no flag `{quoted(name)}`", name, names, names)
     if not equals:
         if flag.width > 1:
             raise UnclearError(f"`{flag.name}` has {flag.width} bits", f"write {flag.name}=NUMBER or {flag.name}=NAME")
@@ -238,3 +228,25 @@ def _flag(point: Point, part: str) -> tuple[Flag, int]:
     if not 0 <= number < 1 << flag.width:
         raise UnclearError(f"`{flag.name}` has {flag.width} bits, {number} does not fit", "")
     return flag, number
+
+
+def _unknown(message: str, typed: str, names: list[str], known: Iterable[str]) -> UnclearError:
+    """Return the error for an unknown name, with near names or else all that are known."""
+    near = did_you_mean(get_close_matches(typed, names, 3))
+    return UnclearError(message, near or f"it has {', '.join(list(known)[:_MOST_NAMES])}")
+
+
+def _pattern_of_text(point: Point, typed: str) -> int:
+    """Return the words of a typed text as one number, the first characters in the highest bits. Raises RefusedError."""
+    layout = point.text
+    assert layout is not None
+    spans = _CHARACTERS.get(layout.encoding, _CHARACTERS["ascii"])
+    strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
+    if strange is not None:
+        shown = line(strange) or f"U+{ord(strange):04X}"
+        message = f"{label(point)} cannot hold `{shown}`: its characters are {layout.encoding}"
+        raise RefusedError("out_of_range", message)
+    if len(typed) > layout.characters:
+        message = f"{label(point)} has {layout.characters} characters, here are {len(typed)}"
+        raise RefusedError("out_of_range", message)
+    return int.from_bytes(typed.ljust(layout.characters).encode("latin-1"), "big")

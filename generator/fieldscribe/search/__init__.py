@@ -1,1 +1,1 @@
-"""Finding things in descriptions: what there is at all, and what has a word in it."""
+"""Lists and searches descriptions: summaries of devices, and words in everything that has a name."""

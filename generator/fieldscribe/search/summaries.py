@@ -1,9 +1,9 @@
-"""What a description says of itself, and the names of its points: read without working them out, so it is quick."""
+"""Summaries of descriptions, read without resolving their points, so it is quick. `list` and completion use them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_outline
@@ -11,13 +11,12 @@ from fieldscribe.resolve.scope import titles
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
-class Outline:
-    """One device in a list; `names` are the names and codes of its points, `points` how many there are."""
+class Summary:
+    """A device in a list; `points` is their number, `names` are their names and codes."""
 
     id: str
     vendor: str
@@ -28,8 +27,8 @@ class Outline:
     points: int
     names: tuple[str, ...]
 
-    def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
+    def as_data(self) -> dict[str, Any]:
+        """Return the summary for JSON."""
         return {
             "device": self.id,
             "vendor": self.vendor,
@@ -41,27 +40,14 @@ class Outline:
         }
 
 
-def outline_of(device_file: Path) -> Outline | None:
-    """What a description says of itself; None where it cannot be read."""
+def summary_of(device_file: Path) -> Summary | None:
+    """Return the summary of a description; None if it cannot be read."""
     outline = load_outline(device_file, Report())
     if outline is None:
         return None
     header, drafts = outline
-    words = {key: line(str(header.get(key, ""))) for key in ("device", "vendor", "model", "family", "version")}
+    texts = [line(str(header.get(key, ""))) for key in ("device", "vendor", "model", "family", "version")]
+    device, vendor, model, family, version = texts
     title = {str(key): line(str(text)) for key, text in titles(header.get("title")).items()}
-    names = dict.fromkeys(name for draft in drafts for name in (draft.item, draft.code) if name)
-    return Outline(
-        words["device"],
-        words["vendor"],
-        words["model"],
-        title,
-        words["family"],
-        words["version"],
-        len(drafts),
-        tuple(line(name) for name in names),
-    )
-
-
-def outlines_of(device_files: Iterable[Path]) -> list[Outline]:
-    """Those that can be read, in the order given."""
-    return [outline for file in device_files if (outline := outline_of(file)) is not None]
+    names = dict.fromkeys(line(name) for draft in drafts for name in (draft.item, draft.code) if name)
+    return Summary(device, vendor, model, title, family, version, len(drafts), tuple(names))

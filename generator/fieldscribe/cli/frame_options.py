@@ -1,0 +1,107 @@
+"""The options of `decode` and `encode` about frames and other points; families declare those that only they take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.asked import Options, RefusedError, UnclearError
+from fieldscribe.cli.common import StopError
+from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families import families, family
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from fractions import Fraction
+
+    from fieldscribe.families import Family
+    from fieldscribe.model import Device
+
+
+def add_with(parser: ArgumentParser) -> None:
+    """Add `--with`, the values of other points; `settings_of` reads it."""
+    parser.add_argument(
+        "--with",
+        dest="settings",
+        action="append",
+        default=[],
+        metavar="POINT=VALUE",
+        help="what another point holds, where a scale or range depends on it; may be repeated",
+    )
+
+
+def add_framing(parser: ArgumentParser, default: str) -> None:
+    """Add `--framing`, with the framings of all families that have a choice."""
+    known = {family.name: framings for family in families() if (framings := _framings(family))}
+    of_families = "; ".join(f"{', '.join(framings)} ({name})" for name, framings in known.items())
+    parser.add_argument(
+        "--framing",
+        choices=tuple(framing for framings in known.values() for framing in framings),
+        help=f"how frames are wrapped: {of_families} (default: {default})",
+    )
+
+
+def add_family_options(parser: ArgumentParser, command: str) -> None:
+    """Add the options of this command that only some families take."""
+    for bus_family in families():
+        for option in bus_family.options:
+            help_text = f"{bus_family.name}: {option.help}"
+            if command not in option.commands:
+                continue
+            if option.type is None:
+                parser.add_argument(option.flag, action="store_true", help=help_text)
+            else:
+                parser.add_argument(
+                    option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=help_text
+                )
+
+
+def settings_of(device: Device, arguments: Namespace) -> dict[str, int | Fraction]:
+    """Return the values of other points that `--with` gives. Raises StopError."""
+    try:
+        return read_settings(device, arguments.settings)
+    except (UnclearError, RefusedError) as error:
+        raise StopError(f"--with: {error.message}", error.hint) from error
+
+
+def options_of(device: Device, arguments: Namespace) -> Options:
+    """Return the options that were given. Raises StopError for one that the device's family does not take."""
+    shared = {name: getattr(arguments, name, None) for name in ("framing", "unit", "request", "index")}
+    names = [option.name for bus_family in families() for option in bus_family.options]
+    values = {name: getattr(arguments, name, None) for name in names}
+    own = {name: value for name, value in values.items() if value is not None and value is not False}  # 0 is a value
+    options = Options(**shared, own=own)
+    try:
+        refuse_foreign(device, options)
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
+    return options
+
+
+def refuse_foreign(device: Device, options: Options) -> None:
+    """Refuse options that only other families take. Raises UnclearError."""
+    for name in _given(options):
+        takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
+        if device.family not in takers:
+            flag = f"--{name.replace('_', '-')}"
+            message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
+            raise UnclearError(message)
+    known = _framings(family(device.family))
+    if options.framing is not None and options.framing not in known:
+        message = f"--framing {options.framing} is not for {device.family} devices such as {device.id}"
+        raise UnclearError(message, f"it takes {', '.join(known)}")
+
+
+def _framings(bus_family: Family) -> tuple[str, ...]:
+    """Return the framings of a family; none if there is no choice."""
+    return bus_family.framings if len(bus_family.framings) > 1 else ()
+
+
+def _given(options: Options) -> list[str]:
+    """Return the names of the options that were given and not every family takes."""
+    return [name for name in ("framing", "index") if getattr(options, name) is not None] + list(options.own)
+
+
+def _takes(bus_family: Family, name: str) -> bool:
+    if name == "framing":
+        return bool(_framings(bus_family))
+    return bool(bus_family.indexed) if name == "index" else any(option.name == name for option in bus_family.options)

@@ -1,0 +1,198 @@
+"""Items of telegrams: process data and their masks, and telegrams that come in several frames."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.words import raw_of, raw_reader
+from fieldscribe.conversation.decode_state import named_item
+from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.families.frame_results import Item
+from fieldscribe.wording.buses import word_text, words_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.conversation.decode_state import Base, DecodeState, ItemMaker, PointTextCache
+    from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
+    from fieldscribe.model import Device, Point
+
+_MOST_SOURCES = 64
+"""For how many sets of missing points their source is cached."""
+
+
+def process_items(state: DecodeState, data: ProcessData) -> list[Item]:
+    """Return the items of process data."""
+    makers = state.texts.layout(_process_makers, (data.direction, len(data.words)))
+    return [make(data.words, state.settings) for make in makers]
+
+
+def _process_makers(texts: PointTextCache, key: tuple[str, int]) -> list[ItemMaker]:
+    """Return a maker for each item of so many words of process data in a direction."""
+    direction, count = key
+    names = _telegrams(texts.device, direction)
+    result = []
+    for place in range(count):
+        points = [point for name in names for point in texts.directory.at(name, place)]
+        base = (names[0] if names else "telegram", place, 1)
+        whole = [point for point in points if point.addresses[0] == place and place + point.words <= count]
+        result += [_process_maker(texts, point, base, written=direction == "request") for point in whole]
+        result += [] if points else [_undescribed(base)]
+    return result
+
+
+def _telegrams(device: Device, direction: str) -> list[str]:
+    return [telegram.name for telegram in device.telegrams if telegram.direction == direction]
+
+
+def _process_maker(texts: PointTextCache, point: Point, base: Base, *, written: bool) -> ItemMaker:
+    place = base[1]
+    if not point.generated and point.scale is None:
+        why = point.reason or "its meaning is open"
+        return lambda words, _: named_item(point, base, f"carries {words[place]:04X}h; {why}")
+    read = raw_reader(point, range(place, place + point.words))
+    formatter = texts.formatter(point, base, written=written)
+
+    def make(words: Sequence[int], settings: Settings) -> Item:
+        raw = read(words)
+        item = formatter.item(raw, settings)
+        # a master without anything to write sends words of zero
+        return item if raw or not item.findings else replace(item, findings=())
+
+    return make
+
+
+def _undescribed(base: Base) -> ItemMaker:
+    head = f"word {base[1] + 1} of process data"
+    return lambda words, _: Item(*base, f"{head} = {words[base[1]]:04X}h: no point is described here")
+
+
+def mask_items(state: DecodeState, masks: Masks) -> Iterator[Item]:
+    """Return the items of masks: which words of process data are valid, and which bits of control words."""
+    valid = [str(place) for place in range(1, 16) if masks.words[0] >> place & 1]
+    which = " and ".join([", ".join(valid[:-1]), valid[-1]] if valid[1:] else valid)
+    text = f"words {which} of process data count" if valid else "no word of process data counts"
+    yield Item("mask", 0, 1, f"mask {masks.words[0]:04X}h: {text}")
+    yield _mask_item(state, 0, 1, masks.words[1:2])
+    yield _mask_item(state, 3, 2, masks.words[2:4])
+
+
+def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) -> Item:
+    """Return the item of one mask: which bits of the control word at a place are valid."""
+    names = _telegrams(state.device, "request")
+    point = next((point for name in names for point in state.directory.at(name, place)), None)
+    about = point.code or point.name if point is not None else f"word {place + 1}"
+    if not any(words):
+        text = f"no bit of {about} counts"
+    elif set(words) == {0xFFFF}:
+        text = f"every bit of {about} counts"
+    else:
+        flags = point.flags if point is not None and len(words) == 1 else ()
+        named = [flag.name for flag in flags if words[0] >> flag.low & 1]
+        text = f"only these bits of {about} count" + (f" ({', '.join(named)})" if named else "")
+    return Item("mask", at, len(words), f"mask {words_text(words)}: {text}")
+
+
+PieceKey = tuple[str, range, int]
+"""A telegram, neighbouring words of it, and how many words one frame carries."""
+
+
+class _PiecePoint:
+    """A point that has words of a piece; its number comes from this piece, or from several."""
+
+    def __init__(self, texts: PointTextCache, key: PieceKey, point: Point) -> None:
+        telegram, positions, _ = key
+        self.point, self.addresses = point, point.addresses
+        self.base = telegram, min(point.addresses), len(point.addresses)
+        self.formatter = texts.formatter(point, self.base)
+        inside = [at - positions.start for at in point.addresses if at in positions]
+        self.start = positions.start + min(inside)
+        self.whole = len(inside) == len(point.addresses)
+        self._read = raw_reader(point, inside if self.whole else range(len(point.addresses)))
+
+    def raw(self, piece: Piece) -> int | None:
+        """Return the raw number; None while words of other frames are not known."""
+        if self.whole:
+            return self._read(piece.words)
+        status, words = piece.pieces.words(self.addresses)
+        return self._read(words) if status == "ok" else None
+
+
+class _PieceLayout:
+    """Neighbouring words of a telegram: the points that have one of them, in order, and the words without a point."""
+
+    def __init__(self, texts: PointTextCache, key: PieceKey) -> None:
+        telegram, positions, per_frame = key
+        at = {place: texts.directory.at(telegram, place) for place in positions}
+        points = {point.item: point for here in at.values() for point in here}.values()
+        parts = [_PiecePoint(texts, key, point) for point in points]
+        sources = BoundedMemo(_MOST_SOURCES, partial(_source_text, texts, telegram, per_frame))
+        for part in parts:
+            part.formatter.source_of = sources.__getitem__
+        self.parts = sorted(parts, key=lambda part: part.start)
+        self.settings = [number for number, part in enumerate(self.parts) if texts.directory.teaches(part.point)]
+        self.unknown = [place for place, here in at.items() if not here]
+
+
+def _source_text(texts: PointTextCache, telegram: str, per_frame: int, missing: tuple[str, ...]) -> str:
+    """Return where missing points come in a telegram; empty if they do not."""
+    firsts = [texts.directory.first(telegram, name) for name in missing]
+    slots = sorted({first // per_frame for first in firsts if first is not None})
+    return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
+
+
+def piece_items(state: DecodeState, piece: Piece) -> Iterable[Item]:
+    """Return the items of a frame of a telegram, and of earlier points whose missing settings it brings."""
+    layout = state.texts.layout(_PieceLayout, (piece.telegram.name, piece.positions, piece.pieces.per_frame))
+    raws = [part.raw(piece) for part in layout.parts]
+    if layout.settings:
+        known = [(layout.parts[number].point, raws[number]) for number in layout.settings]
+        state.learn((point, raw) for point, raw in known if raw is not None)
+    items, lacking = [], {}
+    for part, raw in zip(layout.parts, raws, strict=True):
+        if raw is None:
+            items.append(named_item(part.point, part.base, _incomplete_text(state, piece, part)))
+            continue
+        name = part.point.item
+        if state.incomplete:
+            state.incomplete.pop(name, None)
+        item = part.formatter.item(raw, state.settings)
+        if item.missing:
+            lacking[name] = part.formatter, raw
+        items.append(item)
+    for number, at in enumerate(layout.unknown):
+        words = words_text((piece.words[at - piece.positions.start],))
+        unknown = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({words})")
+        items.insert(sum(part.start < at for part in layout.parts) + number, unknown)
+    if state.changed:
+        items += _completed_items(state)
+    state.incomplete.update(lacking)
+    return items
+
+
+def _incomplete_text(state: DecodeState, piece: Piece, part: _PiecePoint) -> str:
+    """Return what is known of a number whose words come in several frames and may not belong together."""
+    per_frame = piece.pieces.per_frame
+    words = [(at, *piece.pieces.words((at,))) for at in part.addresses]
+    if any(status != "ok" for _, status, _ in words):
+        came = [f"only the {word_text(part.addresses, at)} = {here[0]:04X}h" for at, _, here in words if here]
+        slots = dict.fromkeys(str(at // per_frame) for at, _, here in words if not here)
+        return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
+    would = part.formatter.value(raw_of(part.point, [here[0] for _, _, here in words]), state.settings)
+    return (
+        f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
+        f"the next frame with multiplexer {part.addresses[0] // per_frame} tells"
+    )
+
+
+def _completed_items(state: DecodeState) -> Iterator[Item]:
+    """Return points of earlier frames whose missing settings came with this frame."""
+    for name, (formatter, raw) in list(state.incomplete.items()):
+        if not state.changed.isdisjoint(formatter.needs) and not formatter.lacks(state.settings):
+            del state.incomplete[name]
+            item = formatter.item(raw, state.settings)
+            yield replace(item, summary=f"from a frame before: {item.summary}")
+    state.changed.clear()
