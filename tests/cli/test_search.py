@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from fieldscribe.search.entries import entries_of
 from fieldscribe.search.matching import near_words, search
 from support.places import ROOT
@@ -39,7 +39,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
 
 @pytest.fixture(scope="module")
 def entries() -> list[Entry]:
-    subjects = [load_subject(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
+    subjects = [load_analysis(ROOT / "descriptions" / device / "device.yaml", Report()) for device in DEVICES]
     return [entry for subject in subjects if subject is not None for entry in entries_of(subject)]
 
 

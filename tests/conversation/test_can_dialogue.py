@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.cli.frame_options import refuse_foreign
 from fieldscribe.conversation.decoder import StreamDecoder, decode
 from fieldscribe.conversation.encoding import encode_point, frames_for

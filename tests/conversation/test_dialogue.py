@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.asked import RefusedError
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.conversation.explanation import read_text
 from fieldscribe.families.frame_results import refused

@@ -6,7 +6,6 @@ import json
 from dataclasses import replace
 
 import pytest
-from fieldscribe.asked import quoted
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near

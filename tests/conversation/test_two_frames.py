@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from fieldscribe.asked import Options
 from fieldscribe.conversation.decoder import decode
+from fieldscribe.user_errors import Options
 from support.described import shipped
 
 WRITE, READ = "05 06 10 28 01 F4 0C 91", "08 01 00 06 00 05 1C 91"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 import pytest
-from fieldscribe.user_errors import Options
 from fieldscribe.conversation.decoder import decode
 from fieldscribe.conversation.explanation import explain_point, write_text
 from fieldscribe.conversation.lookup import find

@@ -151,7 +151,7 @@ def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:
     """Return the message for unknown arguments, with near options."""
     from difflib import get_close_matches
 
-    from fieldscribe.asked import did_you_mean
+    from fieldscribe.user_errors import did_you_mean
 
     options = [name for action in parser._actions for name in action.option_strings]  # argparse offers no other way
     wrong = [word.partition("=")[0] for word in unknown if word.startswith("-")]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import add_format, add_paths, description_paths, print_json, report_findings
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import find_devices, is_new, load_undigested
+from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.report import as_data
 from fieldscribe.wording.buses import counted
 
@@ -39,11 +39,11 @@ def run(arguments: Namespace) -> int:
     report, checked = Report(), []
     known: dict[str, Path] = {}
     for device_file in find_devices(description_paths(arguments.paths), report):
-        device = load_undigested(device_file, report)
-        if device is not None and is_new(device, device_file, known, report):
-            checked.append(_counts(device))
+        analysis = load_analysis(device_file, report)
+        if analysis is not None and is_new(analysis.device, device_file, known, report):
+            checked.append(_counts(analysis.device))
             if as_text:
-                print(_line(device), flush=True)
+                print(_line(analysis.device), flush=True)
     if as_text:
         report_findings(report, "text", sys.stdout)
     else:

@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from fieldscribe import pipeline
-from fieldscribe.asked import UnclearError, did_you_mean, quoted
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.source import MOST_BYTES
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
-from fieldscribe.reading import read_regular
 from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
+from fieldscribe.safe_files import read_regular
+from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

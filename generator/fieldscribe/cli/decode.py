@@ -7,12 +7,12 @@ import sys
 from itertools import groupby
 from typing import IO, TYPE_CHECKING
 
-from fieldscribe.asked import UnclearError
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, usage_error
 from fieldscribe.cli.decoded_frames import frame_printer
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
+from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.cli.decoded_frames import FramePrinter
     from fieldscribe.families.frame_results import FrameResult
-    from fieldscribe.user_errors import UnclearError
 
 HELP = "decode frames from the line into points and values"
 EXAMPLE = """examples:

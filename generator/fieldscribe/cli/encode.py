@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
 from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.report import visible
+from fieldscribe.user_errors import Options, RefusedError, UnclearError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import did_you_mean, quoted
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
 from fieldscribe.conversation.explain_other_items import explain_other_items
@@ -13,6 +12,7 @@ from fieldscribe.conversation.lookup import find, near
 from fieldscribe.conversation.selection import absence
 from fieldscribe.language.units import unit_hint
 from fieldscribe.pasted_numbers import number_of
+from fieldscribe.user_errors import did_you_mean, quoted
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import Options, RefusedError, UnclearError
 from fieldscribe.cli.common import StopError
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import families, family
+from fieldscribe.user_errors import Options, RefusedError, UnclearError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

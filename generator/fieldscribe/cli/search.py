@@ -5,14 +5,14 @@ from __future__ import annotations
 from argparse import Namespace
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import did_you_mean, quoted
 from fieldscribe.cli.common import add_descriptions, add_format, device_file, print_json, searched_devices, usage_error
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_subject
+from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import place_text, visible
 from fieldscribe.search.entries import entries_of
 from fieldscribe.search.matching import near_words, search
+from fieldscribe.user_errors import did_you_mean, quoted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
@@ -74,7 +74,7 @@ def _entries(arguments: Namespace) -> list[Entry]:
     named = {name: device_file(Namespace(device=name, descriptions=folder)) for name in arguments.device}
     entries: list[Entry] = []
     for name, file in (named or searched_devices(arguments)).items():
-        subject = load_subject(file, Report())
+        subject = load_analysis(file, Report())
         if subject is None:
             usage_error(f"`{name}` has errors and is left out", f"fieldscribe check {name}")
         else:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.asked import quoted
 from fieldscribe.cli.common import add_format, print_json, usage_error
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.language.units import shipped, shipped_unit, unit_hint
+from fieldscribe.user_errors import quoted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

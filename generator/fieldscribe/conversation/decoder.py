@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.families.decoded_frame import FrameDecoder
     from fieldscribe.families.frame_results import FrameResult
     from fieldscribe.model import Device
+    from fieldscribe.user_errors import Options
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Span: span_items,

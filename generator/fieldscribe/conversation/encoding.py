@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
-from fieldscribe.asked import RefusedError, UnclearError
 from fieldscribe.conversation.meanings import meaning_of, raw_text
 from fieldscribe.conversation.refusals import amount_with_unit
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.families import family
 from fieldscribe.text import line
-from fieldscribe.user_errors import RefusedError
+from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
@@ -22,9 +21,9 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.asked import Options
     from fieldscribe.families.frame_results import BuiltFrames
     from fieldscribe.model import Device, Point
+    from fieldscribe.user_errors import Options
 
 
 @dataclass(frozen=True, slots=True)

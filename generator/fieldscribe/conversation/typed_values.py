@@ -12,12 +12,12 @@ from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import mask_of, with_fixed
-from fieldscribe.asked import RefusedError, UnclearError, did_you_mean, quoted
 from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
 from fieldscribe.text import line
+from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean, quoted
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:

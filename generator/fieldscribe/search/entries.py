@@ -50,7 +50,7 @@ class Entry:
     lists_faults: bool = False
 
 
-def entries_of(subject: Subject) -> Iterator[Entry]:
+def entries_of(subject: Analysis) -> Iterator[Entry]:
     """Return an entry for everything in a device that has a name."""
     device = str(subject.scope.header["device"])
     for resolved in subject.resolved:
@@ -63,8 +63,8 @@ def entries_of(subject: Subject) -> Iterator[Entry]:
     yield from _codes(device, subject)
 
 
-def _point(device: str, scope: Scope, resolved: Resolved) -> Entry:
-    point, draft = resolved.point, resolved.draft
+def _point(device: str, scope: Scope, resolved: ResolvedPoint) -> Entry:
+    point, draft = resolved.point, resolved.facts
     lists_faults = any(word in point.name for word in _FAULT_NAMES)
     heading = f"{label(point)}: {line(title_text(point.title))}"
     of_keys = [
@@ -93,7 +93,7 @@ def _distinct(titles: Titles) -> Iterable[str]:
     return dict.fromkeys(titles.values())
 
 
-def _enum(kind: str, entries: Iterable[EnumEntry], listed: Map | None, draft: Draft) -> Iterator[Text]:
+def _enum(kind: str, entries: Iterable[EnumEntry], listed: Map | None, draft: PointFacts) -> Iterator[Text]:
     keys = {_number(key): key for key in listed or ()}
     for entry in entries:
         key = keys.get(entry.raw)
@@ -103,14 +103,14 @@ def _enum(kind: str, entries: Iterable[EnumEntry], listed: Map | None, draft: Dr
                 yield Text(kind, text, place, entry.raw)
 
 
-def _enum_map(scope: Scope, draft: Draft) -> Map | None:
+def _enum_map(scope: Scope, draft: PointFacts) -> Map | None:
     """Return the mapping of the point's enum, its own or a shared one; None if there is none."""
     node = draft.get("enum")
     node = scope.named_enums.get(node) if isinstance(node, str) else node
     return node if isinstance(node, Map) else None
 
 
-def _place_of_flag(flags: object, name: str, draft: Draft) -> Callable[[], Span]:
+def _place_of_flag(flags: object, name: str, draft: PointFacts) -> Callable[[], Span]:
     if isinstance(flags, Map):
         for key, value in flags.items():
             if value == name or (isinstance(value, Map) and value.get("name") == name):
@@ -130,7 +130,7 @@ def _named(device: str, kind: str, node: Map) -> Entry:
     return Entry(device, kind, name, None, heading, texts)
 
 
-def _codes(device: str, subject: Subject) -> Iterator[Entry]:
+def _codes(device: str, subject: Analysis) -> Iterator[Entry]:
     """Return the numbered codes of the protocol: functions, exceptions, tasks, errors, ..."""
     bus = subject.scope.bus
     for codes in subject.scope.family.codes:

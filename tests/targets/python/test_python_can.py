@@ -10,7 +10,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.asked import Options
 from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.user_errors import Options
