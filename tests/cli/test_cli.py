@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import __version__
-from fieldscribe.cli import COMMANDS, command_module, main
+from fieldscribe.cli import COMMANDS, main
 from fieldscribe.cli.common import description_paths, print_json
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, write
@@ -75,13 +75,12 @@ def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_every_command_is_listed_as_it_says(run: Callable[..., Result]) -> None:
     listed = run("--help").out
     for name, does in COMMANDS.items():
-        module = command_module(name)
-        assert does == module.HELP
         assert does in listed
         shown = run(name, "--help")
         assert shown.code == 0
         assert f"fieldscribe {name}" in shown.out
         assert "examples:" in shown.out
+        assert "nds with " in shown.out
 
 
 def test_version_and_usage(run: Callable[..., Result]) -> None:
@@ -509,11 +508,6 @@ def test_decode_ends_with_0_for_notes_and_for_what_replies_bring(
 ) -> None:
     told = run("decode", *words)
     assert told.code == 0, told.out
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_help_says_how_the_command_ends(run: Callable[..., Result], command: str) -> None:
-    assert "nds with " in run(command, "--help").out
 
 
 CONDITIONS = """\

@@ -2,13 +2,12 @@
 
 To add a command, write one module in this folder and add one line to `COMMANDS`; `schema.py` is a short model. It has
 
-- `HELP`: what the command does; the same text as in `COMMANDS`,
 - `EXAMPLE`: the end of its `--help`: examples, and when it ends with which exit code,
 - `add_arguments(parser)`: its arguments, with the shared ones of `common.py` (`add_device`, `add_paths`, `add_format`),
 - `run(arguments)`: does the work and returns `FINE`, `FINDINGS` or `USAGE`. Results go to stdout, messages to stderr.
   What stops the command is raised as `common.StopError`.
 
-A module is imported when its command is chosen, so it imports what it needs at its top. Tests: an entry in
+A module is imported when its command is chosen, so it can import what it needs at its top. Tests: an entry in
 `tests/cli/test_help_examples.py` for each example, and in `tests/cli/test_reporting.py` if it has `--format`.
 """
 
@@ -35,7 +34,6 @@ if TYPE_CHECKING:
     class Command(Protocol):
         """What the module of a command offers."""
 
-        HELP: str
         EXAMPLE: str
 
         def add_arguments(self, parser: ArgumentParser) -> None:
@@ -64,9 +62,9 @@ COMMANDS = {
     "fmt": "bring descriptions into their canonical form; what they say stays the same, and so do comments",
     "watch": "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved",
     "units": "list the units that descriptions can use without declaring them",
-    "schema": "print the keys of descriptions: as JSON Schema for editors, or as a page to read",
+    "schema": "print the keys of descriptions as JSON Schema or as a page, or the JSON Schema of exported models",
 }
-"""All commands with what they do, in the order of `--help`, which imports none of their modules."""
+"""All commands and what they do, in the order of `--help`. A module is imported when its command is chosen."""
 
 _MODULES = {"list": "listing"}
 """Commands whose module has another name: a module `list` would hide the built-in type."""
@@ -131,7 +129,7 @@ def _run(argv: list[str]) -> int:
     from fieldscribe.cli.common import StopError  # `--help` and `--version` start without it
 
     command = command_module(argv[0])
-    parser = _parser(f"fieldscribe {argv[0]}", command.HELP, command.EXAMPLE)
+    parser = _parser(f"fieldscribe {argv[0]}", COMMANDS[argv[0]], command.EXAMPLE)
     command.add_arguments(parser)
     # a value such as `-5Hz` is no option: none of ours starts with a digit
     words = [f" {word}" if word[:1] == "-" and word[1:2] in _DIGITS else word for word in argv[1:]]

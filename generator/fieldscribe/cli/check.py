@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
 
-HELP = "validate descriptions; print everything that is wrong, and where"
 EXAMPLE = """examples:
   fieldscribe check
   fieldscribe check descriptions/hitachi_l200 --format json

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from argparse import Action, Namespace
     from collections.abc import Iterable, Sequence
 
-HELP = "print the script with which a shell completes commands, options, devices and points"
 EXAMPLE = """examples:
   fieldscribe completion bash > ~/.local/share/bash-completion/completions/fieldscribe
   fieldscribe completion zsh > ~/.zfunc/_fieldscribe

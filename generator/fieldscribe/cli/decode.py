@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from fieldscribe.cli.decoded_frames import FramePrinter
     from fieldscribe.families.frame_results import FrameResult
 
-HELP = "decode frames from the line into points and values"
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
   fieldscribe decode hitachi_l200 0801000600051C91 --format json

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.differences.changes import Comparison
 
-HELP = "say what changed between two descriptions, whom it breaks, and which step the version must take"
 EXAMPLE = """examples:
   fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200
   fieldscribe diff v1.2.0:descriptions descriptions --format markdown > changes.md

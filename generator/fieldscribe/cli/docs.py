@@ -9,7 +9,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.vendoring.orders import Order
 
-HELP = "write the documentation of devices: a workbook, tables as CSV, or a page in Markdown"
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
   fieldscribe docs siemens_mm4 jumo_controller --format csv --out tables

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from fieldscribe.families.frame_results import BuiltFrames
     from fieldscribe.model import Device
 
-HELP = "turn a value into its raw number, or into the whole request frame"
 EXAMPLE = """examples:
   fieldscribe encode hitachi_l200 A020 "50 Hz"
   fieldscribe encode hitachi_l200 A020 50 --unit 5 --frame

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     Found = tuple[list[str], Explanation]
     """How WHAT was read (there may be several ways), and the explanation of what it then means."""
 
-HELP = "show everything about one address, code or name"
 EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 A020
   fieldscribe explain hitachi_l200 0x1028

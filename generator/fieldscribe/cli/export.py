@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-HELP = "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)"
 EXAMPLE = """examples:
   fieldscribe export json hitachi_l200
   fieldscribe export json hitachi_l200 | jq '.points[] | select(.code == "A020")'

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
 
-HELP = "bring descriptions into their canonical form; what they say stays the same, and so do comments"
 EXAMPLE = """examples:
   fieldscribe fmt
   fieldscribe fmt heat_pump --check     (writes nothing; for CI)

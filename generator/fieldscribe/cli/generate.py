@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.output.memory import Memory
     from fieldscribe.output.result import Result
 
-HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)

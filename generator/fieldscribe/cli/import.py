@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from fieldscribe.importing.draft_text import Head
     from fieldscribe.importing.tables import Table
 
-HELP = "draft a description from the tables of a manual: its text, CSV, TSV, Markdown, HTML, XLSX"
 EXAMPLE = """examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
   fieldscribe import table manual.txt --list

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.working.starting import Question
 
-HELP = "start a description that compiles at once, by a few questions or by options"
 EXAMPLE = """examples:
   fieldscribe init
   fieldscribe init heat_pump --family modbus --vendor Example --model "HP 12" --title "Heat pump"

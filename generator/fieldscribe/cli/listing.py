@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
-HELP = "list the known devices, or the points of one"
 EXAMPLE = """examples:
   fieldscribe list
   fieldscribe list --family modbus --format json

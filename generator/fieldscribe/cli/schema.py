@@ -13,7 +13,6 @@ from fieldscribe.language.keys_page import keys_markdown
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-HELP = "print the keys of descriptions as JSON Schema or as a page, or the JSON Schema of exported models"
 EXAMPLE = """examples:
   fieldscribe schema > schema.json
   fieldscribe schema --page > KEYS.md

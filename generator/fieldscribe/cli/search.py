@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from fieldscribe.search.entries import Entry
     from fieldscribe.search.matching import Hit
 
-HELP = "find words in titles, codes, sections, names, flags, labels and numbers of all devices"
 EXAMPLE = """examples:
   fieldscribe search Hochlaufzeit
   fieldscribe search acceleration time

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.language.units import Known
 
-HELP = "list the units that descriptions can use without declaring them"
 EXAMPLE = """examples:
   fieldscribe units
   fieldscribe units kVAh mW

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.vendoring.orders import Delivery, Order
     from fieldscribe.vendoring.project import Wanted
 
-HELP = "leave exactly the files that a project needs of a device: all of it, or some points"
 EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers
   fieldscribe vendor c hitachi_l200 --out firmware/drivers --points A001,D001,run_command

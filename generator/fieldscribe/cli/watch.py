@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.working.watching import Outcome
 
-HELP = "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved"
 EXAMPLE = """examples:
   fieldscribe watch heat_pump --out bindings
   fieldscribe watch --target c,docs
