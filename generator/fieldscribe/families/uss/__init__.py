@@ -16,7 +16,7 @@ _BOTH = ("decode", "encode")
 
 FAMILY = Family(
     name="uss",
-    folder=__package__,
+    folder=__name__,
     spaces={"parameter": "word", "telegram": "word"},
     last_address=31999,
     bus=BusKeys(("pkw", "pzd", "functions", "responses"), frozenset({"bitrate"}), (0, 15), last_unit=31, broadcast=32),
@@ -73,10 +73,10 @@ class UssFrame(Own):
 
 
 def of_bus(bus: Bus) -> UssBus:
-    """What the family alone knows of a bus."""
+    """Return the facts of a bus that only this family has."""
     return bus.own if isinstance(bus.own, UssBus) else UssBus()
 
 
 def of_frame(frame: Frame) -> UssFrame:
-    """What the family alone knows of a worked example."""
+    """Return the facts of a worked example that only this family has."""
     return frame.own if isinstance(frame.own, UssFrame) else UssFrame()

@@ -61,7 +61,7 @@ FRAME = (
 
 
 def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:
-    """The tasks of a parameter: to `read` it, to change it in the `ram`, and to `write` it so that it is kept."""
+    """Return the tasks of a parameter: to `read` it, to change it in the `ram`, and to `write` it permanently."""
     if not point.addresses or point.telegram is not None:
         return ()
     known = {code.number for code in bus.functions}
@@ -74,7 +74,7 @@ def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """Label and text of each fact that people must know about the line."""
+    """Yield label and text of each fact about the line."""
     own = of_bus(bus)
     yield "Unit numbers", "{}..{}".format(*bus.units)
     if bus.broadcast is not None:
@@ -85,12 +85,12 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:
-    """The numbers that people use for an address, whatever the manual prints."""
+    """Return other numbers that people use for an address: none."""
     del space, address  # an address is a number for people already
     return {}
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function may be broadcast where the description does not say so."""
-    del function  # broadcasts are telegrams of their own
+    """Return False: broadcasts are telegrams of their own."""
+    del function
     return False

@@ -1,4 +1,7 @@
-"""The words of a USS telegram: the parameter part with its task or response, and process data."""
+"""The words of a USS telegram, the parameter part with its task or response and process data, and the link's settings.
+
+Tasks and responses of the protocol are listed here once; frames, checks and targets read these tables.
+"""
 
 from __future__ import annotations
 
@@ -14,20 +17,20 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Device
     from fieldscribe.user_errors import Options
 
-
 VARIABLE = 127
 """The setting of the parameter part whose length depends on the request."""
+SHORT = 3
+"""The words of a parameter part that carries values of one word only."""
 MASKS = 4
-"""How many words of masks a broadcast has in place of the parameter part."""
-READ_TASK = 1
-_WRITES = {(1, False): (2, 14), (2, False): (3, 13), (1, True): (7, 12), (2, True): (8, 11)}
-"""The tasks that write so many words, for an element of an array or not: into the RAM, and into the EEPROM too."""
-TASK_WIDTHS = {task: width for (width, _), tasks in _WRITES.items() for task in tasks}
-"""How many words of value the tasks that change something carry."""
-KEEPING_TASKS = frozenset(keeping for _, keeping in _WRITES.values())
-"""The tasks that also write to the EEPROM."""
+"""The words of masks that a broadcast has in place of the parameter part."""
+READ_TASK, READ_ELEMENT_TASK = 1, 6
+_WRITE_TASKS = {(1, False): (2, 14), (2, False): (3, 13), (1, True): (7, 12), (2, True): (8, 11)}
+"""The tasks that write so many words, to an element of an array or not: to the RAM, and to the EEPROM too."""
+TASK_WIDTHS = {task: width for (width, _), tasks in _WRITE_TASKS.items() for task in tasks}
+"""The words of value that the tasks that write carry."""
+EEPROM_TASKS = frozenset(eeprom for _, eeprom in _WRITE_TASKS.values())
 RESPONSE_WIDTHS = {1: 1, 2: 2, 4: 1, 5: 2, 6: 1}
-"""How many words of value the responses carry."""
+"""The words of value that the responses carry."""
 SIZE, REFUSED, NO_RIGHTS = 6, 7, 8
 """The responses with the number of elements, and those that refuse a task."""
 DOUBLE_RESPONSES = frozenset(response for response, width in RESPONSE_WIDTHS.items() if width == 2)
@@ -36,11 +39,16 @@ _PAGE_BITS = (15, 12, 13, 14)
 """The bits of the index word that hold the page of the parameter number, from its lowest bit on."""
 
 
+def write_task(width: int, *, array: bool, keep: bool) -> int:
+    """Return the task that writes a value of so many words: to the RAM, with `keep` also to the EEPROM."""
+    return _WRITE_TASKS[width, array][keep]
+
+
 @dataclass(frozen=True, slots=True)
 class Link:
     """The settings of a link: the words of the parameter part and of process data.
 
-    `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
+    `single_first`: this firmware puts single words into the first value word although the part has 4 words.
     """
 
     pkw: int
@@ -49,13 +57,43 @@ class Link:
 
     @property
     def sent(self) -> int:
-        """How many words of the parameter part a master sends."""
+        """The number of words of the parameter part that a master sends."""
         return 4 if self.pkw == VARIABLE else self.pkw
 
     @property
     def single_last(self) -> bool:
-        """Whether a single value stands in the second value word."""
+        """True if a single value stands in the second value word."""
         return self.pkw == 4 and not self.single_first
+
+
+@dataclass(frozen=True, slots=True)
+class LinkOptions:
+    """The command-line options of the family; None for those that were not given."""
+
+    pkw: int | None = None
+    pzd: int | None = None
+    single_first: bool = False
+    direction: str | None = None
+    keep: bool = False
+
+
+def default_link(bus: Bus) -> Link:
+    """Return the usual link: a parameter part of variable length (or the longest), two words of process data."""
+    lengths, (low, high) = of_bus(bus).pkw, of_bus(bus).pzd
+    return Link(VARIABLE if VARIABLE in lengths or not lengths else lengths[-1], min(max(2, low), high))
+
+
+def link_of(device: Device, options: Options) -> Link:
+    """Return the link that the options choose. Raises UnclearError."""
+    usual, lengths, (low, high) = default_link(device.bus), of_bus(device.bus).pkw, of_bus(device.bus).pzd
+    chosen = LinkOptions(**options.own)
+    if chosen.pkw is not None and chosen.pkw not in lengths:
+        message = f"--pkw {chosen.pkw}: {device.id} knows no parameter part of this length"
+        raise UnclearError(message, f"it has {', '.join(map(str, lengths))}")
+    if chosen.pzd is not None and not low <= chosen.pzd <= high:
+        raise UnclearError(f"--pzd {chosen.pzd}: {device.id} has {low} to {high} words of process data")
+    pkw = usual.pkw if chosen.pkw is None else chosen.pkw
+    return Link(pkw, usual.pzd if chosen.pzd is None else chosen.pzd, chosen.single_first)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,89 +107,43 @@ class Part:
     spontaneous: bool
 
     def value(self, width: int, link: Link) -> int | None:
-        """The value of one or two words; None where there are too few, or none at all."""
+        """Return the value of one or two words; None if there are too few words, or `width` is 0."""
         if width == 2:
             return self.values[0] << 16 | self.values[1] if len(self.values) > 1 else None
         place = 1 if link.single_last else 0
         return self.values[place] if width and len(self.values) > place else None
 
 
-@dataclass(frozen=True, slots=True)
-class Split:
-    """The words of the parameter part, those of process data, and whether their count is that of the link."""
-
-    part: tuple[int, ...]
-    words: tuple[int, ...]
-    fits: bool
-
-
 def parameter_words(task: int, parameter: int, index: int) -> tuple[int, int]:
-    """The words that name a task and an element of a parameter: identification and index."""
+    """Return the words that name a task and an element of a parameter: identification and index."""
     page, number = divmod(parameter, _PAGE)
     pages = sum((page >> bit & 1) << place for bit, place in enumerate(_PAGE_BITS))
     return task << 12 | number, pages | index
 
 
 def part_of(words: Sequence[int]) -> Part | None:
-    """The parameter part in these words; None for fewer than two."""
+    """Return the parameter part in these words; None for fewer than two."""
     if len(words) < 2:
         return None
     identification, place = words[:2]
-    page = 0
-    for weight, bit in enumerate(_PAGE_BITS):
-        page |= (place >> bit & 1) << weight
+    page = sum((place >> bit & 1) << weight for weight, bit in enumerate(_PAGE_BITS))
     number = (identification & 0x07FF) + _PAGE * page
     return Part(identification >> 12, number, place & 0xFF, tuple(words[2:]), bool(identification & 0x0800))
 
 
+@dataclass(frozen=True, slots=True)
+class Split:
+    """The words of the parameter part, those of process data, and whether their number is that of the link."""
+
+    part: tuple[int, ...]
+    words: tuple[int, ...]
+    fits: bool
+
+
 def split(words: tuple[int, ...], link: Link, *, request: bool) -> Split:
-    """The two parts of a telegram; a variable parameter part has 3 or 4 words in a request, 3 or more in an answer."""
+    """Split the words of a telegram; a variable part has 3 or 4 words in a request, 3 or more in a response."""
     left = len(words) - link.pzd
     if link.pkw != VARIABLE:
         return Split(words[: link.pkw], words[link.pkw :], left == link.pkw)
     size = len(words) if left <= 0 else min(left, 4) if request else left
-    return Split(words[:size], words[size:], left >= 3 and (left <= 4 or not request))
-
-
-def write_task(width: int, *, array: bool, keep: bool) -> int:
-    """The task that writes a value of this many words: into the RAM, with `keep` also into the EEPROM."""
-    return _WRITES[width, array][keep]
-
-
-_USUAL_PZD = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """The options of the family; None for those that were not given."""
-
-    pkw: int | None = None
-    pzd: int | None = None
-    single_first: bool = False
-    direction: str | None = None
-    keep: bool = False
-
-
-def asked(options: Options) -> Asked:
-    """The options for the link and the telegrams."""
-    return Asked(**options.own)
-
-
-def default_link(bus: Bus) -> Link:
-    """A parameter part of variable length (or the device's longest) and two words of process data."""
-    own = of_bus(bus)
-    low, high = own.pzd
-    return Link(VARIABLE if VARIABLE in own.pkw or not own.pkw else own.pkw[-1], min(max(_USUAL_PZD, low), high))
-
-
-def link_of(device: Device, options: Options) -> Link:
-    """The link that the options choose. Raises UnclearError."""
-    usual, own, said = default_link(device.bus), of_bus(device.bus), asked(options)
-    if said.pkw is not None and said.pkw not in own.pkw:
-        known = ", ".join(map(str, own.pkw))
-        raise UnclearError(f"--pkw {said.pkw}: {device.id} knows no parameter part of this length", f"it has {known}")
-    low, high = own.pzd
-    if said.pzd is not None and not low <= said.pzd <= high:
-        raise UnclearError(f"--pzd {said.pzd}: {device.id} has {low} to {high} words of process data")
-    pkw = usual.pkw if said.pkw is None else said.pkw
-    return Link(pkw, usual.pzd if said.pzd is None else said.pzd, said.single_first)
+    return Split(words[:size], words[size:], left >= SHORT and (left <= 4 or not request))

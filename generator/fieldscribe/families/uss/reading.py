@@ -1,4 +1,4 @@
-"""Reads the family's own facts from the description, and reports what its telegrams cannot carry."""
+"""Reads the facts that only USS has from the description, and reports what its telegrams cannot carry."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _MOST_PZD = 16
 
 
 class UssReading(FamilyReader):
-    """Telegrams have a parameter part and process data of known lengths."""
+    """Reads the lengths of the parameter part and of process data, and the response ids."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> UssBus:
-        """The response ids, and the lengths of the parts."""
+        """Return the response ids, and the lengths of the parts."""
         del functions
         return UssBus(
             responses=codes_under(scope, node, "responses"),
@@ -37,12 +37,12 @@ class UssReading(FamilyReader):
         )
 
     def frame(self, scope: Scope, node: Map, framing: str) -> UssFrame:
-        """The length of the parameter part that the link is set to."""
+        """Return the length of the parameter part that the link is set to."""
         del scope
         return UssFrame(None if framing in ("pzd", "broadcast") else node.get("pkw", VARIABLE))
 
     def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
-        """Report a length that the parameter part cannot have; whether there was one."""
+        """Report a length that the parameter part cannot have; return True if there was one."""
         lengths = of_bus(bus).pkw
         if not lengths or node.get("pkw", lengths[0]) in lengths:
             return False
@@ -52,41 +52,34 @@ class UssReading(FamilyReader):
         return True
 
     def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
-        """Report process data that cannot exist."""
-        _known_way(scope, node, before)
-        bus = scope.bus
+        """Report process data that cannot exist: an unknown or second direction, too many words, a message."""
+        name, direction, report, bus = str(node["name"]), node["direction"], scope.report, scope.bus
+        if "message" in node:
+            hint = "leave it out: the frames of uss are known"
+            report.error("family-key", "messages are for the family can", node.key_span("message"), hint)
+        if direction not in ("request", "response"):
+            hint = "write `direction: request` for what the master sends, `response` for what the device sends"
+            report.error("wrong-choice", f"process data are no {direction} telegram", node.span("direction"), hint)
+        other = next((telegram for telegram in before if telegram.direction == direction), None)
+        if other is not None:
+            text = f"`{other.name}` and `{name}` are both of direction {direction}"
+            hint = "a telegram has process data once in each direction: make them one, or points with `when`"
+            report.error("two-meanings", text, node.span("direction"), hint)
         ends = None if bus is None or "pzd" not in bus else interval(str(bus["pzd"]), bus.span("pzd"), Report())
         if ends is not None and node["length"] > ends[1]:
-            text = f"`{node['name']}` has {node['length']} words, the process data at most {ends[1]}"
-            scope.report.error("too-many-items", text, node.span("length"), "correct `length`, or `pzd` under `bus`")
-
-
-def _known_way(scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
-    """Report process data with an unknown direction, or a second telegram of one direction."""
-    name, direction = str(node["name"]), node["direction"]
-    if "message" in node:
-        hint = "leave it out: the frames of uss are known"
-        scope.report.error("family-key", "messages are for the family can", node.key_span("message"), hint)
-    if direction not in ("request", "response"):
-        hint = "write `direction: request` for what the master sends, `response` for what the device sends"
-        scope.report.error("wrong-choice", f"process data are no {direction} telegram", node.span("direction"), hint)
-    other = next((telegram for telegram in before if telegram.direction == direction), None)
-    if other is not None:
-        text = f"`{other.name}` and `{name}` are both of direction {direction}"
-        hint = "a telegram has process data once in each direction: make them one, or points with `when`"
-        scope.report.error("two-meanings", text, node.span("direction"), hint)
+            text = f"`{name}` has {node['length']} words, the process data at most {ends[1]}"
+            report.error("too-many-items", text, node.span("length"), "correct `length`, or `pzd` under `bus`")
 
 
 def _variant_pzd(scope: Scope) -> Iterator[tuple[Variant, int]]:
-    """The variants that take fewer words of process data than the whole product, by their property `pzd`."""
+    """Yield the variants that take fewer words of process data than the whole product, by their property `pzd`."""
     for axis, entry in scope.axes.items():
         for value, properties in entry["values"].items():
-            if "pzd" not in properties:
-                continue
-            most = integer(properties["pzd"], properties.span("pzd"), scope.report)
+            span = properties.span("pzd")
+            most = integer(properties["pzd"], span, scope.report) if "pzd" in properties else None
             if most is not None and not 0 <= most <= _MOST_PZD:
                 message = f"{most} is no count of words"
-                scope.report.error("address-outside-space", message, properties.span("pzd"), f"write 0..{_MOST_PZD}")
+                scope.report.error("address-outside-space", message, span, f"write 0..{_MOST_PZD}")
             elif most is not None:
                 yield Variant(axis, value), most
 

@@ -1,10 +1,10 @@
-"""Sentences about USS telegrams for people: names of their numbers, findings and notes."""
+"""Sentences about USS telegrams: names of tasks and responses, faults, findings and notes."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.uss.parts import KEEPING_TASKS, TASK_WIDTHS, VARIABLE
+from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
 from fieldscribe.text import line
 from fieldscribe.wording.buses import check_text, counted, numbered, strange_unit, too_short
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.families.uss.telegrams import Unwrapped
     from fieldscribe.model import Code, Device
 
-UNASKED = "read as a request, for none was heard before it; --direction response reads it as an answer"
+NO_REQUEST = "read as a request, for there was none before it; --direction response reads it as a response"
 PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"
 FROM_MASTER = "read as words from the master; --direction response reads those of the device"
 _FLAWS: Mapping[str, str] = {
@@ -30,7 +30,7 @@ _FLAWS: Mapping[str, str] = {
 
 
 def flaw_texts(unwrapped: Unwrapped) -> Iterator[str]:
-    """What is wrong with the bytes of a telegram, or of a part alone."""
+    """Yield what is wrong with the bytes of a telegram, or of a part alone."""
     data = unwrapped.data
     count, are = len(data), "is" if len(data) == 1 else "are"
     said = data[1] + 2 if count > 1 else 0
@@ -43,7 +43,7 @@ def flaw_texts(unwrapped: Unwrapped) -> Iterator[str]:
 
 
 def checks_text(unwrapped: Unwrapped) -> str:
-    """What the check byte of a telegram says; empty where there is none to check."""
+    """Return whether the check byte of a telegram is right; empty if there is none to check."""
     if unwrapped.unit is None:
         return ""
     body = unwrapped.data if "no_check" in unwrapped.flaws else unwrapped.data[:-1]
@@ -51,7 +51,7 @@ def checks_text(unwrapped: Unwrapped) -> str:
 
 
 def misfit_text(words: int, link: Link, *, request: bool) -> str:
-    """That a telegram has another number of words than the link."""
+    """Return the fault that a telegram has another number of words than the link."""
     length, sizes = f"of {link.pkw}", f"{link.pkw + link.pzd}"
     if link.pkw == VARIABLE:
         length = "of variable length"
@@ -61,24 +61,24 @@ def misfit_text(words: int, link: Link, *, request: bool) -> str:
 
 
 def code_text(codes: tuple[Code, ...], number: int, kind: str) -> str:
-    """A task, response or error with its name: `task 1 read_value`."""
+    """Return a task, response or error with its name: `task 1 read_value`."""
     code = numbered(codes, number)
     return f"{kind} {number}" + (f" {code.name}" if code is not None else ", which the manual does not list")
 
 
 def titled_code(codes: tuple[Code, ...], number: int, kind: str) -> str:
-    """The same with its meaning in the manual: `error 17 busy: ...`."""
+    """Return the same with its meaning in the manual: `error 17 busy: ...`."""
     code = numbered(codes, number)
     return line(code_text(codes, number, kind) + (f": {code.title['en']}" if code is not None else ""))
 
 
 def words_printed(words: Iterable[int]) -> str:
-    """Words as the manuals of this family print them: `143A 0000 4248 0000`."""
+    """Return words as the manuals of this family print them: `143A 0000 4248 0000`."""
     return " ".join(f"{word:04X}" for word in words)
 
 
 def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
-    """Why the device refuses a request."""
+    """Yield why the device refuses a request."""
     if unit is not None and (strange := strange_unit(device.bus, unit)):
         yield strange
     code = numbered(device.bus.functions, part.code)
@@ -94,7 +94,7 @@ def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[s
 
 
 def request_notes(part: Part, link: Link) -> Iterator[str]:
-    """What to know about a request."""
+    """Yield what is worth knowing about a request."""
     here, there = (1, 0) if link.single_last else (0, 1)
     single = TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1
     if single and part.values[there] and not part.values[here]:
@@ -102,20 +102,19 @@ def request_notes(part: Part, link: Link) -> Iterator[str]:
         also = "; is --pkw 127 or --single-first meant?" if link.single_last else "; is --pkw 4 meant?"
         where = f"in the {ordinal[here]} value word, here the {ordinal[there]} is used"
         yield f"over this link a single word stands {where}{also}"
-    if part.code in KEEPING_TASKS:
+    if part.code in EEPROM_TASKS:
         yield "it writes to the EEPROM too, which wears the memory"
 
 
-def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:
-    """The finding that this task cannot have this error."""
-    error = part.values[0]
+def error_findings(device: Device, error: int, task: int | None) -> Iterator[str]:
+    """Yield the finding that this task cannot have this error."""
     code = numbered(device.bus.exceptions, error)
     if task is not None and code is not None and code.answers and task not in code.answers:
         yield f"the manual does not give error {error} for task {task}"
 
 
 def error_notes(part: Part, link: Link) -> Iterator[str]:
-    """The note that the error may stand in another word."""
+    """Yield the note that the error may stand in another word."""
     if link.single_last and len(part.values) > 1:
         yield (
             "the error value is taken from the first value word; over this link single words stand in the second, "

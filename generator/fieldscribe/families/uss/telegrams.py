@@ -1,4 +1,4 @@
-"""USS telegrams: builds their bytes, and reads bytes as answers. Pure functions, no I/O."""
+"""USS telegrams: builds their bytes, and reads bytes as responses. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ LEAST_BYTES = 4
 
 @dataclass(frozen=True, slots=True)
 class Unwrapped:
-    """Bytes taken out of their telegram; `words` is None if they cannot be read.
+    """Bytes with the words of their telegram; `words` is None if they cannot be read.
 
     `flaws`: `short`, else `wrong_start`, `no_check` or else `wrong_length` and `wrong_check`, `odd` (a single last
     byte); `no_words` for a part alone.
@@ -62,7 +62,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """An answer; `error` only if `status` is refused."""
+    """A response; `error` only if `status` is refused."""
 
     status: str
     response: int = 0
@@ -73,20 +73,20 @@ class Reply:
 
 
 def check_byte(data: bytes) -> int:
-    """The block check character: all bytes combined by exclusive or."""
+    """Return the block check character: the exclusive or of all bytes."""
     return reduce(xor, data, 0)
 
 
 def telegram(address: int, words: Sequence[int]) -> bytes:
-    """The bytes of a telegram with these words."""
+    """Return the bytes of a telegram with these words."""
     data = b"".join(word.to_bytes(2, "big") for word in words)
     body = bytes((START, len(data) + 2, address)) + data
     return body + bytes((check_byte(body),))
 
 
-@lru_cache(maxsize=16)  # asked when pasted bytes are cut into telegrams, and again when these are read
+@lru_cache(maxsize=16)  # called when pasted bytes are cut into telegrams, and again when these are decoded
 def unwrap(data: bytes) -> Unwrapped:
-    """The words of a whole telegram, with all that is wrong. Any bytes are safe."""
+    """Return the words of a whole telegram, with all its flaws. Any bytes are safe."""
     if len(data) < LEAST_BYTES:
         return Unwrapped(data, None, None, ("short",))
     flaws, body = ["wrong_start"] if data[0] != START else [], data[3:-1]
@@ -99,30 +99,30 @@ def unwrap(data: bytes) -> Unwrapped:
 
 
 def frames_in(data: bytes) -> list[bytes]:
-    """The telegrams in pasted bytes: several if these are whole ones behind each other, by length and check byte."""
-    return cut_apart(data, _sound, LEAST_BYTES) if unwrap(data).flaws else [data]
+    """Return the telegrams in pasted bytes: several if whole ones follow each other, by length and check byte."""
+    return cut_apart(data, _sound_size, LEAST_BYTES) if unwrap(data).flaws else [data]
 
 
-def _sound(data: bytes) -> int:
-    """The size of the telegram that the bytes begin with; 0 where its start, length or check byte is wrong."""
+def _sound_size(data: bytes) -> int:
+    """Return the size of the telegram that the bytes begin with; 0 if its start, length or check byte is wrong."""
     size = data[1] + 2 if len(data) > 1 else 0
     return size if 0 < size <= len(data) and not unwrap(data[:size]).flaws else 0
 
 
 def bare_words(data: bytes) -> Unwrapped:
-    """The words of a part alone."""
+    """Return the words of a part alone."""
     whole = len(data) > 0 and len(data) % 2 == 0
     return Unwrapped(data, None, words_in(data) if whole else None, () if whole else ("no_words",))
 
 
 def request_in(unit: int, part: Part, link: Link, words: tuple[int, ...]) -> Request:
-    """The request in a parameter part and process data."""
+    """Return the request in a parameter part and process data."""
     width = TASK_WIDTHS.get(part.code, 0)
     return Request(unit, part.code, part.parameter, part.index, width, part.value(width, link) or 0, words)
 
 
 def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
-    """The bytes of a request; (status, b"") when it must not be sent.
+    """Return ("ok", the bytes of a request), or (status, b"") if it must not be sent.
 
     The first failure wins: `bad_link` (a length that the device does not know, or other words of process data),
     `bad_unit`, `bad_task`, `bad_parameter`, `bad_index`, `bad_value` (also a double value where there is no room).
@@ -163,7 +163,7 @@ def _refusal(bus: Bus, link: Link, request: Request) -> str:
 
 
 def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...]) -> tuple[str, bytes]:
-    """A telegram to all units: four words of masks and the process data; (`bad_link`, b"") if these do not fit."""
+    """Return a telegram to all units: four words of masks and the process data; (status, b"") if these do not fit."""
     low, high = of_bus(bus).pzd
     if bus.broadcast is None or len(mask) != MASKS or len(words) != link.pzd or not low <= link.pzd <= high:
         return "bad_link", b""
@@ -173,7 +173,7 @@ def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...
 
 
 def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
-    """`data` read as the answer to `request`. Any bytes at any length are safe; the first failure wins.
+    """Return `data` as the response to `request`. Any bytes at any length are safe; the first failure wins.
 
     `wrong_start`, `wrong_length`, `wrong_check`, `wrong_unit`, `wrong_parameter`, `no_answer`, `refused` (with the
     error), `no_rights`, `wrong_response` (one that does not belong to the task), `wrong_length` (a double value in too
@@ -191,7 +191,7 @@ def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
 
 
 def answer_in(bus: Bus, link: Link, request: Request, received: tuple[int, ...]) -> Reply:
-    """What `parse` says of the words of a telegram."""
+    """Return what `parse` returns, for the words of a telegram."""
     divided = split(received, link, request=False)
     if not divided.fits:
         return Reply("wrong_length")
@@ -208,7 +208,7 @@ def answer_in(bus: Bus, link: Link, request: Request, received: tuple[int, ...])
 
 
 def _answer_fault(bus: Bus, request: Request, pkw: tuple[int, ...]) -> str | None:
-    """Why a parameter part is no good answer."""
+    """Return why a parameter part is no good response; None if it is one."""
     response = pkw[0] >> 12
     if response == 0:
         return "no_answer"

@@ -19,32 +19,26 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.families import Way
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
+_ERRORS_DOC = "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them."
+
 
 def context(device: Device) -> dict[str, object]:
-    """The names that the family's template uses."""
-    bus = device.bus
+    """Return the names that the family's template uses."""
+    bus, facts = device.bus, of_bus(device.bus)
+    tasks = [f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions]
+    fixed = [f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]
     return {
-        "example_link": f"Link::new({max(of_bus(bus).pkw)}, {of_bus(bus).pzd[0]}), {bus.units[0]}",
+        "example_link": f"Link::new({max(facts.pkw)}, {facts.pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "profile": binding(0, Item("pub static PROFILE", "Profile"), _profile(bus)),
-        "pkw": ", ".join(map(str, of_bus(bus).pkw)),
-        "tasks": array(
-            Item("const TASKS", "&[Task]"),
-            [f"Task::new({code.number}, &[{', '.join(map(str, code.answers))}])" for code in bus.functions],
-        ),
-        "fixed": array(
-            Item("const FIXED", "&[FixedBits]"),
-            [f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)],
-        ),
+        "pkw": ", ".join(map(str, facts.pkw)),
+        "tasks": array(Item("const TASKS", "&[Task]"), tasks),
+        "fixed": array(Item("const FIXED", "&[FixedBits]"), fixed),
         "numbers": (
             ("tasks", "Task ids.", constants(bus.functions, "u8")),
-            ("responses", "Response ids.", constants(of_bus(bus).responses, "u8")),
-            (
-                "exceptions",
-                "Error values: why the drive refuses a task, as [`runtime::uss::ParseError::Refused`] has them.",
-                constants(bus.exceptions, "u16", "error"),
-            ),
+            ("responses", "Response ids.", constants(facts.responses, "u8")),
+            ("exceptions", _ERRORS_DOC, constants(bus.exceptions, "u16", "error")),
         ),
     }
 
@@ -56,19 +50,25 @@ def _profile(bus: Bus) -> str:
     return f"Profile::new(TASKS, {units}, PKW, {pzd}, {broadcast}, FIXED){naming}"
 
 
+def _fixed(device: Device) -> Iterator[str]:
+    """Yield the points that are sent with bits that are always 1."""
+    sent = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
+    for point in device.points:
+        if point.generated and point.telegram in sent and point.fixed is not None and point.fixed.bits:
+            yield point.item
+
+
 def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
-    """A point is a parameter, or is sent, or is received in the process data."""
-    point = subject.point
-    if point.telegram is None:
-        trait = "Parameter"
-    else:
-        telegram, _ = scope.telegrams[point.telegram]
-        trait = "Sent" if telegram.direction == "request" else "Received"
+    """Yield the trait of a point: it is a parameter, or sent or received in the process data."""
+    telegram = subject.point.telegram
+    trait = "Parameter"
+    if telegram is not None:
+        trait = "Sent" if scope.telegrams[telegram][0].direction == "request" else "Received"
     yield f"impl runtime::uss::{trait} {{}}"
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """The names of tasks and responses."""
+    """Yield the names of tasks and responses."""
     for kind, module, codes in (
         ("function", "tasks", device.bus.functions),
         ("response", "responses", of_bus(device.bus).responses),
@@ -77,26 +77,16 @@ def identifiers(device: Device) -> Iterator[Names]:
             yield Names(f"Rust, module `{module}`", Owner(kind, code.name), (code.name.upper(),))
 
 
-def _fixed(device: Device) -> Iterator[str]:
-    """The points that are sent with bits that are always 1."""
-    sent = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
-    for point in device.points:
-        if point.generated and point.telegram in sent and point.fixed is not None and point.fixed.bits:
-            yield point.item
-
-
 def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
-    """How points travel: process data in one direction; parameters also into the EEPROM."""
+    """Yield the ways of a point: process data travel in one direction; parameters also go into the EEPROM."""
     point = subject.point
     if point.telegram is None:
         if point.writable and point.keeps != "no":
             yield "store", *change_of(subject, "store", "store_update")
-    elif subject.form != "text" and not point.bits:
-        yield from _process_ways(subject, scope.telegrams[point.telegram][0].direction)
-
-
-def _process_ways(subject: CratePoint, direction: str) -> Iterator[Way]:
-    point = subject.point
+        return
+    if subject.form == "text" or point.bits:
+        return
+    direction = scope.telegrams[point.telegram][0].direction
     if direction == "response" and point.readable:
         yield "read", "receive", (of_scale(subject),)
     elif direction == "request" and point.writable:
