@@ -10,7 +10,7 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.analysis import Analysis
-from fieldscribe.resolve.printed_facts import PrintedFact
+from fieldscribe.resolve.errata import PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.model import Frame, Point

@@ -11,9 +11,9 @@ from fieldscribe.arithmetic.words import number_of
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number, plain_number
+from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.bounds import as_text, constant_range
-from fieldscribe.resolve.numbering import WIRE
-from fieldscribe.resolve.printed_facts import PrintedFact, same
+from fieldscribe.resolve.errata import PrintedFact, same
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text

@@ -1,142 +1,168 @@
-"""Where a point is: its words on the wire in order, and the numbers that the manual prints for people."""
+"""Where each point is: its words on the wire in order, and the numbers that the manual prints for people."""
 
 from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import parse_number
+from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.model import NOWHERE, TYPES, Place
-from fieldscribe.resolve.numbering import Numberings
 from fieldscribe.resolve.point_facts import ALONE
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
-from fieldscribe.resolve.values import formula_value, integer
+from fieldscribe.resolve.values import formula_finding, formula_value, integer
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.encodings import Encoding
     from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scope import Scope
+
+WIRE = "wire"
+"""The name of the address on the wire in formulas of `numbering`."""
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
 _MOST_WORDS = 125
 _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
 _VERBS = {"w": "written", "r": "read"}
-
-
 _LAST_INDEX = 255
 _RULE_KNOWS = "a rule knows number, index, set, sets and indices"
-
+_NO_ADDRESS = "add `at: …`, or `at: ~` if the manual prints none"
 _MOST_PARTED_WORDS = 2
-"""The most words of a number that comes in two frames: more of them could be old and new ones mixed, unnoticed."""
+"""The most words of a number that two frames carry: with more, old and new words could mix unnoticed."""
+_PROBES = (0, 1, 2, 0xFFFF)
+"""The addresses at which a formula of `numbering` is tried, to see whether it is a straight line."""
+
+_Line = tuple[int, int]
+"""Slope and offset of a printed number over the address."""
+
+
+class _Layout(NamedTuple):
+    """How points of one kind lie in a space: the number of words, their order, and the last possible first address.
+
+    `last` is -1 where the place of each point must be worked out from its row.
+    """
+
+    words: int
+    low_first: bool
+    last: int
+
+
+_FROM_ROW = _Layout(0, False, -1)
 
 
 class Places:
-    """Works out the address of every point of one device."""
+    """Works out the places of the points of one device."""
 
     def __init__(self, scope: Scope, telegrams: Telegrams) -> None:
         self.scope = scope
         self.report = scope.report
         self.telegrams = telegrams
         bus = scope.bus
-        self.order = None if bus is None else bus.get("words")
-        self.numberings = Numberings(scope.report)
+        self._order = None if bus is None else bus.get("words")
+        self._lines: dict[int, Mapping[str, _Line | None]] = {}
+        self._layouts: dict[int, _Layout] = {}
         self._wrong_rules: set[int] = set()
 
-    def places(
-        self, facts: PointFacts, space: str, type_name: str, bits: tuple[int, int] | None
-    ) -> tuple[Place, Place | None]:
-        """Where a point is, and where it is written if that is elsewhere.
+    def of(self, facts: PointFacts, encoding: Encoding, kind: int) -> tuple[Place, Place | None]:
+        """Return where a point is, and where it is written if that is elsewhere.
 
-        The first has no addresses if the manual prints none, or after a finding.
+        The first has no addresses if the manual prints none, or after a finding. `kind` is the same for points that
+        differ in their numbers only: if `at` is a plain number, the layout of the kind decides the rest.
         """
-        place = self._place(facts, space, type_name, bits, "at")
+        layout = self._layouts.get(kind) or self._layouts.setdefault(kind, self._layout(facts, encoding))
+        at = plain_number(facts.get("at"))
+        alone = facts.element is None and facts.use is None and facts.layer("write_at") is None
+        if at is not None and alone and 0 <= at <= layout.last:
+            words = (at,) if layout.words == 1 else tuple(range(at, at + layout.words))
+            return Place(words[::-1] if layout.low_first else words, self._numbers(facts, at)), None
+        place = self._place(facts, encoding, "at")
         if not place.addresses or facts.get("write_at") is None:
             return place, None
-        write_place = self._place(facts, space, type_name, bits, "write_at")
+        write_place = self._place(facts, encoding, "write_at")
         return place, write_place if write_place.addresses else None
 
-    def _place(self, facts: PointFacts, space: str, type_name: str, bits: tuple[int, int] | None, key: str) -> Place:
-        """What `key` says: the words, that of the highest bits (in a text: of the first characters) first."""
-        last = self._last(facts, space)
-        text = type_name == "text"
-        words = self._text_words(facts, last, key) if text else self._words(facts, space, type_name, bits, key)
-        if words is None or last is None:
-            return NOWHERE
-        for address in (words[0], words[-1]):
-            if not 0 <= address <= last:
-                self._outside(facts, key, address, last, single=address == words[0])
-                return NOWHERE
-        if not text:
-            self._refuse_scattered(facts, words)
-        printed = words[0] if text else min(words)  # manuals print that of the first characters, else the lowest
-        low_first = not text and self.low_first(facts, type_name)
-        return Place(words[::-1] if low_first else words, self.references(facts, printed))
-
     def access(self, facts: PointFacts, space: str) -> str:
-        """What a master may do: as the description says, else all that the direction of the telegram allows."""
+        """Return what a master may do: `access`, else all that the direction of the telegram allows."""
         telegram_entry = self.telegrams.get(facts.group.get("telegram", "")) if space == SPACE else None
         usual = "rw" if telegram_entry is None else _ACCESS[telegram_entry[0].direction]
         access = str(facts.get("access", usual))
         if telegram_entry is not None and not set(access) <= set(usual) and access != "none":
             message = f"a word of the telegram `{telegram_entry[0].name}` is {_VERBS[usual]} only"
-            self.report.error(
-                "wrong-choice", message, facts.span("access"), f"write `access: {usual}`, or leave it out"
-            )
+            hint = f"write `access: {usual}`, or leave it out"
+            self.report.error("wrong-choice", message, facts.span("access"), hint)
             return usual
         return access
 
     def references(self, facts: PointFacts, address: int) -> Mapping[str, int]:
-        """The numbers that the manual prints for an address, by numbering.
+        """Return the numbers that the manual prints for an address, by numbering.
 
-        In a multiplexed telegram these are `mux`, the number of the frame, and `word`, the place in it, too.
+        In a multiplexed telegram these include `mux`, the number of the frame, and `word`, the place in the frame.
         """
-        numbering: Map | None = facts.group.get("numbering")
-        numbers = {} if numbering is None else dict(self.numberings.numbers(numbering, address))
-        carried = self.carried(facts)
-        if carried:
-            numbers = {"mux": address // carried, "word": address % carried + 1, **numbers}
-        return numbers
+        numbers, carried = self._numbers(facts, address), self._words_per_frame(facts)
+        return {"mux": address // carried, "word": address % carried + 1, **numbers} if carried else numbers
 
-    def carried(self, facts: PointFacts) -> int:
-        """How many words of the point's telegram one of its frames carries; 0 if it is in no multiplexed telegram."""
+    def _layout(self, facts: PointFacts, encoding: Encoding) -> _Layout:
+        group = facts.group
+        if encoding.type == "text" or encoding.space == SPACE or "addressing" in group or group.broken or facts.failed:
+            return _FROM_ROW
+        words = self._count(facts, encoding)
+        return _Layout(words, self._low_first(facts, encoding.type), self.scope.family.last_address - words + 1)
+
+    def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
+        """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
+        last = self._last(facts, encoding.space)
+        text = encoding.type == "text"
+        words = self._text_words(facts, last, key) if text else self._words(facts, encoding, key)
+        if words is None or last is None:
+            return NOWHERE
+        for address in (words[0], words[-1]):
+            if not 0 <= address <= last:
+                self._report_outside(facts, key, address, last, single=address == words[0])
+                return NOWHERE
+        if not text:
+            self._check_parted(facts, words)
+        printed = words[0] if text else min(words)  # of a text the word with the first characters, else the lowest
+        low_first = not text and self._low_first(facts, encoding.type)
+        return Place(words[::-1] if low_first else words, self.references(facts, printed))
+
+    def _words_per_frame(self, facts: PointFacts) -> int:
+        """Return how many words of the point's telegram one frame carries; 0 if the telegram is not multiplexed."""
         if facts.get("space") != SPACE:
             return 0
         telegram_entry = self.telegrams.get(facts.group.get("telegram", ""))
         return 0 if telegram_entry is None else telegram_entry[1]
 
     def _last(self, facts: PointFacts, space: str) -> int | None:
-        """The last address of the space, or the last word of the telegram; None after a finding."""
+        """Return the last address of the space, or the last word of the telegram; None after a finding."""
         if space != SPACE:
             return self.scope.family.last_address
         telegram = telegram_of(self.scope, self.telegrams, facts)
         return None if telegram is None else telegram[0].words - 1
 
-    def _words(
-        self, facts: PointFacts, space: str, type_name: str, bits: tuple[int, int] | None, key: str
-    ) -> tuple[int, ...] | None:
+    def _words(self, facts: PointFacts, encoding: Encoding, key: str) -> tuple[int, ...] | None:
         first = self._address(facts, key)
-        if first is None:
-            return None
-        return tuple(range(first, first + self.count(facts, space, type_name, bits)))
+        return None if first is None else tuple(range(first, first + self._count(facts, encoding)))
 
-    def count(self, facts: PointFacts, space: str, type_name: str, bits: tuple[int, int] | None) -> int:
-        """How many addresses a number takes."""
-        if bits is not None or space in self.scope.family.indexed:  # there a number names a whole value
+    def _count(self, facts: PointFacts, encoding: Encoding) -> int:
+        """Return how many addresses a number takes."""
+        if encoding.bits is not None or encoding.space in self.scope.family.indexed:  # an index names a whole value
             return 1
-        return max(1, TYPES[type_name].bits // 16) if facts.untyped is None else int(facts.get("length", 1))
+        return max(1, TYPES[encoding.type].bits // 16) if facts.untyped is None else int(facts.get("length", 1))
 
-    def low_first(self, facts: PointFacts, type_name: str) -> bool:
-        """Whether the word with the low part of a number comes first."""
-        return bool((facts.get("words") or self._order(type_name)) == "low first")
+    def _low_first(self, facts: PointFacts, type_name: str) -> bool:
+        """Return True if the word with the low part of a number comes first."""
+        order = self._order.get(type_name) if isinstance(self._order, Map) else self._order
+        return bool((facts.get("words") or order) == "low first")
 
     def _text_words(self, facts: PointFacts, last: int | None, key: str) -> tuple[int, ...] | None:
-        """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""
+        """Return the words of a text in reading order; `at` has both ends, which may run down, or the first word."""
         raw = self._written_address(facts, key)
         characters: int | None = facts.get("characters")
         if raw is None or characters is None or "characters" in facts.failed:
@@ -150,7 +176,7 @@ class Places:
             return tuple(range(first, first + characters // 2))
         step = 1 if first <= final else -1
         if abs(final - first) >= (_MOST_WORDS if last is None else last + 1):
-            self._outside(facts, key, max(first, final), last or _MOST_WORDS, single=True)
+            self._report_outside(facts, key, max(first, final), last or _MOST_WORDS, single=True)
             return None
         words = tuple(range(first, final + step, step))
         if 2 * len(words) != characters:
@@ -161,22 +187,20 @@ class Places:
         return words
 
     def _text_end(self, facts: PointFacts, text: str, key: str) -> int | None:
-        """The first or the last word of a text, as its row writes it."""
         number = self._number(facts, text.strip(), key)
         return None if number is None else self._address_of(facts, number)
 
     def _written_address(self, facts: PointFacts, key: str) -> object:
-        """The value of `key` as it is written; None if the manual prints no address, or after a finding."""
+        """Return the YAML value of `key`; None if the manual prints no address, or after a finding."""
         layer = facts.layer(key)
         if layer is None:
             if "at" not in facts.failed:
-                hint = "add `at: …`, or `at: ~` if the manual prints none"
-                self.report.error("missing-key", f"`{facts.name}` says no address", facts.span(), hint)
+                self.report.error("missing-key", f"`{facts.name}` says no address", facts.span(), _NO_ADDRESS)
             return None
         return None if facts.use is not None and facts.use.get("at", 0) is None else layer[key]
 
     def _address(self, facts: PointFacts, key: str) -> int | None:
-        """The first address of the point on the wire; None if the manual prints none, or after a finding."""
+        """Return the point's first address on the wire; None if the manual prints none, or after a finding."""
         raw = self._written_address(facts, key)
         if raw is None:
             return None
@@ -184,7 +208,7 @@ class Places:
         return None if number is None else self._address_of(facts, number)
 
     def _number(self, facts: PointFacts, text: str, key: str) -> int | None:
-        """The number that a text under `key` means, which may be a formula with `base`; None after a finding."""
+        """Return the number that a text under `key` gives, which may be a formula with `base`; None after a finding."""
         span = facts.span(key)
         several = _first_of_several(text)
         if several is not None:
@@ -196,11 +220,16 @@ class Places:
         base = self._base(facts)
         if base is None:
             return None
-        known = "`base` is where a record is used: it is known in the points of a record only" if not base else ""
-        return self._whole(text, base, span, known)
+        unknown = "" if base else "`base` is where a record is used: it is known in the points of a record only"
+        exact = formula_value(text, base, span, self.report, unknown)
+        if exact is not None and exact.denominator != 1:
+            message = f"the address {number_text(exact)} is not a whole number"
+            self.report.error("bad-number", message, span, "`at` is the number on the wire")
+            return None
+        return None if exact is None else exact.numerator
 
     def _address_of(self, facts: PointFacts, number: int) -> int | None:
-        """The address that the group's `addressing` makes of a number; without such a rule it is the number itself."""
+        """Return the address that the group's `addressing` makes of a number; without a rule, the number itself."""
         group, element = facts.group, facts.element
         rule: str | None = group.get("addressing")
         if rule is not None:
@@ -222,55 +251,41 @@ class Places:
         return number
 
     def _by_rule(self, facts: PointFacts, rule: str, values: Mapping[str, Fraction]) -> int | None:
-        """The result of the group's `addressing`; a wrong rule is reported once, not once for each element."""
+        """Return the result of the group's `addressing`; a wrong rule is reported once, not once for each element."""
         span = facts.group.span("addressing")
         if id(facts.group) in self._wrong_rules:
             return None
         exact = formula_value(rule, values, span, self.report, _RULE_KNOWS)
-        if exact is None:
-            self._wrong_rules.add(id(facts.group))
-            return None
-        if exact.denominator != 1:
-            self._wrong_rules.add(id(facts.group))
+        if exact is not None and exact.denominator == 1:
+            return exact.numerator
+        self._wrong_rules.add(id(facts.group))
+        if exact is not None:
             message = f"the address of `{facts.name}` would be {number_text(exact)}, which is no whole number"
             self.report.error("bad-number", message, span, "correct the rule, or the number, set or index of the row")
-            return None
-        return exact.numerator
-
-    def _whole(self, text: str, known: Mapping[str, Fraction], span: Span, unknown: str) -> int | None:
-        """The whole number that a formula gives; None after a finding, with `unknown` as hint for other names."""
-        exact = formula_value(text, known, span, self.report, unknown)
-        if exact is None:
-            return None
-        if exact.denominator != 1:
-            message = f"the address {number_text(exact)} is not a whole number"
-            self.report.error("bad-number", message, span, "`at` is the number on the wire")
-            return None
-        return exact.numerator
+        return None
 
     def _base(self, facts: PointFacts) -> Mapping[str, Fraction] | None:
-        """The names that a formula under `at` may use: in a record `base`, where it is used. None after a finding."""
+        """Return the names that a formula under `at` may use: `base` in a record, else none. None after a finding."""
         use = facts.use
         if use is None:
             return {}
         if "at" not in use:
             if "at" not in use.broken:
-                hint = "add `at: …`, or `at: ~` if the manual prints none"
-                self.report.error("missing-key", "the record stands at no address", use.span("name"), hint)
+                self.report.error("missing-key", "the record stands at no address", use.span("name"), _NO_ADDRESS)
             return None
         base = integer(use["at"], use.span("at"), self.report)
         return None if base is None else {"base": Fraction(base)}
 
-    def _refuse_scattered(self, facts: PointFacts, words: tuple[int, ...]) -> None:
-        """A finding for a number of more than two words in several frames: old and new words could mix unnoticed."""
-        carried = self.carried(facts)
+    def _check_parted(self, facts: PointFacts, words: tuple[int, ...]) -> None:
+        """Report a number of more than two words that comes in several frames: old and new words could mix."""
+        carried = self._words_per_frame(facts)
         if carried and len(words) > _MOST_PARTED_WORDS and words[0] // carried != words[-1] // carried:
             message = f"the {len(words)} words of `{facts.name}` come in several frames"
             hint = "a number that is parted has two words at most: describe the parts as points of their own"
             self.report.error("parted-number", message, facts.span("at"), hint)
 
-    def _outside(self, facts: PointFacts, key: str, address: int, last: int, *, single: bool) -> None:
-        """A finding for an address that the space, or a word that the telegram, does not have."""
+    def _report_outside(self, facts: PointFacts, key: str, address: int, last: int, *, single: bool) -> None:
+        """Report an address that the space does not have, or a word that the telegram does not have."""
         if facts.get("space") == SPACE:
             message = f"word {address} lies outside the telegram, whose words are 0..{last}"
             hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
@@ -282,13 +297,53 @@ class Places:
             hint = "check the address and the type"
         self.report.error("address-outside-space", message, facts.span(key), hint)
 
-    def _order(self, type_name: str) -> str:
-        if isinstance(self.order, Map):
-            return str(self.order.get(type_name, "high first"))
-        return str(self.order or "high first")
+    def _numbers(self, facts: PointFacts, address: int) -> Mapping[str, int]:
+        """Return the number of an address in each readable numbering of the point's group."""
+        numbering: Map | None = facts.group.get("numbering")
+        if numbering is None:
+            return {}
+        key = id(numbering)
+        if key not in self._lines:
+            self._lines[key] = self._lines_of(numbering)
+        return {name: address * line[0] + line[1] for name, line in self._lines[key].items() if line is not None}
+
+    def _lines_of(self, numbering: Map) -> Mapping[str, _Line | None]:
+        """Return each numbering as a line over the address; None after a finding."""
+        lines: dict[str, _Line | None] = {WIRE: (1, 0)}
+        for name, text in numbering.items():
+            if name == WIRE:
+                hint = "`wire` is the address itself: choose another name"
+                message = "a numbering cannot be called `wire`"
+                self.report.error("duplicate-name", message, numbering.key_span(name), hint)
+            else:
+                lines[name] = self._line(numbering, name, text, lines)
+        del lines[WIRE]
+        return lines
+
+    def _line(self, numbering: Map, name: str, text: str, known: Mapping[str, _Line | None]) -> _Line | None:
+        span = numbering.span(name)
+        try:
+            expression = parse_expression(text)
+            if any(known.get(used.name, 0) is None for used in names(expression)):
+                return None  # that numbering has a finding of its own
+            lines = {other: line for other, line in known.items() if line is not None}
+            at = [
+                evaluate(expression, {other: Fraction(line[0] * wire + line[1]) for other, line in lines.items()})
+                for wire in _PROBES
+            ]
+        except FormulaError as error:
+            formula_finding(error, span, self.report)
+            return None
+        slope, offset = at[1] - at[0], at[0]
+        straight = all(result == slope * wire + offset for wire, result in zip(_PROBES, at, strict=True))
+        if slope.denominator != 1 or offset.denominator != 1 or not straight:
+            message = f"`{name}` is not a whole number at every address"
+            self.report.error("bad-formula", message, span, "write it as `wire + 1` or `40000 + wire`")
+            return None
+        return slope.numerator, offset.numerator
 
 
 def _first_of_several(text: str) -> str | None:
-    """The first address of a text that names several (`1..2`, `1 - 2`); None for a number or a formula (`5 - 2`)."""
+    """Return the first address of a text that gives several (`1..2`, `1 - 2`); None for a number or a formula."""
     first, _, last = ("" if ":" in text else interval_meant(text) or "").partition("..")
     return first if first and parse_number(first) < parse_number(last) else None

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.code_view import for_code
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Block, Device, Enum, Group
+from fieldscribe.resolve.errata import fact_text, same
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.printed_facts import fact_text, same
 from fieldscribe.resolve.scope import humanised, source_of, titles
 
 if TYPE_CHECKING:
@@ -22,10 +22,9 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report
     from fieldscribe.model import About, Bus, Command, Frame, Message, Point
     from fieldscribe.resolve.addresses import Places
-    from fieldscribe.resolve.errata import LocatedErratum
+    from fieldscribe.resolve.errata import LocatedErratum, PrintedFact
     from fieldscribe.resolve.frames import LocatedFrame
     from fieldscribe.resolve.points import ResolvedPoint
-    from fieldscribe.resolve.printed_facts import PrintedFact
     from fieldscribe.resolve.ranges import Ranges
     from fieldscribe.resolve.scope import Scope
     from fieldscribe.resolve.symbols import SymbolTable

@@ -11,15 +11,16 @@ from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
-from fieldscribe.model import Factor, Linear, Special
+from fieldscribe.model import Factor, Linear
 from fieldscribe.resolve.scales import Scales, UnknownError
 from fieldscribe.resolve.values import Written
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.formula import Affine, Part
+    from fieldscribe.resolve.encodings import Encoding
     from fieldscribe.resolve.point_facts import PointFacts
 
 _DEEPEST = 30
@@ -54,12 +55,9 @@ def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) ->
 class Bounds:
     """What the raw number of each point can be: what its type `holds`, and its hull, what its range leaves of that."""
 
-    def __init__(
-        self, scales: Scales, holds: dict[PointFacts, tuple[int, int]], specials: dict[PointFacts, tuple[Special, ...]]
-    ) -> None:
+    def __init__(self, scales: Scales, encodings: Mapping[PointFacts, Encoding]) -> None:
         self.scales = scales
-        self.holds = holds
-        self.specials = specials
+        self.encodings = encodings
         self._ends: dict[tuple[PointFacts, int], int] = {}
         self._depth = 0
 
@@ -81,7 +79,9 @@ class Bounds:
         key = (facts, end)
         bound = self._ends.get(key)
         if bound is None:
-            bound = self._ends[key] = self.holds[facts][end]  # the answer to points of a circle, which ask again
+            bound = self._ends[key] = self.encodings[facts].holds[
+                end
+            ]  # the answer to points of a circle, which ask again
             self._depth += 1
             if self._depth <= _DEEPEST:
                 bound = self._ends[key] = self._computed_end(facts, end)
@@ -150,7 +150,7 @@ class Bounds:
     def _without_codes(self, item: str) -> tuple[int, int]:
         """Return the hull of a point without the special codes at its ends."""
         low, high = self.hull(item)
-        codes = self.specials[self.scales.index.by_item(item)]
+        codes = self.encodings[self.scales.index.by_item(item)].specials
         for code in sorted(codes, key=lambda code: code.low):
             low = code.high + 1 if code.low <= low <= code.high else low
         for code in sorted(codes, key=lambda code: -code.high):
@@ -219,9 +219,9 @@ class Bounds:
     def _computed_end(self, facts: PointFacts, end: int) -> int:
         """One end of what the range leaves of the type; that of the type where the range says nothing usable."""
         key = "range" if facts.layer("range") is not None else "range_in_units"
-        least, greatest = self.holds[facts]
+        least, greatest = self.encodings[facts].holds
         if facts.layer(key) is None or facts.floating or facts.text:
-            return self.holds[facts][end]
+            return self.encodings[facts].holds[end]
         text, span = as_text(facts.get(key)), facts.span(key)
         pick = max if end else min
         try:
@@ -235,5 +235,5 @@ class Bounds:
                 ]
                 candidates = [corner for rule in rules for corner in self.corners(rule)]
         except (FormulaError, UnknownError):
-            return self.holds[facts][end]
+            return self.encodings[facts].holds[end]
         return max(least, min(greatest, half_away(pick(candidates))))

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.families import families
 from fieldscribe.language.keys import keys_of_family
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Code
+from fieldscribe.resolve.enums import Taken, entry_titles, name_of
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.scope import Scope, humanised, titles
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from fieldscribe.families import BusKeys, Family
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
@@ -104,35 +102,26 @@ def codes_under(scope: Scope, node: Map, key: str) -> tuple[Code, ...]:
 
 def codes_of(scope: Scope, node: Map | None, first: int, last: int) -> tuple[Code, ...]:
     """Numbered codes with their names, in the author's order; numbers and names are unique."""
-    result: dict[int, Code] = {}
-    keys: dict[int | str, str] = {}
-    for key, value in node.items() if node is not None else ():
-        span = node.key_span(key) if node is not None else Span("", 1, 1)
+    result: list[Code] = []
+    taken = Taken(scope.report, "code")
+    if node is None:
+        return ()
+    for key, value in node.items():
+        span, name = node.key_span(key), name_of(value)
         number = integer(key, span, scope.report)
-        if number is None:
-            continue
-        name = value if isinstance(value, str) else str(value["name"])
-        other = keys.get(number, keys.get(name))
-        if not first <= number <= last:
+        if number is not None and not first <= number <= last:
             message = f"the code {key} lies outside {first}..{last}"
             scope.report.error("address-outside-space", message, span, "correct the code")
-        elif other is not None and node is not None:
-            rule, what = ("value", f"code {number}") if number in keys else ("name", f"name `{name}`")
-            related = [(node.key_span(other), "first given here")]
-            message = f"the {what} is given twice"
-            scope.report.error(f"duplicate-enum-{rule}", message, span, "remove or rename one of them", related)
-        else:
-            result[number] = _code(scope, number, name, value)
-        keys.setdefault(number, key)
-        keys.setdefault(name, key)
-    return tuple(result.values())
+        elif number is not None and taken.take(number, number, name, span, span):
+            result.append(_code(scope, number, name, value))
+    return tuple(result)
 
 
 def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
+    text = entry_titles(value, name)
     if isinstance(value, str):
-        return Code(number, name, _code_titles(value, name), None)
+        return Code(number, name, text, None)
     answers, refusals = (code_list(scope, value, key) for key in ("answers", "refusals"))
-    text = _code_titles(value, name)
     return Code(number, name, text, value.get("max"), value.get("broadcast"), answers, refusals)
 
 
@@ -148,13 +137,6 @@ def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
         elif ends is not None:
             codes.update(dict.fromkeys(range(ends[0], ends[1] + 1)))
     return tuple(codes)
-
-
-def _code_titles(value: Map | str, name: str) -> Mapping[str, str]:
-    if isinstance(value, str):
-        return {"en": humanised(name)}
-    texts = {key: str(text) for key, text in value.items() if len(key) == 2}
-    return {"en": humanised(name), **titles(value.get("title")), **texts}
 
 
 def _gaps(scope: Scope, node: Map | None) -> dict[str, tuple[tuple[int, int], ...]]:

@@ -13,31 +13,26 @@ from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
 
 
 def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
     """The named constant writes of all files."""
     result: dict[str, Command] = {}
-    places: dict[str, Span] = {}
-    for node in scope.listed("commands"):
+    for node in scope.unique("commands"):
         name = str(node["name"])
         if scope.family.commands_in is None:
             hint = "describe the point that it writes, with its value under `enum` or `flags`"
             known = " and ".join(family.name for family in families() if family.commands_in is not None)
             scope.report.error("family-key", f"commands are for the family {known}", node.span("name"), hint)
             continue
-        if name in result or name in ("no", "yes", "choice"):
-            first = [(places[name], "first declared here")] if name in places else []
-            message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"
-            hint = "rename one of them" if first else "these are the words of `keeps`: give it another name"
-            scope.report.error("duplicate-name", message, node.span("name"), hint, first)
+        if name in ("no", "yes", "choice"):
+            hint = "these are the words of `keeps`: give it another name"
+            scope.report.error("duplicate-name", f"a command cannot be called `{name}`", node.span("name"), hint)
             continue
         command = _command(scope, bus, node)
         if command is not None:
             result[name] = command
-            places[name] = node.span("name")
     return tuple(result.values())
 
 

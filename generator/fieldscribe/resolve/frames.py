@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
+from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.families import families
+from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.frame_meanings import meaning_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.values import integer, number
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
+    from fractions import Fraction
 
-    from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.symbols import SymbolTable
+
+
+RAW = ".raw"
+"""Behind a point's name it says that the raw number follows, not the value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,16 +42,10 @@ class LocatedFrame:
 def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:
     """All frames in the order of the text; checks fill in `valid` and `corrected` later."""
     result: dict[str, LocatedFrame] = {}
-    seen: dict[str, Span] = {}
-    for node in scope.listed("frames"):
-        name = node["name"]
-        if name in seen:
-            first = [(seen[name], "first given here")]
-            message = f"two frames have the name `{name}`"
-            scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
-            continue
-        seen[name] = node.span("name")
-        answers = node.get("answers")
+    seen: set[str] = set()
+    for node in scope.unique("frames"):
+        name, answers = node["name"], node.get("answers")
+        seen.add(name)
         if answers is not None and answers not in result:
             if answers == name or answers not in seen:
                 hint = "the request stands above its answer"
@@ -58,7 +59,7 @@ def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, P
         if not _known_framing(scope, node) or reader_of(scope).refuses(scope, bus, node):
             continue
         result[name] = LocatedFrame(
-            _frame(scope, bus, node, bytes.fromhex(digits), meaning_of(scope, node, index, points)), node
+            _frame(scope, bus, node, bytes.fromhex(digits), _meaning_of(scope, node, index, points)), node
         )
     return list(result.values())
 
@@ -107,3 +108,99 @@ def _foreign_keys(scope: Scope, node: Map) -> None:
                 message = f"`{key}` is nothing that the family {scope.family.name} knows"
                 hint = f"it belongs to {other.name}: leave it out"
                 scope.report.error("family-key", message, node.key_span(key), hint)
+
+
+def _meaning_of(scope: Scope, node: Map, index: SymbolTable, points: Mapping[str, Point]) -> dict[str, int]:
+    """The raw numbers that a frame carries according to its `says`, by item."""
+    held: dict[str, int | Fraction] = {}
+    settings: Map | None = node.get("with")
+    for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
+        held[point.item] = held[point.name] = setting_of(point, raw_number)
+    says: Map | None = node.get("says")
+    if says is None:
+        return {}
+    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(index, points)}
+
+
+@dataclass(frozen=True, slots=True)
+class _StatedValues:
+    """Values by point as an author wrote them, and `held`: what other points hold at that time."""
+
+    scope: Scope
+    values: Map
+    held: Mapping[str, int | Fraction] = field(default_factory=dict)
+
+    def numbers(self, index: SymbolTable, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
+        """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
+        for word, value in self.values.items():
+            name = word.removesuffix(RAW)
+            facts = index.find(name)
+            if facts is None:
+                index.unknown(name, self.values.key_span(word))
+                continue
+            point = points.get(facts.item)
+            if point is None or facts.failed & {"scale", "type", "enum"}:
+                continue
+            if word == name:
+                raw_number = self._raw(point, word, value)
+            else:
+                raw_number = integer(value, self.values.span(word), self.scope.report)
+            if raw_number is not None:
+                yield point, raw_number
+
+    def _raw(self, point: Point, word: str, value: Any) -> int | None:
+        """The raw number of a name, or of a value in the unit; None after a finding."""
+        if isinstance(value, bool):
+            return int(value)
+        known = _names(point) if isinstance(value, str) and not value[:1].isdigit() else {}
+        if value in known:
+            return known[value]
+        if known and not is_whole_number(value):
+            self.scope.unknown("entry", value, self.values.span(word), known)
+            return None
+        fault = self._fault(point)
+        if fault is not None:
+            hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"
+            self._refuse("bad-formula", word, fault, hint)
+            return None
+        exact = number(value, self.values.span(word), self.scope.report)
+        return None if exact is None else self._number(point, word, value, exact)
+
+    def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
+        """The raw number of a value; None after a finding."""
+        if point.info.floating or point.scale_arguments:
+            try:
+                return encode(point, exact, self.held)
+            except CodecError:
+                self._report_no_number(point, word, value)
+                return None
+        if point.fixed_scale is not None:
+            exact = point.fixed_scale.at(exact)
+        if exact.denominator != 1:
+            fault = f"cannot be {value}: that is raw {number_text(exact)}"
+            self._refuse("bad-number", word, fault, "give the value as printed, in the unit of the point")
+            return None
+        return exact.numerator
+
+    def _report_no_number(self, point: Point, word: str, value: Any) -> None:
+        if point.info.floating:
+            self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
+        else:
+            self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
+
+    def _fault(self, point: Point) -> str | None:
+        """Why a value cannot become the point's raw number, or None."""
+        if point.text is not None:
+            return "is a text"
+        missing = [name for name in point.scale_arguments if name not in self.held]
+        return f"needs what {', '.join(missing)} holds to be scaled (say it under `with`)" if missing else None
+
+    def _refuse(self, rule: str, word: str, fault: str, hint: str) -> None:
+        self.scope.report.error(rule, f"`{word}` {fault}", self.values.span(word), hint)
+
+
+def _names(point: Point) -> dict[str, int]:
+    """The names that the point's numbers have."""
+    if point.enum is None:
+        return {"off": 0, "on": 1} if point.type == "bit" else {}
+    return {entry.name: entry.raw for entry in point.enum.entries}

@@ -106,7 +106,7 @@ def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decim
     """
     if _is_chosen(cases):
         return counted
-    needs = _needs(cases[0].rule, max(map(abs, bounds.holds[facts])), bounds)
+    needs = _needs(cases[0].rule, max(map(abs, bounds.encodings[facts].holds)), bounds)
     power: int = 10**decimals
     return 2 * max(needs.numerator, needs.constant) * power < _WIDE
 
@@ -144,7 +144,7 @@ def _largest(facts: PointFacts, bounds: Bounds) -> int:
     Every pattern of up to 32 bits that a device may send has a count and a value. To ask that of 64 bits would rule out
     most scales: there only numbers that may be written have to, and decoding reports others as an overflow.
     """
-    holds = bounds.holds[facts]
+    holds = bounds.encodings[facts].holds
     return max(map(abs, bounds.own_hull(facts) if asks_limits(holds) else holds))
 
 
@@ -168,7 +168,7 @@ def _most_raw(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, n
     # a factor that is 0 throughout makes the numerator 0, whatever the raw number is
     mosts = [(numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts if down]
     most = min(mosts, default=None)
-    return None if most is None or most >= max(map(abs, bounds.holds[facts])) else max(least, most)
+    return None if most is None or most >= max(map(abs, bounds.encodings[facts].holds)) else max(least, most)
 
 
 def _decimals(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:

@@ -6,29 +6,31 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Point, Terms
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.alike import Kinds, Once, frozen
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.conditions import condition_of
-from fieldscribe.resolve.defaults import default_of
-from fieldscribe.resolve.plain_places import PlainPlaces
+from fieldscribe.resolve.encodings import Encoding, Encodings
 from fieldscribe.resolve.ranges import Ranges
-from fieldscribe.resolve.scales import Scales
+from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, Sources, titles
-from fieldscribe.resolve.shapes import Meaning, Meanings, Word, Words
+from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.telegrams import SPACE
-from fieldscribe.resolve.values import integer
+from fieldscribe.resolve.values import integer, number
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Allowed, Shape, Unit
+    from fieldscribe.model import Linear, Shape, Unit
     from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.symbols import SymbolTable
     from fieldscribe.resolve.telegrams import Telegrams
+
+_MOST_NAMES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,19 +45,15 @@ def resolve_points(
     scope: Scope, expanded: list[PointFacts], index: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
     """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
-    kind_of, word_of = Kinds().of, Words(scope).of
+    kind_of, encoding_of = Kinds().of, Encodings(scope).of
     kinds = {facts: kind_of(facts) for facts in expanded}
-    words = {facts: word_of(facts, kind) for facts, kind in kinds.items()}
-    bounds = Bounds(
-        Scales(scope, index),
-        {facts: word.holds for facts, word in words.items()},
-        {facts: word.specials for facts, word in words.items()},
-    )
-    ranges, places = Ranges(bounds), Places(scope, telegrams)
-    meaning_of = Meanings(scope, words, ranges, places).of
-    points = _Points(scope, ranges.bounds.scales, places)
+    encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
+    scales = Scales(scope, index)
+    ranges, places = Ranges(Bounds(scales, encodings)), Places(scope, telegrams)
+    shape_of = Shapes(scope, encodings, ranges, places).of
+    points = _Points(scope, scales, places)
     resolved = [
-        ResolvedPoint(points.point(facts, kind, words[facts], meaning_of(facts, kind)), facts)
+        ResolvedPoint(points.point(facts, kind, encodings[facts], shape_of(facts, kind)), facts)
         for facts, kind in kinds.items()
     ]
     return resolved, ranges, places
@@ -65,17 +63,17 @@ class _Points:
     """Puts points together: their identity, and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
-        self._scope, self._scales, self._places = scope, scales, PlainPlaces(places)
+        self._scope, self._scales, self._places = scope, scales, places
         self._sources = Sources(scope)
         self._terms: Once[Terms] = Once(scope.report)
         self._defaults: Once[tuple[Fraction | None, int | None]] = Once(scope.report)
 
-    def point(self, facts: PointFacts, kind: int, word: Word, meant: tuple[Meaning, Allowed]) -> Point:
-        """The point of a facts."""
-        (meaning, allowed), get = meant, facts.get
-        shape, code, old_names = meaning.shape, get("code"), get("was")
-        place, write_place = self._places.of(facts, word, kind)
-        terms = self._terms.known.get(kind) or self._computed_terms(facts, kind, word, meaning)
+    def point(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Point:
+        """Return the point that has these facts."""
+        get, shape = facts.get, found.shape
+        code, old_names = get("code"), get("was")
+        place, write_place = self._places.of(facts, encoding, kind)
+        terms = self._terms.known.get(kind) or self._new_terms(facts, kind, encoding, found)
         default, default_raw = self._default(facts, kind, shape)
         return Point(
             facts.name,
@@ -88,7 +86,7 @@ class _Points:
             write_place,
             shape,
             terms if place.addresses else replace(terms, generated=False, reason="the manual prints no address"),
-            allowed,
+            found.allowed,
             default,
             default_raw,
             facts.record,
@@ -103,18 +101,18 @@ class _Points:
         if facts.layer("default") is None and facts.layer("default_in_units") is None:
             return None, None
         said = kind, frozen(facts.get("default")), frozen(facts.get("default_in_units"))
-        return self._defaults.of(said, facts, lambda _: default_of(self._scope, facts, shape), lambda _: True)
+        return self._defaults.of(said, facts, lambda _: _default_of(self._scope, facts, shape), lambda _: True)
 
-    def _computed_terms(self, facts: PointFacts, kind: int, word: Word, meaning: Meaning) -> Terms:
-        return self._terms.of(kind, facts, partial(self._terms_of, word, meaning), _are_general)
+    def _new_terms(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Terms:
+        return self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
 
-    def _terms_of(self, word: Word, meaning: Meaning, facts: PointFacts) -> Terms:
-        get, scope, shape = facts.get, self._scope, meaning.shape
-        reason = _reason(facts, shape.access, raw_alone=meaning.raw_alone)
+    def _terms_of(self, encoding: Encoding, found: ShapeAndLimits, facts: PointFacts) -> Terms:
+        get, scope, shape = facts.get, self._scope, found.shape
+        reason = _reason(facts, shape.access, raw_alone=found.raw_alone)
         return Terms(
             group=str(facts.group["group"]),
-            space=word.space,
-            bits=word.bits,
+            space=encoding.space,
+            bits=encoding.bits,
             unit=_unit(scope, facts),
             steps=_steps(scope, facts),
             changes=get("changes"),
@@ -126,7 +124,7 @@ class _Points:
             reserved=bool(get("reserved", False)),
             generated=reason is None,
             reason=reason,
-            telegram=facts.group.get("telegram") if word.space == SPACE else None,
+            telegram=facts.group.get("telegram") if encoding.space == SPACE else None,
             changes_with=_changes_with(facts, self._scales.index),
             untyped=_untyped(scope, facts),
         )
@@ -209,3 +207,55 @@ def _changes_with(facts: PointFacts, index: SymbolTable) -> tuple[str, ...]:
             index.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
         names.update(dict.fromkeys(writer.name for writer in used))
     return tuple(names)
+
+
+def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction | None, int | None]:
+    """The factory setting in the unit and as raw number; None where it is not given or depends on other points."""
+    if facts.text:
+        return None, None
+    rule = None if facts.floating else _rule(facts, shape)
+    if facts.layer("default_in_units") is not None:
+        value = number(facts.get("default_in_units"), facts.span("default_in_units"), scope.report)
+        exact = None if value is None or rule is None else rule.at(value)
+        return value, exact.numerator if exact is not None and exact.denominator == 1 else None
+    raw = None if facts.layer("default") is None else _default_raw(scope, facts, shape)
+    return None if raw is None or rule is None else (raw - rule.offset) / rule.ratio, raw
+
+
+def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
+    """The raw number that `default` says; None after a finding."""
+    default, span, enum = facts.get("default"), facts.span("default"), shape.enum
+    if facts.floating:
+        message = "`default` is in raw numbers, which are bit patterns here"
+        scope.report.error("float-fact", message, span, f"write `default_in_units: {default}`")
+        return None
+    named = {special.name: special.low for special in shape.specials if special.low == special.high}
+    named |= {entry.name: entry.raw for entry in (() if enum is None else enum.entries)}
+    if default in named:
+        return named[default]
+    if isinstance(default, str) and enum is not None and default.isidentifier():
+        if "enum" in facts.failed:
+            return None  # it may be one of the names that could not be read
+        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
+        scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
+        return None
+    if _has_a_fraction(default):
+        message = f"`{default}` has a decimal point, and `default` is in raw numbers"
+        scope.report.error("bad-number", message, span, f"write `default_in_units: {default}`, or the raw number")
+        return None
+    return integer(default, span, scope.report)
+
+
+def _has_a_fraction(default: object) -> bool:
+    try:
+        return isinstance(default, str) and "." in default and parse_number(default) is not None
+    except NumberError:
+        return False
+
+
+def _rule(facts: PointFacts, shape: Shape) -> Linear | None:
+    """The rule between raw number and value; None where it depends on other points or is not known."""
+    if shape.scale is not None:
+        return shape.fixed_scale
+    unsettled = facts.untyped is not None or (facts.layer("scale") is not None and facts.get("scale") is None)
+    return None if unsettled and facts.get("unit") is not None else IDENTITY

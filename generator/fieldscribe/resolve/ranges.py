@@ -40,7 +40,7 @@ class Ranges:
             return Allowed((), False, self._float_range(facts))
         if facts.text:
             return Allowed((), False, ())
-        least, greatest = self.bounds.holds[facts]
+        least, greatest = self.bounds.encodings[facts].holds
         type_range = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):
             if facts.layer(key) is not None:
@@ -137,7 +137,7 @@ class Ranges:
 
     def _checked(self, facts: PointFacts, low: Bound, high: Bound, span: Span) -> bool:
         """Whether the type holds both ends and the interval can hold a number; a finding if not."""
-        least, greatest = self.bounds.holds[facts]
+        least, greatest = self.bounds.encodings[facts].holds
         for end in (low, high):
             if isinstance(end, int) and not least <= end <= greatest:
                 if "type" not in facts.failed:
@@ -158,7 +158,7 @@ class Ranges:
     def _limit(self, facts: PointFacts, rule: Linear, span: Span) -> Limit:
         """A limit that other points set, with the least and greatest number that it can be."""
         rule = self.bounds.with_exponents(rule, span)
-        own_least, own_greatest = self.bounds.holds[facts]
+        own_least, own_greatest = self.bounds.encodings[facts].holds
         corners = [half_away(corner) for corner in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
@@ -171,7 +171,7 @@ class Ranges:
 
     def _codes(self, name: str) -> tuple[tuple[int, int], ...]:
         """The special codes of a point that limits another: while it holds one of them, the limit does not apply."""
-        specials = self.bounds.specials[self.bounds.scales.index.by_item(name)]
+        specials = self.bounds.encodings[self.bounds.scales.index.by_item(name)].specials
         return tuple(sorted((special.low, special.high) for special in specials))
 
     def _float_range(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...]:

@@ -10,7 +10,6 @@ from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.point_facts import PointFacts
 
@@ -27,21 +26,14 @@ _MULTIPLEXED = 256
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
     """All telegrams by name, in the order of the text."""
     result: dict[str, tuple[Telegram, int]] = {}
-    seen: dict[str, Span] = {}
     by_name = {message.name: message for message in messages}
-    for node in scope.listed("telegrams"):
+    for node in scope.unique("telegrams"):
         name = str(node["name"])
         if SPACE not in scope.family.spaces:
             family = scope.header["family"]
             message = f"the family {family} has no telegrams"
             scope.report.error("family-key", message, node.span("name"), "leave it out")
             continue
-        if name in seen:
-            first = [(seen[name], "first given here")]
-            message = f"two telegrams have the name `{name}`"
-            scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
-            continue
-        seen[name] = node.span("name")
         carried = _carried(scope, node, by_name)
         _check_carrier(scope, node, by_name, [telegram for telegram, _ in result.values()])
         telegram = Telegram(

@@ -69,10 +69,18 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     return low, high
 
 
-def bits_named(key: str) -> tuple[int, int]:
-    """The two numbers of a key such as `5..4`, in this order; of a single number such as `0Fh`, that number twice."""
-    first, dots, last = key.partition("..")
-    return parse_integer(first), parse_integer(last if dots else first)
+def bit_range(text: str, span: Span, report: Report) -> tuple[int, int] | None:
+    """Return the highest and the lowest bit that `5..4` or a single number names; None after a finding."""
+    high_text, dots, low_text = text.partition("..")
+    high = integer(high_text.strip(), span, report)
+    low = integer(low_text.strip(), span, report) if dots else high
+    if high is None or low is None:
+        return None
+    if low > high:
+        hint = f"the higher bit stands first: {low}..{high}"
+        report.error("range-reversed", f"bits `{text}` run upwards", span, hint)
+        return None
+    return high, low
 
 
 def formula_value(

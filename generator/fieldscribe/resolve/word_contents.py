@@ -1,4 +1,4 @@
-"""What words hold beside numbers: texts, decimal digits, and bits that are always written as a constant."""
+"""What words hold beside plain numbers: texts, decimal digits, flags, and bits that are written as constants."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
-from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
-from fieldscribe.resolve.enums import entries_of
-from fieldscribe.resolve.scope import humanised
-from fieldscribe.resolve.values import bits_named, integer
+from fieldscribe.language.numbers import parse_integer
+from fieldscribe.model import Allowed, Digits, Entry, Fixed, Flag, Interval, Text
+from fieldscribe.resolve.enums import Taken, entries_of, name_of, named_enum
+from fieldscribe.resolve.scope import humanised, titles
+from fieldscribe.resolve.values import bit_range, integer
 from fieldscribe.schema_types import TEXTS
 
 if TYPE_CHECKING:
@@ -22,66 +23,56 @@ _MOST_CHARACTERS = 250
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
 _OF_TEXTS = facts_of(POINT, TEXTS)
+_WIDEST = 63
+"""The highest bit of the widest type: a greater number cannot be a bit number."""
+_MASKS = 3
+"""As many successive powers of two as keys are probably masks, not bit numbers."""
 
 
 def text_of(scope: Scope, facts: PointFacts) -> Text | None:
-    """The layout of a text; None for another type, or after a finding."""
+    """Return the layout of a text; None for another type, or after a finding."""
     if not facts.text:
         for key in _OF_TEXTS:
             if facts.get(key) is not None and "type" not in facts.failed:
-                message = f"`{key}` is for texts"
-                scope.report.error("text-fact", message, facts.span(key), "add `type: text`, or leave it out")
+                hint = "add `type: text`, or leave it out"
+                scope.report.error("text-fact", f"`{key}` is for texts", facts.span(key), hint)
         return None
     characters: int | None = facts.get("characters")
-    if characters is None:
-        if "characters" not in facts.failed:
-            message = f"`{facts.name}` does not say how long the text is"
-            scope.report.error("missing-key", message, facts.span("type"), "add `characters: …`, two for each word")
-            facts.failed.add("characters")
-        return None
-    if characters % 2:
-        hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"
+    if characters is not None and characters % 2 == 0 and characters <= _MOST_CHARACTERS:
+        return Text(characters, str(facts.get("encoding", _DEFAULT_ENCODING)))
+    if characters is None and "characters" not in facts.failed:
+        message, hint = f"`{facts.name}` does not say how long the text is", "add `characters: …`, two for each word"
+        scope.report.error("missing-key", message, facts.span("type"), hint)
+    elif characters is not None and characters % 2:
         message = f"{characters} characters leave half a word"
+        hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"
         scope.report.error("text-length", message, facts.span("characters"), hint)
-        facts.failed.add("characters")
-        return None
-    if characters > _MOST_CHARACTERS:
+    elif characters is not None:
         message = f"{characters} characters are more than 125 words hold, the most that travel at once"
         hint = f"make it several texts of at most {_MOST_CHARACTERS} characters"
         scope.report.error("text-length", message, facts.span("characters"), hint)
-        facts.failed.add("characters")
-        return None
-    return Text(characters, str(facts.get("encoding", _DEFAULT_ENCODING)))
+    facts.failed.add("characters")
+    return None
 
 
 def digits_of(scope: Scope, facts: PointFacts) -> Digits | None:
-    """The decimal digits of a word and their names; None where there are none, or after a finding."""
+    """Return the decimal digits of a word and their names; None if there are none, or after a finding."""
     node: Map | None = facts.get("digits")
     if node is None:
         return None
-    raw_enum = node["enum"]
-    is_shared = isinstance(raw_enum, str)
-    name, entries = (raw_enum, scope.named_enums.get(raw_enum)) if is_shared else (facts.enum_name, raw_enum)
-    if entries is None:
-        scope.unknown("enum", name, node.span("enum"), scope.named_enums)
-        facts.failed.add("digits")
-        return None
-    key = (name, id(entries), True)
-    if key not in scope.enums:
-        was = () if is_shared else facts.old_enum_names
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), True, was)
-    enum = scope.enums[key]
-    misfit = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
+    enum = named_enum(scope, facts, node["enum"], node.span("enum"), closed=True)
+    misfit = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None) if enum else None
     if misfit is not None:
         message = f"`{misfit.name}` is {misfit.raw}, and a digit is 0..{_LARGEST_DIGIT}"
         scope.report.error("enum-outside-range", message, node.span("enum"), "name single digits")
+    if enum is None or misfit is not None:
         facts.failed.add("digits")
         return None
     return Digits(node["count"], enum) if enum.entries else None
 
 
 def allowed_digits(scope: Scope, facts: PointFacts, digits: Digits, greatest: int) -> Allowed:
-    """The numbers from all lowest to all highest digits; between them each digit is one of the enum's."""
+    """Return the interval from all lowest to all highest digits. Each digit between must also be one of the enum."""
     ones = sum(10**place for place in range(digits.count))
     numbers = [entry.raw for entry in digits.enum.entries]
     low = min(numbers) * ones
@@ -93,7 +84,7 @@ def allowed_digits(scope: Scope, facts: PointFacts, digits: Digits, greatest: in
 
 
 def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, width: int) -> Fixed | None:
-    """The bits of the word that are written as a constant; None where there are none, or after a finding."""
+    """Return the bits of the word that are always written as a constant; None if there are none."""
     node: Map | None = facts.get("fixed")
     if node is None:
         return None
@@ -101,39 +92,101 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
     own = 0 if bits is None else ((1 << width) - 1) << bits[1]
     mask = value = 0
     for key, content in node.items():
-        place_and_greatest = _fixed_bits(scope, facts, node, key, word)
-        number = integer(content, node.span(key), scope.report)
-        if place_and_greatest is None or number is None:
+        span, text = node.key_span(key), f"bits {key}" if ".." in key else f"bit {key}"
+        ends, number = bit_range(key, span, scope.report), integer(content, node.span(key), scope.report)
+        if ends is None or number is None:
             continue
-        low, greatest = place_and_greatest
-        if not 0 <= number <= greatest:
-            message = f"{content} does not fit into {_bits_text(key)}"
+        (high, low), greatest = ends, (1 << ends[0] - ends[1] + 1) - 1
+        if high >= word:
+            if not facts.failed & {"type", "bits"}:
+                message = f"bit {high} lies outside the {word} bits of the word"
+                scope.report.error("bit-outside-word", message, span, f"bits are numbered {word - 1}..0")
+        elif not 0 <= number <= greatest:
+            message = f"{content} does not fit into {text}"
             scope.report.error("range-outside-type", message, node.span(key), f"write 0..{greatest}")
         elif mask & greatest << low:
-            message = f"{_bits_text(key)} cannot be fixed twice"
-            scope.report.error("bits-overlap", message, node.key_span(key), "remove one of them")
+            scope.report.error("bits-overlap", f"{text} cannot be fixed twice", span, "remove one of them")
         elif own & greatest << low:
-            message = f"{_bits_text(key)} cannot be fixed, for the point itself takes it"
-            scope.report.error("bits-overlap", message, node.key_span(key), "`fixed` names the bits beside it")
+            message = f"{text} cannot be fixed, for the point itself takes it"
+            scope.report.error("bits-overlap", message, span, "`fixed` names the bits beside it")
         else:
             mask, value = mask | greatest << low, value | number << low
     return Fixed(mask, value) if mask else None
 
 
-def _bits_text(key: str) -> str:
-    return f"bits {key}" if ".." in key else f"bit {key}"
+def flags_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
+    """Return the flags of a point, whose keys are bit numbers of the word.
+
+    `Flag.low` counts from the lowest bit of the point, which may take only some `bits` of the word.
+    """
+    node: Map | None = facts.get("flags")
+    if node is None:
+        return ()
+    _warn_of_masks(scope, node)
+    taken = Taken(scope.report, "bit", "bits-overlap")
+    result = []
+    last, first = bits or (width - 1, 0)
+    for key, value in node.items():
+        span, name = node.key_span(key), name_of(value)
+        ends = bit_range(key, span, scope.report)
+        if ends is None:
+            continue
+        high, low = ends
+        if not first <= low <= high <= last:
+            if not facts.failed & {"type", "bits"}:
+                outside = high if high > last else low
+                message = f"bit {outside} lies outside the {width} bits of the point"
+                hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"
+                place = outside.bit_length() - 1
+                if outside > _WIDEST and outside == 1 << place and first <= place <= last:
+                    hint += f"; the mask {key} is bit {place}"
+                scope.report.error("bit-outside-word", message, span, hint)
+        elif taken.take(low, high, name, span, node.span(key)):
+            result.append(_flag(scope, node, key, low - first, high - low + 1))
+    return tuple(result)
 
 
-def _fixed_bits(scope: Scope, facts: PointFacts, node: Map, key: str, word: int) -> tuple[int, int] | None:
-    """The lowest bit that a key names, and what its bits hold at most; None after a finding."""
-    high, low = bits_named(key)
-    if high < low:
-        hint = f"the higher bit stands first: {low}..{high}"
-        scope.report.error("range-reversed", f"bits `{key}` run upwards", node.key_span(key), hint)
-        return None
-    if high >= word:
-        if not facts.failed & {"type", "bits"}:
-            message = f"bit {high} lies outside the {word} bits of the word"
-            scope.report.error("bit-outside-word", message, node.key_span(key), f"bits are numbered {word - 1}..0")
-        return None
-    return low, (1 << high - low + 1) - 1
+def _warn_of_masks(scope: Scope, node: Map) -> None:
+    """Warn of keys that look like masks (1, 2, 4, 8) and not like bit numbers."""
+    keys = list(node)
+    if len(keys) >= _MASKS and not any(".." in key for key in keys):
+        numbers = [parse_integer(key) for key in keys]
+        if numbers == [1 << place for place in range(len(numbers))]:
+            hint = "keys are bit numbers from 0: write 0, 1, 2, 3 for the masks 1, 2, 4, 8"
+            scope.report.warning("looks-like-masks", "these look like masks of bits", node.key_span(keys[0]), hint)
+
+
+def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
+    """Return the names of a flag's numbers: its own, or those of a shared enum."""
+    raw: Map | str | None = value.get("values")
+    entries = scope.named_enums.get(raw) if isinstance(raw, str) else raw
+    if entries is None:
+        if raw is not None:
+            scope.unknown("enum", str(raw), value.span("values"), scope.named_enums)
+        return ()
+    return entries_of(scope, entries)
+
+
+def _flag(scope: Scope, node: Map, key: str, low: int, width: int) -> Flag:
+    value: Map | str = node[key]
+    name = name_of(value)
+    if isinstance(value, str):
+        return Flag(low, width, name, {"en": humanised(name)}, 1, ())
+    named = _flag_values(scope, value)
+    for entry in named:
+        if not 0 <= entry.raw < 1 << width:
+            message = f"`{entry.name}` is {entry.raw}, which {width} bit{'s' if width > 1 else ''} cannot hold"
+            scope.report.error("enum-outside-range", message, value.span("values"), f"0..{(1 << width) - 1} can occur")
+    meanings = []
+    for number, which in enumerate(("zero", "one")):
+        if which not in value:
+            continue
+        if width > 1 or named:
+            message = f"`{which}` says what a single bit means"
+            scope.report.error("flag-values", message, value.key_span(which), "name the numbers under `values` only")
+        meanings.append(Entry(number, which, titles(value[which], which.capitalize()), None))
+    if width > 1 and "active" in value:
+        message = "`active` is for a single bit"
+        scope.report.error("flag-values", message, value.key_span("active"), "name the numbers under `values`")
+    title = titles(value.get("title"), humanised(name))
+    return Flag(low, width, name, title, value.get("active", 1), named or tuple(meanings))

@@ -14,7 +14,7 @@ from fieldscribe.language.numbers import NumberError, parse_integer, shown
 from fieldscribe.model import Bus, Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
-from fieldscribe.resolve.values import bits_named, formula_finding, integer
+from fieldscribe.resolve.values import formula_finding, integer
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
@@ -127,7 +127,8 @@ def _roles(scope: Scope, node: Map) -> tuple[Role, ...] | None:
     role_of: dict[int, Role] = {}
     fine = "layout" not in node.broken and not layout.broken
     for key, value in layout.items():
-        first, last = bits_named(key)
+        first_text, dots, last_text = key.partition("..")
+        first, last = parse_integer(first_text), parse_integer(last_text if dots else first_text)
         if last < first:
             message = f"bytes `{key}` run downwards"
             scope.report.error("range-reversed", message, layout.key_span(key), f"write {last}..{first}")

@@ -14,7 +14,7 @@ from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
-from fieldscribe.resolve.printed_facts import PrintedFact
+from fieldscribe.resolve.errata import PrintedFact
 
 if TYPE_CHECKING:
     from fieldscribe.checks.frames_agree import Carries

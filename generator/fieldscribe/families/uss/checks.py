@@ -26,7 +26,7 @@ from fieldscribe.families.uss.telegrams import (
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
 from fieldscribe.resolve.bus import code_list
-from fieldscribe.resolve.printed_facts import PrintedFact
+from fieldscribe.resolve.errata import PrintedFact
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,0 +1,156 @@
+"""How the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.arithmetic.words import ends_of
+from fieldscribe.language.hints import quoted
+from fieldscribe.language.meant import bits_meant, space_hint
+from fieldscribe.model import TYPES, TypeInfo
+from fieldscribe.resolve.alike import Once
+from fieldscribe.resolve.special_codes import SpecialCodes
+from fieldscribe.resolve.values import bit_range
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Special
+    from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.scope import Scope
+
+
+class Encoding(NamedTuple):
+    """What is known of a point before any formula is read.
+
+    `width` is the number of bits of the raw number, `holds` the least and the greatest raw number. `specials_of` names
+    the special codes if the point shares them with others.
+    """
+
+    space: str
+    type: str
+    bits: tuple[int, int] | None
+    width: int
+    holds: tuple[int, int]
+    specials: tuple[Special, ...]
+    specials_of: str
+
+
+class Encodings:
+    """Finds the encodings of points, once for all points of a kind."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._codes = SpecialCodes(scope)
+        self._codes.check_types()
+        self._once: Once[Encoding] = Once(scope.report)
+
+    def of(self, facts: PointFacts, kind: int) -> Encoding:
+        """Return the encoding of a point."""
+        return self._once.of(kind, facts, self._encoding, lambda _: True)
+
+    def _encoding(self, facts: PointFacts) -> Encoding:
+        space = _space_of(self._scope, facts)
+        bits = _bits_of(self._scope, facts, space)
+        name = _type_of(self._scope, facts, space, bits)
+        width = TYPES[name].bits if bits is None else bits[0] - bits[1] + 1
+        holds = ends_of(width, signed=TYPES[name].signed)
+        return Encoding(space, name, bits, width, holds, *self._codes.of(facts, name, bits))
+
+
+def _space_of(scope: Scope, facts: PointFacts) -> str:
+    """The point's address space; a finding, and the family's first space of words, if there is none of that name."""
+    space = str(facts.get("space"))
+    known = scope.family.spaces
+    if space in known:
+        return space
+    scope.unknown("space", space, facts.span("space"), known, space_hint(space, known))
+    facts.failed.add("space")
+    return next(name for name, holds in known.items() if holds == "word")
+
+
+def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | None:
+    """The (highest, lowest) bit that the point takes of its word, or None for the whole."""
+    text = facts.get("bits")
+    if text is None:
+        return None
+    span = facts.span("bits")
+    if scope.family.spaces[space] == "bit":
+        scope.report.error(
+            "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
+        )
+        return None
+    return _parse_bits(scope, str(text), span)
+
+
+def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+    meant = bits_meant(text)
+    if meant is not None:
+        message = f"{quoted(text)} is not a bit or bits"
+        scope.report.error("wrong-form", message, span, f"write `bits: {meant}`")
+        return None
+    ends = bit_range(text, span, scope.report)
+    outside = next((bit for bit in ends or () if not 0 <= bit <= 15), None)
+    if outside is not None:
+        message = f"bit {outside} lies outside the 16-bit word"
+        scope.report.error(
+            "bit-outside-word", message, span, "bits are numbered 15..0; bit 16 is bit 0 of the next address"
+        )
+        return None
+    return ends
+
+
+def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] | None) -> str:
+    """The point's wire type: as described, else by its space and bits; a finding if it does not fit them."""
+    single = scope.family.spaces[space] == "bit"
+    width = bits[0] - bits[1] + 1 if bits else None
+    default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
+    type_name = str(facts.get("type") or default) if facts.untyped is None else default
+    fault = None if "space" in facts.failed else _type_fault(type_name, space, single, width, default)
+    fault = fault or (None if bits else _carrier_fault(scope, type_name, space))
+    if fault is None:
+        return type_name
+    facts.failed.add("type")
+    span = facts.span("type" if facts.layer("type") is not None else "space")
+    scope.report.error(fault[0], fault[1], span, fault[2])
+    return default
+
+
+def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:
+    """Rule, message and hint for a type that is too wide for the bus, or None."""
+    widest = scope.family.widest(space)
+    if type_name == "text" and space in scope.family.indexed:
+        message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
+        return (
+            "type-outside-space",
+            message,
+            'write in place of `type` and `characters`: `untyped: "a text, one character an index"`, in words that fit',
+        )
+    if type_name == "text" or TYPES[type_name].bits <= widest:
+        return None
+    if space in scope.family.indexed:
+        message = f"`{type_name}` does not fit an address of `{space}`, which carries {widest} bits"
+        return "type-outside-space", message, "use u32, s32 or f32, or correct `space`"
+    message = f"`{type_name}` does not fit into a message, which carries one word"
+    return "type-outside-space", message, "give each address a point of its own"
+
+
+def _type_fault(
+    type_name: str, space: str, single: bool, width: int | None, default: str
+) -> tuple[str, str, str] | None:
+    """Rule, message and hint of what is wrong with the type, or None."""
+    info: TypeInfo = TYPES[type_name]
+    if type_name == "text" and (single or width is not None):
+        return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
+    if width is not None:
+        if width <= info.bits <= 16 and not info.floating:
+            return None
+        return "bit-outside-word", f"{width} bits do not fit the type `{type_name}`", f"use `{default}`"
+    if single != (type_name == "bit"):
+        message = (
+            f"`{type_name}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
+        )
+        return "type-outside-space", message, "use `bit`" if single else "use `bits` to take one bit of a word"
+    if not single and info.bits < 16:
+        message = f"`{type_name}` is smaller than the words of `{space}`"
+        return "type-outside-space", message, "use u16 or s16, or say which `bits` of the word it takes"
+    return None
