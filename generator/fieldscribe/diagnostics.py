@@ -49,8 +49,8 @@ class Span:
 
     def moved(self, columns: int, width: int | None = None) -> Span:
         """The place so many columns further on, with another width if one is given."""
-        line, column = self.at
-        return Span(self.file, line, column + columns, self.width if width is None else width)
+        width = self.width if width is None else width
+        return Span.sought(self.file, lambda: (self.line, self.column + columns), width)
 
     def in_file(self, name: str) -> Span:
         """The same place in a file that has another name."""

@@ -8,7 +8,8 @@ import pytest
 from fieldscribe.audit.citing import Citing
 from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_line_settings
 from fieldscribe.audit.wordings import Wordings
-from fieldscribe.language.lines import plain_documents
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
 
 if TYPE_CHECKING:
@@ -17,9 +18,8 @@ if TYPE_CHECKING:
 
 def written(text: str) -> Map:
     """A mapping of a description."""
-    documents = plain_documents(SourceFile("a.yaml", text))
-    assert documents is not None
-    (root,) = documents
+    (root,) = load(SourceFile("a.yaml", text), Report())
+    assert root is not None
     return root
 
 

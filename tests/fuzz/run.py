@@ -1,7 +1,7 @@
 """Throws mutated descriptions, frames and words at everything that reads them, and prints what came of it.
 
     .venv/bin/python tests/fuzz/run.py [--seed 1] [--keep DIR]
-        [--mutants 20000] [--readings 2000] [--frames 1000000] [--lines 3000]
+        [--mutants 20000] [--frames 1000000] [--lines 3000]
 
 The same seed makes the same cases. Frames go through the parsers in C (with the sanitizers of gcc and clang), Rust
 (with overflow checks and debug assertions) and Python, which must all say the same. Cases that went wrong are kept in
@@ -25,19 +25,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 
-def everything(
-    seed: int, keep: Path, *, mutants: int = 0, readings: int = 0, frames: int = 0, lines: int = 0
-) -> Iterator[Result]:
+def everything(seed: int, keep: Path, *, mutants: int = 0, frames: int = 0, lines: int = 0) -> Iterator[Result]:
     """All kinds, as many cases of each as is said; 0 leaves a kind out."""
     from fuzz.descriptions import fuzz_descriptions
-    from fuzz.reading import fuzz_reading
     from fuzz.words import fuzz_words
 
     keep.mkdir(parents=True, exist_ok=True)
     if mutants:
         yield fuzz_descriptions(mutants, seed, keep)
-    if readings:
-        yield fuzz_reading(readings, seed, keep)
     if lines:
         yield fuzz_words(lines, seed, keep)
     if frames:
@@ -73,13 +68,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--mutants", type=int, default=20_000)
-    parser.add_argument("--readings", type=int, default=2_000)
     parser.add_argument("--frames", type=int, default=1_000_000)
     parser.add_argument("--lines", type=int, default=3_000)
     parser.add_argument("--keep", type=Path, default=Path(".cache/fuzz"))
     chosen = parser.parse_args(argv)
     keep = chosen.keep.resolve()
-    counts = {name: getattr(chosen, name) for name in ("mutants", "readings", "frames", "lines")}
+    counts = {name: getattr(chosen, name) for name in ("mutants", "frames", "lines")}
     found = table(everything(chosen.seed, keep, **counts), chosen.seed)
     return 1 if found else 0
 

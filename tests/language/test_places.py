@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language import positions
+from fieldscribe.language import source
 from fieldscribe.pipeline import load_analysis, load_device
 from fieldscribe.resources import descriptions_dir
 
@@ -17,16 +17,10 @@ DEVICE = descriptions_dir() / "nord_sk5xxe" / "device.yaml"
 
 
 def test_a_sound_description_asks_for_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[tuple[int, int]] = []
-    look = positions.places_of_keys
-
-    def seen(text: str, start: int, at: tuple[int, int]) -> dict[str, tuple[int, int, int, int]]:
-        asked.append(at)
-        return look(text, start, at)
-
-    monkeypatch.setattr(positions, "places_of_keys", seen)
+    looked: list[str] = []
+    monkeypatch.setattr(source, "find_positions", looked.append)
     assert load_device(DEVICE, Report()) is not None
-    assert asked == []
+    assert looked == []
 
 
 def test_a_place_is_looked_for_once_and_compares_with_all_others() -> None:

@@ -27,7 +27,7 @@ def test_the_same_seed_makes_the_same_cases() -> None:
 @pytest.mark.full(seconds=5)
 def test_descriptions_and_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Mutated descriptions and random words end in findings, never in a traceback."""
-    found = run.table(run.everything(SEED, tmp_path, mutants=400, readings=50, lines=100), SEED)
+    found = run.table(run.everything(SEED, tmp_path, mutants=400, lines=100), SEED)
     assert found == 0, capsys.readouterr().out
 
 

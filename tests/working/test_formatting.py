@@ -207,6 +207,7 @@ def test_fmt_takes_all_parts_and_a_part_alone(file: Path, capsys: pytest.Capture
         ("a: 1 # b\x85c: 2\n", "no-canonical-form"),
         ("a: |2\n    b\n", "no-canonical-form"),
         ("a: |+\n  b\n\n", "no-canonical-form"),
+        ("  --- x: 1\n", "no-canonical-form"),
     ],
 )
 def test_what_cannot_be_read_stays(text: str, rule: str, file: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -35,7 +35,7 @@ def claims_of_entry(kind: str, entry: Map, wordings: Wordings) -> Iterator[Claim
     for key in ("at", *identifiers, "value", "length", "wears"):
         for number in numbers_in(entry.get(key)):
             yield from citing.numbers(key, str(number), (number,), place=entry.span(key))
-    layout = entry.get("layout", Map(entry.file, entry.at))
+    layout = entry.get("layout", Map(entry.file, entry.start))
     names = ("Byte", *wordings.code("byte"))
     for place, carried in layout.items():
         at, (first, *last) = layout.key_span(place), map(int, numbers_in(place))

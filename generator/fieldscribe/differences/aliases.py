@@ -151,11 +151,11 @@ def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
 
 def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
     """On the line below the name, or behind it in braces."""
-    text, (_, column, *value) = row.file.text, row.places["name"]
-    name = _SCALAR.match(text, row.file.offset((value[0], value[1])))
+    text, column = row.file.text, row.key_span("name").column
+    name = _SCALAR.match(text, row.file.offset(row.span("name").at))
     if name is None:
         return None
-    if text[row.file.offset(row.at)] == "{":
+    if text[row.start] == "{":
         return name.end(), f", {said}"
     end, line = text.find("\n", name.end()), f"{' ' * (column - 1)}{said}{_ending(text)}"
     if end < 0:
@@ -165,10 +165,10 @@ def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
 
 def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
     """More old names in a list that is there."""
-    text, start = row.file.text, row.file.offset(was.at)
+    text, start = row.file.text, was.start
     if text[start] == "[":
         return start + 1, f"{', '.join(old_names)}{', ' if was else ''}"
-    dash = text.rfind("-", 0, row.file.offset(was.item_at[0])) if was else start
+    dash = text.rfind("-", 0, row.file.offset(was.span(0).at)) if was else start
     begin = text.rfind("\n", 0, dash) + 1
     return begin, "".join(f"{text[begin:dash]}- {old}{_ending(text)}" for old in old_names)
 

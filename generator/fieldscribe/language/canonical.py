@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.pieces import pieces
+from fieldscribe.language.pieces import OddError, pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _INDENT = 2
 _OPENING, _CLOSING = frozenset("[{"), frozenset("]}")
+_DOCUMENT_MARKS = frozenset({"---", "..."})
 _BEFORE_A_VALUE = frozenset(":-")
 
 
@@ -139,6 +140,7 @@ class _Layout:
     def _write(self, piece: Piece) -> None:
         base = next((frame.column for frame in reversed(self.within) if frame.kind != "flow"), -_INDENT)
         if piece.kind == "scalar":
+            self._refuse_mark(piece)
             self._write_lines(_quoted(piece.text), " " * (base + _INDENT))
             return
         if piece.kind == "block":
@@ -151,6 +153,12 @@ class _Layout:
             self.within.append(_Frame("flow", piece.column + 1, len(self.line)))
         elif piece.kind == "document" and self.within:
             self.within.clear()
+
+    def _refuse_mark(self, piece: Piece) -> None:
+        """Refuse a key that a reader would take for the mark of a document once it starts its line."""
+        if not self.line and piece.text[:3] in _DOCUMENT_MARKS:
+            message = f"a key that starts with `{piece.text[:3]}` has no canonical form"
+            raise OddError(piece.line, piece.column + 1, message, "write the key in quotes")
 
     def _write_lines(self, text: str, indent: str, *, exactly: bool = False) -> None:
         """Write a scalar whose further lines are indented so; only some of them say something by their blanks."""

@@ -1,25 +1,251 @@
-"""YAML 1.2 text to plain values that remember where they stand: one mapping for each document."""
+"""Reads YAML 1.2 text with libyaml: values that know where they stand, one mapping for each document.
+
+Mappings and lists become `Map` and `Seq`, plain scalars what `scalars.py` makes of them. Nothing is constructed from
+tags, and what aliases and nesting may cost is bounded.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from sys import intern
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from fieldscribe.language.lines import plain_documents
+import yaml
+from yaml import MappingEndEvent, ScalarEvent, SequenceEndEvent
+
+from fieldscribe.language.nodes import Map, Seq, Value, share
+from fieldscribe.language.scalars import scalar
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.language.nodes import Map
+    from collections.abc import Iterator
+
+    from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.source import SourceFile
+
+MOST_DEPTH = 40
+MOST_VALUES = 1_000_000
+MOST_DOCUMENTS = 10_000
+
+_MOST_PIECES = 100
+_WORD = re.compile(r"[a-z][a-z0-9_]*")
+
+_SYNTAX_HINTS = (
+    ("start any token", "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"),
+    ("mapping values are not allowed", "quote a text that holds `: `, or look at the indentation"),
+    ("expected ',' or '", "a bracket is not closed, or a text in it holds a comma, a colon or a brace: quote it"),
+    ("expected key", "this line is indented like a key, but is none: look at the indentation and at open quotes"),
+    ("block end", "look at the indentation: all keys of a mapping start in one column"),
+    ("end of stream", "a quote or a bracket is not closed"),
+    ("anchor", "an anchor or alias is a plain word: quote the text if `&` or `*` is meant"),
+)
+
+
+class _StopReading(Exception):  # noqa: N818  # no error: the finding is already reported
+    """The rest of the file is not read."""
 
 
 def load(source: SourceFile, report: Report) -> list[Map | None]:
-    """The mapping of each document; None, with a finding, for a document that is no mapping or cannot be read.
+    """Return the mapping of each document; None, with a finding, for one that is no mapping or cannot be read.
 
-    Empty documents are left out; duplicate keys are left out. Nearly all files are plain; PyYAML reads the others.
+    Empty documents are left out; of two equal keys the first counts.
     """
-    documents = plain_documents(source)
-    if documents is not None:
-        return [*documents]
-    from fieldscribe.language.events import load_any
+    documents: list[Map | None] = []
+    try:
+        documents.extend(_Reader(source, report).documents())
+    except _StopReading:
+        documents.append(None)
+    except yaml.MarkedYAMLError as error:
+        _report_syntax(source, error, report)
+        documents.append(None)
+    except yaml.YAMLError as error:
+        message = f"this is not YAML: {error}".splitlines()[0]
+        report.error("yaml-syntax", message, source.span(1, 1), "save the file as plain UTF-8 text")
+        documents.append(None)
+    return documents
 
-    return load_any(source, report)
+
+def _report_syntax(source: SourceFile, error: yaml.MarkedYAMLError, report: Report) -> None:
+    mark = error.problem_mark or error.context_mark
+    span = source.span(1, 1) if mark is None else source.span(mark.line + 1, mark.column + 1)
+    problem = error.problem or "it ends too early"
+    context = f" {error.context}," if error.context else ""
+    hint = "look at the indentation, at missing quotes and at brackets that are not closed"
+    hint = next((text for words, text in _SYNTAX_HINTS if words in problem), hint)
+    report.error("yaml-syntax", f"this is not YAML:{context} {problem}", span, hint)
+
+
+class _Scalars(dict[str, Any]):
+    """The values of plain scalars, each worked out once; equal texts are one object."""
+
+    def __missing__(self, text: str) -> Any:
+        value = self[text] = scalar(text)
+        return value
+
+
+class _Reader:
+    """Builds values from libyaml's events."""
+
+    def __init__(self, source: SourceFile, report: Report) -> None:
+        self.source = source
+        self.report = report
+        self.anchors: dict[str, tuple[Value, int]] = {}
+        """The value of each anchor, and how many values are inside it."""
+        self.values = 0
+        self.scalars = _Scalars()
+        self.next_event = yaml.CSafeLoader(source.text).get_event
+
+    def documents(self) -> Iterator[Map | None]:
+        """Yield the documents that are not empty, as far as they can be read."""
+        self.next_event()  # the start of the stream
+        count = filled = 0
+        while type(event := self.next_event()) is not yaml.StreamEndEvent:
+            count += 1
+            if count > MOST_DOCUMENTS:
+                message = f"more than {MOST_DOCUMENTS} documents"
+                self._refuse("yaml-size", message, event, "split the description with `parts`")
+            event = self.next_event()
+            if not _is_empty(event):
+                filled += 1
+                yield self._document(event)
+            self.next_event()  # the end of the document
+            self.anchors.clear()
+        if not filled:
+            hint = "a description starts with `fieldscribe: 1` and `device: …`"
+            self._refuse("file-empty", "the file holds only comments", event, hint)
+
+    def _document(self, event: Any) -> Map | None:
+        root = self._value(event, 0)
+        if isinstance(root, Map):
+            return root
+        hint = "a description starts with `fieldscribe: 1` and `device: …`, a part with `group: …` or shared facts"
+        self._error("wrong-type", "a document must be a mapping of keys to values", event, hint)
+        return None
+
+    def _value(self, event: Any, depth: int) -> Value:
+        """Return the value that starts with this event."""
+        if type(event) is yaml.AliasEvent:
+            return self._alias(event)
+        if event.tag is not None:
+            message = f"the tag `{event.tag[:60]}` is not allowed"
+            self._error("yaml-tag", message, event, "remove the tag: types follow from the key")
+        before = self.values
+        value: Value
+        if type(event) is ScalarEvent:
+            value = event.value if event.style else self.scalars[event.value]
+        elif depth >= MOST_DEPTH:
+            message = f"nested deeper than {MOST_DEPTH} levels"
+            self._refuse("yaml-depth", message, event, "a description never needs this; check the brackets")
+        else:
+            is_mapping = type(event) is yaml.MappingStartEvent
+            value = self._mapping(event, depth) if is_mapping else self._sequence(event, depth)
+            self._count(len(value), event, "split the description with `parts`")
+        if event.anchor is not None:
+            self.anchors[event.anchor] = value, self.values - before + 1
+        return value
+
+    def _mapping(self, start: Any, depth: int) -> Map:
+        result = Map(self.source, start.start_mark.index)
+        next_event, scalars = self.next_event, self.scalars
+        without_colon: list[Any] = []
+        last: Any = None
+        while type(key := next_event()) is ScalarEvent:
+            event = next_event()
+            if type(event) is not ScalarEvent or event.tag is not None or event.anchor is not None:
+                value = self._value(event, depth + 1)
+            elif event.style:
+                value = event.value
+            elif event.value or _has_colon(key, event):
+                value = scalars[event.value]
+            else:
+                without_colon.append(key)
+                continue
+            if without_colon:
+                self._join(result, last, without_colon)
+                without_colon = []
+            name = intern(key.value)
+            if name in result or key.tag is not None or key.anchor is not None:
+                self._wrong_key(key, result)
+                result.setdefault(name, value)
+            else:
+                result[name] = value
+            last = event
+        if type(key) is not MappingEndEvent:
+            self._refuse(
+                "yaml-key", "a key must be plain text, not a list, a mapping or an alias", key, "quote the key"
+            )
+        if without_colon:
+            self._join(result, last, without_colon)
+        return result
+
+    def _wrong_key(self, key: Any, mapping: Map) -> None:
+        """Report a key that is given twice, or that has a tag or an anchor."""
+        if key.tag is not None or key.anchor is not None:
+            self._error("yaml-tag", "a key takes no tag and no anchor", key, "remove it")
+        if key.value in mapping:
+            span = self._span(key).moved(0, max(1, len(key.value)))
+            first = (mapping.key_span(key.value), "first given here")
+            message = f"the key `{key.value[:60]}` is given twice"
+            self.report.error("duplicate-key", message, span, "remove or rename one of them", [first])
+            mapping.broken += (key.value,)  # which of the two is right is not known
+
+    def _join(self, mapping: Map, last: Any, pieces: list[Any]) -> None:
+        """Report words between commas that have no value, and put them back into the text that they were cut from."""
+        key, first = next(reversed(mapping), None), pieces[0].value[:60]
+        texts = type(last) is ScalarEvent and not last.style and len(pieces) <= _MOST_PIECES
+        keys = all(_WORD.fullmatch(piece.value) for piece in pieces) and not (texts and "(" in last.value)
+        hint = f"give it a value: `{first}: …`"
+        if key is None or not texts or keys:
+            mapping.broken += tuple(piece.value for piece in pieces[:_MOST_PIECES])
+        if key is not None and texts:
+            whole = ", ".join([last.value, *(piece.value for piece in pieces)])
+            quoted = f'if the comma belongs to the text, quote it: `{key[:60]}: "{whole[:200]}"`'
+            hint = f"{hint}; {quoted}" if keys else quoted
+            mapping[key] = mapping[key] if keys else whole
+        message = f"`{first}` stands between commas and has no value"
+        self._error("yaml-comma", message, pieces[0], hint)
+
+    def _sequence(self, start: Any, depth: int) -> Seq:
+        result = Seq(self.source, start.start_mark.index)
+        next_event, read, append, depth = self.next_event, self._value, result.append, depth + 1
+        while type(event := next_event()) is not SequenceEndEvent:
+            append(read(event, depth))
+        return result
+
+    def _alias(self, event: Any) -> Value:
+        if event.anchor not in self.anchors:
+            message = f"the alias `*{event.anchor[:60]}` stands inside what it names, or names nothing above"
+            self._refuse("yaml-alias", message, event, "write it out")
+        value, size = self.anchors[event.anchor]
+        self._count(size, event, "aliases count each time; write out what repeats, or share it under `formats`")
+        share(value)
+        return value
+
+    def _count(self, values: int, event: Any, hint: str) -> None:
+        """Count values; too many are refused."""
+        self.values += values
+        if self.values > MOST_VALUES:
+            self._refuse("yaml-size", f"more than {MOST_VALUES} values", event, hint)
+
+    def _span(self, event: Any) -> Span:
+        mark = event.start_mark
+        return self.source.span(mark.line + 1, mark.column + 1)
+
+    def _error(self, rule: str, message: str, event: Any, hint: str) -> None:
+        self.report.error(rule, message, self._span(event), hint)
+
+    def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
+        self._error(rule, message, event, hint)
+        raise _StopReading
+
+
+def _is_empty(event: Any) -> bool:
+    """Return True if a document holds nothing."""
+    return type(event) is ScalarEvent and not (event.value or event.style or event.tag or event.anchor)
+
+
+def _has_colon(key: Any, value: Any) -> bool:
+    """Return True if a colon stands between a key and its empty value.
+
+    `{when: a in (0, 1)}` has a key without one: `1)`.
+    """
+    return bool(value.start_mark.index > key.end_mark.index)

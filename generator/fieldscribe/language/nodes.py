@@ -1,4 +1,4 @@
-"""YAML values that remember their place in the file, and which of their keys were dropped as wrong."""
+"""YAML values that know where they stand in their file, and which of their keys were dropped as wrong."""
 
 from __future__ import annotations
 
@@ -8,121 +8,86 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from fieldscribe.diagnostics import Span
 
 if TYPE_CHECKING:
+    from fieldscribe.language.positions import Place
     from fieldscribe.language.source import SourceFile
-
-Place = tuple[int, int]
-"""Line and column, counted from 1."""
-KeyPlaces = tuple[int, int, int, int]
-"""Line and column of a key, then of its value."""
 
 
 class Map(dict[str, Any]):
-    """A YAML mapping. `at` is where it starts; `places` give line and column of the key, then of the value, by key.
+    """A YAML mapping that starts at this offset of its file.
 
-    `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `uses` is there for what
-    aliases repeat: one copy for each shape that is expected of it, and whether it has that shape.
+    `broken` names the keys that were dropped because their values were wrong. `uses` is set for a mapping that aliases
+    repeat: for each check of a shape one copy, and whether it has that shape.
     """
 
-    __slots__ = ("_places", "at", "broken", "file", "uses")
+    __slots__ = ("broken", "file", "start", "uses")
 
-    def __init__(self, file: SourceFile, at: Place) -> None:
-        super().__init__()
+    def __init__(self, file: SourceFile, start: int) -> None:
         self.file = file
-        self.at = at
-        self._places: dict[str, KeyPlaces] | None = {}
+        self.start = start
         self.broken: tuple[str, ...] = ()
         self.uses: dict[object, tuple[Map, bool]] | None = None
 
-    @property
-    def places(self) -> dict[str, KeyPlaces]:
-        """Where each key and its value stand; in a plain file they are looked for when a finding first asks."""
-        if self._places is None:
-            from fieldscribe.language.positions import places_of_keys
-
-            self._places = places_of_keys(self.file.text, self.file.offset(self.at), self.at)
-        return self._places
-
     def copied(self) -> Map:
-        """A copy from which keys can be dropped; the values are shared with the original."""
-        copy = Map(self.file, self.at)
+        """Return a copy from which keys can be dropped; the values are shared with the original."""
+        copy = Map(self.file, self.start)
         copy.update(self)
-        copy._places = self.places
         return copy
 
     def span(self, key: str | None = None) -> Span:
-        """Where the value of `key` stands, or the whole mapping."""
-        if key is None:
-            return Span(self.file.name, *self.at)
-        return Span.sought(self.file.name, lambda: self.places.get(key, (*self.at, *self.at))[2:])
+        """Return where the value of `key` stands, or the whole mapping."""
+        return Span.sought(self.file.name, lambda: self._places(key)[2:])
 
     def key_span(self, key: str) -> Span:
-        """Where `key` itself stands."""
-        return Span.sought(self.file.name, lambda: self.places.get(key, (*self.at, *self.at))[:2], max(1, len(key)))
+        """Return where `key` itself stands."""
+        return Span.sought(self.file.name, lambda: self._places(key)[:2], max(1, len(key)))
+
+    def _places(self, key: str | None) -> tuple[int, int, int, int]:
+        positions = self.file.positions
+        start = positions.starts.get(self.start, (1, 1))
+        whole = (*start, *start)
+        return whole if key is None else positions.keys.get(self.start, {}).get(key, whole)
 
 
 class Seq(list[Any]):
-    """A YAML sequence. `item_at` gives places by index; `uses` as in `Map`."""
+    """A YAML list that starts at this offset of its file; `uses` as in `Map`."""
 
-    __slots__ = ("_item_at", "at", "file", "uses")
+    __slots__ = ("_item_places", "file", "start", "uses")
 
-    def __init__(self, file: SourceFile, at: Place) -> None:
-        super().__init__()
+    def __init__(self, file: SourceFile, start: int) -> None:
         self.file = file
-        self.at = at
-        self._item_at: list[Place] | None = []
+        self.start = start
+        self._item_places: list[Place] | None = None
         self.uses: dict[object, tuple[Seq, bool]] | None = None
 
-    @property
-    def item_at(self) -> list[Place]:
-        """Where each item stands, as in `Map`."""
-        if self._item_at is None:
-            from fieldscribe.language.positions import places_of_items
-
-            self._item_at = places_of_items(self.file.text, self.file.offset(self.at), self.at)
-        return self._item_at
-
     def copied(self) -> Seq:
-        """A copy from which items can be dropped; they are shared with the original."""
-        copy = Seq(self.file, self.at)
+        """Return a copy from which items can be dropped; they are shared with the original."""
+        copy = Seq(self.file, self.start)
         copy.extend(self)
-        copy._item_at = list(self.item_at)
+        copy._item_places = self._item_places and self._item_places.copy()
         return copy
 
+    def drop(self, index: int) -> None:
+        """Remove an item; the places of the others stay right."""
+        del self[index], self._places[index]
+
     def span(self, index: int | None = None) -> Span:
-        """Where the item stands, or the whole sequence."""
+        """Return where the item stands, or the whole list."""
         if index is None:
-            return Span(self.file.name, *self.at)
-        return Span.sought(self.file.name, lambda: self.item_at[index])
+            return Span.sought(self.file.name, lambda: self.file.positions.starts.get(self.start, (1, 1)))
+        return Span.sought(self.file.name, lambda: self._places[index])
 
+    @property
+    def _places(self) -> list[Place]:
+        if self._item_places is None:
+            self._item_places = self.file.positions.items[self.start].copy()
+        return self._item_places
 
-def unplaced_map(file: SourceFile, at: Place) -> Map:
-    """A mapping of a plain file, in which places are looked for when a finding asks."""
-    result = _new_map(Map)
-    result.file = file
-    result.at = at
-    result._places = None
-    result.broken = ()
-    result.uses = None
-    return result
-
-
-def unplaced_seq(file: SourceFile, at: Place) -> Seq:
-    """As `unplaced_map`."""
-    result = _new_seq(Seq)
-    result.file = file
-    result.at = at
-    result._item_at = None
-    result.uses = None
-    return result
-
-
-_new_map, _new_seq = Map.__new__, Seq.__new__
 
 Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 
 
 def share(value: Value) -> None:
-    """Mark a value that an alias repeats, and all inside it: each place checks and drops for itself."""
+    """Mark a value that an alias repeats, and all inside it: each place where it stands is checked on a copy."""
     waiting = [value]
     while waiting:
         node = waiting.pop()

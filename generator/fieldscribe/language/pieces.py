@@ -72,7 +72,7 @@ class OddError(Exception):
 
 
 class Piece(NamedTuple):
-    """A piece: its sign or kind, its text, its column (from 0), and what stands before it.
+    """A piece: its sign or kind, its text, its line (from 1) and column (from 0), and what stands before it.
 
     The kinds are the signs `- : , { } [ ]`, and document, property, alias, scalar, block (a scalar with its lines),
     end; those without a text of their own (mapping, sequence, close) open and close what is told by indentation, and
@@ -81,6 +81,7 @@ class Piece(NamedTuple):
 
     kind: str
     text: str
+    line: int
     column: int
     gap: Gap
 
@@ -110,11 +111,12 @@ def pieces(text: str) -> Iterator[Piece]:
         kind = _kind(token)
         _refuse_odd(token, kind, text)
         if kind in _UNSEEN:
-            yield Piece(kind, "", token.start_mark.column, _NO_GAP)
+            yield Piece(kind, "", token.start_mark.line + 1, token.start_mark.column, _NO_GAP)
         elif kind:
             start = token.start_mark.index
             stop = _end_of(token, text, kind)
-            yield Piece(kind, text[start:stop], token.start_mark.column, _gap(text, end, start))
+            mark = token.start_mark
+            yield Piece(kind, text[start:stop], mark.line + 1, mark.column, _gap(text, end, start))
             end = stop
 
 

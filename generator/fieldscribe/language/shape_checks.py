@@ -59,7 +59,7 @@ class ItemsCheck:
                     return False
         for index in reversed(broken):
             _remember_names(value[index], value.file.lost)
-            del value[index], value.item_at[index]
+            value.drop(index)
         return len(value) >= self.least
 
 

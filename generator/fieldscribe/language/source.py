@@ -1,65 +1,75 @@
-"""Reads the text files of a description; what a stranger's file may cost is bounded."""
+"""Reads the text files of a description, within limits: a file may come from anybody."""
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, field
 from errno import EFBIG
-from functools import cache
-from itertools import accumulate
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report, Span
-from fieldscribe.safe_files import shown_path
+from fieldscribe.diagnostics import Span
+from fieldscribe.language.positions import Positions, find_positions
+from fieldscribe.safe_files import UnfitFileError, read_regular, shown_path
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.language.positions import Place
     from fieldscribe.safe_files import Content, Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
 
+_LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+"""What libyaml counts as the end of a line."""
+
 
 @cache
-def _no_yaml() -> re.Pattern[str]:
-    """The characters that YAML forbids. Compiled on first use, for that takes as long as many imports."""
+def _forbidden() -> re.Pattern[str]:
+    """Return the pattern of the characters that YAML forbids; few files make us compile it."""
     return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(eq=False)
 class SourceFile:
-    """A file's text; `name` is its path as shown to people, relative to where they called from if possible.
+    """A file's text; `name` is its path as messages show it, relative to the working folder if it lies below that.
 
-    `lost` collects names in dropped values, so that they are not reported as unknown too. In a `printable` text is no
-    character that YAML forbids, or takes for a line break of another kind.
+    `lost` collects the names in dropped values: a reference to one of them is not reported as unknown.
     """
 
     name: str
     text: str
     lost: set[str] = field(default_factory=set)
-    printable: bool = False
-    _starts: list[int] = field(default_factory=list, repr=False)
-
-    def __post_init__(self) -> None:
-        self.printable = self.text.replace("\n", "").isprintable()
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
-        """A place in this file."""
+        """Return a place in this file."""
         return Span(self.name, line, column, width)
 
-    def offset(self, place: tuple[int, int]) -> int:
-        """How many characters stand before a line and column."""
+    @cached_property
+    def positions(self) -> Positions:
+        """Where its keys, values and items stand; found when a finding first asks."""
+        return find_positions(self.text)
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(line_break.end() for line_break in _LINE_BREAK.finditer(self.text))]
+
+    def offset(self, place: Place) -> int:
+        """Return how many characters stand before a line and column."""
         line, column = place
-        if not self._starts:
-            self._starts.extend(
-                accumulate(map(len, self.text.split("\n")), lambda start, width: start + width + 1, initial=0)
-            )
-        return self._starts[line - 1] + column - 1
+        return self._line_starts[line - 1] + column - 1
+
+    def place(self, offset: int) -> Place:
+        """Return the line and column behind so many characters."""
+        line = bisect_right(self._line_starts, offset)
+        return line, offset - self._line_starts[line - 1] + 1
 
 
 def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
-    """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes.
+    """Return the text of a file; None, with a finding, if it cannot be read or is no text that YAML allows.
 
     `inputs` takes note of the bytes that were read.
     """
@@ -73,8 +83,6 @@ def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> Sou
 
 
 def _content(path: Path, start: Span, report: Report) -> Content | None:
-    from fieldscribe.safe_files import UnfitFileError, read_regular
-
     try:
         return read_regular(path, MOST_BYTES)
     except UnfitFileError as error:
@@ -91,27 +99,23 @@ def _content(path: Path, start: Span, report: Report) -> Content | None:
 
 
 def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
-    """The text of these bytes, or None and a finding."""
+    """Return the text of these bytes, or None and a finding."""
     try:
-        text = data.decode("utf-8-sig")
+        source = SourceFile(name, data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
+        before = SourceFile(name, data[: error.start].decode("utf-8-sig"))
         message = f"byte {data[error.start]:02X}h is not UTF-8"
-        report.error("file-not-utf8", message, Span(name, line, column), "save the file as UTF-8")
+        report.error("file-not-utf8", message, before.span(*before.place(len(before.text))), "save the file as UTF-8")
         return None
+    text = source.text
     if not text.strip():
         hint = "a description starts with `fieldscribe: 1` and `device: …`"
         report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
-    source = SourceFile(name, text)
-    strange = None if source.printable else _no_yaml().search(text)
+    strange = None if text.replace("\n", "").isprintable() else _forbidden().search(text)
     if strange is None:
         return source
-    start = strange.start()
-    line, column = text.count("\n", 0, start) + 1, start - (text.rfind("\n", 0, start) + 1) + 1
     message = f"the control character U+{ord(strange[0]):04X} is not allowed in YAML"
-    report.error(
-        "yaml-character", message, source.span(line, column), "remove it: editors show it as a box, or not at all"
-    )
+    hint = "remove it: editors show it as a box, or not at all"
+    report.error("yaml-character", message, source.span(*source.place(strange.start())), hint)
     return None

@@ -128,7 +128,7 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
 def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
     """The numbers of a list of codes, where `11..14` stands for several."""
     codes: dict[int, None] = {}
-    items: Seq = node.get(key) or Seq(node.file, node.at)
+    items: Seq = node.get(key) or Seq(node.file, node.start)
     for place, item in enumerate(items):
         ends = interval(str(item), items.span(place), scope.report)
         if ends is not None and not 0 <= ends[0] <= ends[1] <= _LAST_UNIT:

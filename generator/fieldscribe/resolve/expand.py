@@ -128,7 +128,7 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     title = _title(point)
     layers = (point, *_format(scope, point))
     elements = elements_of(scope, PointFacts(point["name"], layers, group, point, title))
-    rows: Map = point.get("each") or Map(point.file, point.at)
+    rows: Map = point.get("each") or Map(point.file, point.start)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
     for key in rows:
@@ -259,11 +259,10 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> PointFacts:
 
 def _whole_record(use: Map) -> Map:
     """What the use of a record says for all its members: where it stands in the manual, and the code of the whole."""
-    result = Map(use.file, use.at)
+    result = Map(use.file, use.start)
     for key in _OF_RECORDS:
         if key in use:
             result[key] = use[key]
-            result.places[key] = use.places[key]
     return result
 
 
@@ -275,7 +274,7 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
     if facts is None:
         hint = value_hint("type", point["format"])
         scope.unknown("format", point["format"], point.span("format"), scope.formats, hint)
-        nothing = Map(point.file, point.at)
+        nothing = Map(point.file, point.start)
         nothing.broken = tuple(keys_of(FORMAT))
         return (nothing,)
     return (facts,)

@@ -85,7 +85,7 @@ def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
     if name == "family" and answer not in startable():
         return f"there is no family `{answer}` to start with", f"write one of {', '.join(startable())}"
     report = Report()
-    holder = Map(SourceFile("", ""), (1, 1))
+    holder = Map(SourceFile("", ""), 0)
     holder[name] = answer
     check_of(_shape_of(name))(answer, holder, name, report)
     return next(((finding.message, finding.hint or "") for finding in report.findings), None)

@@ -93,7 +93,7 @@ def _errors_have_tasks(subject: Analysis, bus: Map) -> None:
 
 def _printed_lists_agree(subject: Analysis, code: Code, node: Map, about: str) -> None:
     """Compare the printed lists of a code with those that were taken."""
-    printed: Map = node.get("printed") or Map(node.file, node.at)
+    printed: Map = node.get("printed") or Map(node.file, node.start)
     for key in _LISTS:
         taken = sorted(getattr(code, key))
         codes = sorted(code_list(subject.scope, printed, key)) if key in printed else taken
