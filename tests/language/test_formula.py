@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from time import perf_counter
+from time import process_time
 
 import pytest
 from fieldscribe.language.formula import (
@@ -377,7 +377,7 @@ PIECES = st.lists(st.sampled_from([*WORDS, *SIGNS]), max_size=60).map("".join)
 @example("0" * 1999)
 @example("=" * 5000)
 def test_any_text_is_read_or_refused_quickly(text: str) -> None:
-    begun = perf_counter()
+    begun = process_time()
     for parse in PARSERS:
         try:
             parse(text)
@@ -386,7 +386,7 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert 0 <= error.column <= len(text)
             assert (error.message + error.hint).isprintable()
     cut_off(text)
-    assert perf_counter() - begun < 0.2
+    assert process_time() - begun < 0.2
 
 
 def test_a_sign_that_only_divides_is_no_interval() -> None:
