@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.words import raw_of, raw_reader, split
-from fieldscribe.conversation.decode_state import PARAMETER, constant, named_item, without_variants
+from fieldscribe.arithmetic.words import raw_of, split
+from fieldscribe.conversation.decode_state import PARAMETER, named_item, without_variants
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
 from fieldscribe.families.frame_results import Item
@@ -18,131 +18,112 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.decode_state import Base, DecodeState, ItemMaker, PointTextCache
+    from fieldscribe.conversation.decode_state import Base, DecodeState, PointTextCache
     from fieldscribe.families.decoded_frame import Element, Span, Word
     from fieldscribe.model import Command, Place, Point
 
 _MOST_WORDS = 16
 """How many words without a point are printed."""
 
-SpanKey = tuple[str, int, int, int, bool]
-"""Space, address and count of a span, how many words the frame carries, and whether it writes them."""
-
 
 def span_items(state: DecodeState, span: Span) -> list[Item]:
-    """Return the items of a span; its points are settings for each other."""
-    words = span.words or ()
-    key = span.space, span.address, span.count, min(len(words), span.count), span.written
-    layout = state.texts.layout(_SpanLayout, key)
-    settings = state.settings
-    if layout.settings:
-        inside = state if span.learned else state.for_one_frame()
-        inside.learn((point, read(words)) for point, read in layout.settings)
-        settings = inside.settings
-    return [make(words, settings) for make in layout.makers]
+    """Return the items of consecutive addresses; neighbours without a point are one item."""
+    here = _SpanItems(state, span)
+    items: list[Item] = []
+    unknown: list[int] = []
+    for at in here.addresses:
+        found = here.items_at(at)
+        if found is None:
+            unknown.append(at)
+            continue
+        items += here.unknown_items(unknown)
+        unknown = []
+        items += found
+    return items + here.unknown_items(unknown)
 
 
-class _SpanLayout:
-    """What stands at consecutive addresses: the points that are settings, and a maker of each item."""
+class _SpanItems:
+    """Makes the items of one span; its points are settings for each other."""
 
-    def __init__(self, texts: PointTextCache, key: SpanKey) -> None:
-        self._texts, self._device, self._directory = texts, texts.device, texts.directory
-        self._space, self._address, self._count, self._carried, self._written = key
-        inside = range(self._address, self._address + self._count)
-        self.settings = [
-            (point, raw_reader(point, [at - self._address for at in place.addresses]))
-            for at in inside[: self._carried]
+    def __init__(self, state: DecodeState, span: Span) -> None:
+        self._state, self._device, self._directory = state, state.device, state.directory
+        self._space, self._start, self._written = span.space, span.address, span.written
+        self._words = (span.words or ())[: span.count]
+        self.addresses = range(span.address, span.address + span.count)
+        self._carried = self.addresses[: len(self._words)]
+        taught = [
+            (point, self._raw(point, place))
+            for at in self._carried
             for point, place in self._directory.places(self._space, at)
             if at == place.addresses[0] and self._is_whole(point, place) and self._directory.teaches(point)
         ]
-        self.makers = list(self._makers(inside))
+        if taught:
+            self._state = state if span.learned else state.for_one_frame()
+            self._state.learn(taught)
 
-    def _is_whole(self, point: Point, place: Place) -> bool:
-        """Return True if the frame reads or writes the point here, and carries all its words."""
-        return self._is_place(point, place) and all(0 <= at - self._address < self._carried for at in place.addresses)
+    def items_at(self, at: int) -> list[Item] | None:
+        """Return the items that begin at an address of the span; None if nothing has this address."""
+        places = self._directory.places(self._space, at)
+        items = [self._point(point, place) for point, place in places if at == self._inside(place)[0]]
+        for command in self._device.commands if self._written else ():
+            if (command.space, command.address) == (self._space, at):
+                return [*items, self._command(command)]
+        return items if places else None
+
+    def unknown_items(self, addresses: Sequence[int]) -> list[Item]:
+        """Return the item of neighbouring addresses without a point, with what they carry; none for no address."""
+        if not addresses:
+            return []
+        low, high = addresses[0], addresses[-1]
+        gaps = self._device.bus.gaps.get(self._space, ())
+        gap = next((gap for gap in gaps if gap[0] <= high and low <= gap[1]), None)
+        closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
+        text = f"{span_text(low, high)}: no point is described here" + (f"; {closed}" if closed else "")
+        if words := self._words[low - self._start : high + 1 - self._start]:
+            form = "{:04X}h" if family(self._device.family).spaces[self._space] == "word" else "{}"
+            more = " ..." if len(words) > _MOST_WORDS else ""
+            text += f" (carries {' '.join(map(form.format, words[:_MOST_WORDS]))}{more})"
+        return [Item(self._space, low, len(addresses), text, findings=(closed,) if closed else ())]
+
+    def _inside(self, place: Place) -> list[int]:
+        """Return the addresses of a place in the span, in their order on the wire."""
+        return sorted(at for at in place.addresses if at in self.addresses)
 
     def _is_place(self, point: Point, place: Place) -> bool:
         """Return True if the point is read here, or written here, as the frame does."""
         return place is (point.written if self._written else point.place)
 
-    def _makers(self, inside: range) -> Iterator[ItemMaker]:
-        """Return a maker for each item, in order; neighbouring addresses without a point are one item."""
-        unknown: list[int] = []
-        for at in inside:
-            places = self._directory.places(self._space, at)
-            # a point that began before is not named again
-            first = [entry for entry in places if at == min(one for one in entry[1].addresses if one >= self._address)]
-            here = [self._point(point, place) for point, place in first]
-            commands = self._device.commands if self._written else ()
-            here += [self._command(one) for one in commands if (one.space, one.address) == (self._space, at)][:1]
-            if not here and not places:
-                unknown.append(at)
-                continue
-            yield from self._unknown(unknown)
-            unknown = []
-            yield from here
-        yield from self._unknown(unknown)
+    def _is_whole(self, point: Point, place: Place) -> bool:
+        return self._is_place(point, place) and all(at in self._carried for at in place.addresses)
 
-    def _point(self, point: Point, place: Place) -> ItemMaker:
-        offsets = [at - self._address for at in place.addresses if self._address <= at < self._address + self._count]
-        base = (self._space, self._address + min(offsets), len(offsets))
+    def _raw(self, point: Point, place: Place) -> int:
+        return raw_of(point, [self._words[at - self._start] for at in place.addresses])
+
+    def _point(self, point: Point, place: Place) -> Item:
+        inside = self._inside(place)
+        base = (self._space, inside[0], len(inside))
         if not self._is_place(point, place):
             right = point.written if self._written else point.place
             verb = "written" if self._written else "read"
-            return constant(named_item(point, base, finding=f"it is {verb} at {address_text(min(right.addresses))}"))
+            return named_item(point, base, finding=f"it is {verb} at {address_text(min(right.addresses))}")
+        if self._is_whole(point, place):
+            return self._state.value(point, base, self._raw(point, place), written=self._written)
         finding = "" if self._carried and not self._written else absence(self._device, point)
-        if len(offsets) != len(place.addresses):
-            return self._part(point, place, base, finding)
-        if max(offsets) >= self._carried:
-            return constant(named_item(point, base, finding=finding))
-        read, formatter = raw_reader(point, offsets), self._texts.formatter(point, base, written=self._written)
-        return lambda words, settings: formatter.item(read(words), settings)
+        text = ""
+        if len(inside) != len(place.addresses):
+            words = {at: f" = {self._words[at - self._start]:04X}h" for at in inside if at in self._carried}
+            named = [word_text(place.addresses, at) + words.get(at, "") for at in place.addresses if at in inside]
+            text = f"only the {', '.join(named)}"
+        return named_item(point, base, text, finding=finding)
 
-    def _part(self, point: Point, place: Place, base: Base, finding: str) -> ItemMaker:
-        """Return the maker for a point of which the span has only some words."""
-        inside = [at for at in place.addresses if 0 <= at - self._address < self._count]
-        named = [(word_text(place.addresses, at), at - self._address) for at in inside]
-
-        def make(words: Sequence[int], _settings: Settings) -> Item:
-            texts = [name + (f" = {words[at]:04X}h" if at < self._carried else "") for name, at in named]
-            return named_item(point, base, f"only the {', '.join(texts)}", finding=finding)
-
-        return make
-
-    def _unknown(self, addresses: Sequence[int]) -> Iterator[ItemMaker]:
-        """Return the maker for neighbouring addresses without a point, and what they carry."""
-        if not addresses:
-            return
-        low, high = addresses[0], addresses[-1]
-        gaps = self._device.bus.gaps.get(self._space, ())
-        gap = next((gap for gap in gaps if gap[0] <= high and low <= gap[1]), None)
-        closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
-        form = "{:04X}h" if family(self._device.family).spaces[self._space] == "word" else "{}"
-        text = f"{span_text(low, high)}: no point is described here" + (f"; {closed}" if closed else "")
-        item = Item(self._space, low, len(addresses), text, findings=(closed,) if closed else ())
-        first, end = low - self._address, min(high + 1 - self._address, self._carried)
-        more = " ..." if end - first > _MOST_WORDS else ""
-
-        def make(words: Sequence[int], _settings: Settings) -> Item:
-            carried = " ".join(map(form.format, words[first : min(end, first + _MOST_WORDS)]))
-            return replace(item, summary=f"{text} (carries {carried}{more})")
-
-        yield make if first < end else constant(item)
-
-    def _command(self, command: Command) -> ItemMaker:
-        at = command.address - self._address
-        head = f"command {command.name}: {title_text(command.title)}"
-        worn = f"; the memory stands {command.wears} writes" if command.wears else ""
-
-        def make(words: Sequence[int], _settings: Settings) -> Item:
-            raw = words[at] if at < self._carried else None
-            wrong = command.value is not None and raw is not None and raw != command.value
-            finding = f"it takes {command.value}, here is {raw}" if wrong else ""
-            text = line(head + (f"; {finding}" if finding else "") + worn)
-            return Item(self._space, command.address, 1, text, raw=raw, findings=(finding,) if finding else ())
-
-        return make
+    def _command(self, command: Command) -> Item:
+        raw = self._words[command.address - self._start] if command.address in self._carried else None
+        wrong = command.value is not None and raw is not None and raw != command.value
+        finding = f"it takes {command.value}, here is {raw}" if wrong else ""
+        worn = f"the memory stands {command.wears} writes" if command.wears else ""
+        parts = [f"command {command.name}: {title_text(command.title)}", finding, worn]
+        text = line("; ".join(part for part in parts if part))
+        return Item(self._space, command.address, 1, text, raw=raw, findings=(finding,) if finding else ())
 
 
 def _element_points(texts: PointTextCache, key: tuple[int, int, bool]) -> list[Point]:

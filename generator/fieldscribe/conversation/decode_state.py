@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -15,7 +14,7 @@ from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from fractions import Fraction
 
     from fieldscribe.arithmetic.codec import Settings
@@ -24,9 +23,6 @@ if TYPE_CHECKING:
 
 Base = tuple[str, int, int]
 """Space or telegram, address, and number of addresses of an item."""
-
-ItemMaker = Callable[[Sequence[int], "Settings"], Item]
-"""Makes an item from the words of a frame and the known numbers of other points."""
 
 PARAMETER = "parameter"
 """The space of parameters."""
@@ -48,6 +44,7 @@ class PointFormatter:
         self.source_of: Callable[[tuple[str, ...]], str] | None = None
         """Returns where missing points come from, if that is known."""
         self._head, self._title = f"{label(point)} = ", english_title(point)
+        self._name = point.item
         self._raw_text = raw_form(point)
         self._absent = absence(device, point) if written else ""
         self._meanings = Meanings(device, point)
@@ -87,7 +84,7 @@ class PointFormatter:
             rest += self.source_of(meaning.missing)
         text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
         return Item(
-            *self._base, line(self._head + text), point.item, point.code, None if point.text is not None else raw,
+            *self._base, line(self._head + text), self._name, point.code, None if point.text is not None else raw,
             meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags,
         )  # fmt: skip
 
@@ -165,11 +162,6 @@ def named_item(point: Point, base: Base, text: str = "", *, finding: str = "") -
     """Return a point that a frame names without a number; `text` replaces its title."""
     full = f"{label(point)}: {text or english_title(point)}" + (f"; {finding}" if finding else "")
     return Item(*base, line(full), point.item, point.code, findings=(finding,) if finding else ())
-
-
-def constant(item: Item) -> ItemMaker:
-    """Return a maker of always the same item."""
-    return lambda _words, _settings: item
 
 
 def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:

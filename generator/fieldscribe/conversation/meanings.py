@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
 
 _MOST_RULES = 256
 """How many scales of a point are cached."""
-_MOST_WORDS = 64
-"""For how many numbers of a point the texts of its flags are cached."""
+_MOST_NUMBERS = 64
+"""For how many numbers of a flag its texts are cached."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +161,7 @@ class FlagTexts:
         self._flags, self._width = point.flags, point.width
         self._lowest = point.bits[1] if point.bits else 0
         self._named = sum(mask_of(flag.width) << flag.low for flag in point.flags)
-        self._bits = BoundedMemo(_MOST_WORDS, self._make_bits)
+        self._bits = [BoundedMemo(_MOST_NUMBERS, partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
@@ -179,10 +180,8 @@ class FlagTexts:
 
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
-        return self._bits[raw]
-
-    def _make_bits(self, raw: int) -> list[Bits]:
-        named = [_flag_bits(flag, raw >> flag.low & mask_of(flag.width), self._lowest) for flag in self._flags]
+        pairs = zip(self._flags, self._bits, strict=True)
+        named = [bits[raw >> flag.low & mask_of(flag.width)] for flag, bits in pairs]
         return named + [_nameless_bit(self._lowest + bit) for bit in self._nameless(raw)]
 
     def _nameless(self, raw: int) -> list[int]:
@@ -190,7 +189,7 @@ class FlagTexts:
         return [bit for bit in range(self._width) if rest >> bit & 1] if rest else []
 
 
-def _flag_bits(flag: Flag, number: int, lowest: int) -> Bits:
+def _flag_bits(flag: Flag, lowest: int, number: int) -> Bits:
     """Return a flag with its number, as a row: `1  ready`, `0  fault (true when 0): a fault`."""
     low = lowest + flag.low
     high = low + flag.width - 1

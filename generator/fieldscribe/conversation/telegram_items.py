@@ -13,10 +13,9 @@ from fieldscribe.families.frame_results import Item
 from fieldscribe.wording.buses import word_text, words_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator
 
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.conversation.decode_state import Base, DecodeState, ItemMaker, PointTextCache
+    from fieldscribe.conversation.decode_state import DecodeState, PointTextCache
     from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
     from fieldscribe.model import Device, Point
 
@@ -24,50 +23,29 @@ _MOST_SOURCES = 64
 """For how many sets of missing points their source is cached."""
 
 
-def process_items(state: DecodeState, data: ProcessData) -> list[Item]:
-    """Return the items of process data."""
-    makers = state.texts.layout(_process_makers, (data.direction, len(data.words)))
-    return [make(data.words, state.settings) for make in makers]
-
-
-def _process_makers(texts: PointTextCache, key: tuple[str, int]) -> list[ItemMaker]:
-    """Return a maker for each item of so many words of process data in a direction."""
-    direction, count = key
-    names = _telegrams(texts.device, direction)
-    result = []
-    for place in range(count):
-        points = [point for name in names for point in texts.directory.at(name, place)]
-        base = (names[0] if names else "telegram", place, 1)
-        whole = [point for point in points if point.addresses[0] == place and place + point.words <= count]
-        result += [_process_maker(texts, point, base, written=direction == "request") for point in whole]
-        result += [] if points else [_undescribed(base)]
-    return result
+def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
+    """Return the items of process data, one or more for each word."""
+    names, written = _telegrams(state.device, data.direction), data.direction == "request"
+    for at, word in enumerate(data.words):
+        base = (names[0] if names else "telegram", at, 1)
+        points = [point for name in names for point in state.directory.at(name, at)]
+        if not points:
+            yield Item(*base, f"word {at + 1} of process data = {word:04X}h: no point is described here")
+        for point in points:
+            words = data.words[at : at + point.words]
+            if point.addresses[0] != at or len(words) < point.words:
+                continue
+            if not point.generated and point.scale is None:
+                yield named_item(point, base, f"carries {word:04X}h; {point.reason or 'its meaning is open'}")
+                continue
+            raw = raw_of(point, words)
+            item = state.value(point, base, raw, written=written)
+            # a master without anything to write sends words of zero
+            yield item if raw or not item.findings else replace(item, findings=())
 
 
 def _telegrams(device: Device, direction: str) -> list[str]:
     return [telegram.name for telegram in device.telegrams if telegram.direction == direction]
-
-
-def _process_maker(texts: PointTextCache, point: Point, base: Base, *, written: bool) -> ItemMaker:
-    place = base[1]
-    if not point.generated and point.scale is None:
-        why = point.reason or "its meaning is open"
-        return lambda words, _: named_item(point, base, f"carries {words[place]:04X}h; {why}")
-    read = raw_reader(point, range(place, place + point.words))
-    formatter = texts.formatter(point, base, written=written)
-
-    def make(words: Sequence[int], settings: Settings) -> Item:
-        raw = read(words)
-        item = formatter.item(raw, settings)
-        # a master without anything to write sends words of zero
-        return item if raw or not item.findings else replace(item, findings=())
-
-    return make
-
-
-def _undescribed(base: Base) -> ItemMaker:
-    head = f"word {base[1] + 1} of process data"
-    return lambda words, _: Item(*base, f"{head} = {words[base[1]]:04X}h: no point is described here")
 
 
 def mask_items(state: DecodeState, masks: Masks) -> Iterator[Item]:
