@@ -10,7 +10,7 @@ from fieldscribe.cli.frame_options import refuse_foreign
 from fieldscribe.conversation.decoder import StreamDecoder, decode
 from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.explain_other_items import explain_other_items
-from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import quoted_text
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder, Recogniser
@@ -19,7 +19,6 @@ from fieldscribe.families.can.notation import Pasted, read_frames, read_identifi
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.model import Role
 from fieldscribe.user_errors import Options, RefusedError, UnclearError
-from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked

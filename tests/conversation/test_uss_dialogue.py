@@ -11,7 +11,7 @@ from fieldscribe.cli.frame_options import refuse_foreign
 from fieldscribe.conversation.decoder import StreamDecoder, decode
 from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.explain_other_items import explain_other_items
-from fieldscribe.conversation.explanation import explain_point
+from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
@@ -19,7 +19,6 @@ from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.telegrams import Request, parse, telegram
 from fieldscribe.user_errors import Options, RefusedError, UnclearError
-from fieldscribe.wording.samples import sample_raw
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked

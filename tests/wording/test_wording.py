@@ -145,9 +145,10 @@ def test_words_bits_and_flags() -> None:
     assert wording.words_text(named(DEVICE, "setpoint_display")) == ""
     assert wording.type_text(named(DEVICE, "delay_class")) == "u8, bits 15..14"
     ready, fault, mode = named(DEVICE, "status_word").flags
-    assert wording.flag_text(ready) == "bit 0 = ready (Ready / Bereit)"
-    assert wording.flag_text(fault) == "bit 3 = fault (Fault), true when 0"
-    assert wording.flag_text(mode) == "bits 5..4 = mode (Mode): 0 = stop (stop), 3 = run (run)"
+    assert [wording.flag_bits(flag) for flag in (ready, fault, mode)] == ["0", "3", "5..4"]
+    assert wording.flag_meaning(ready) == "ready (Ready / Bereit)"
+    assert wording.flag_meaning(fault) == "fault (Fault), true when 0"
+    assert wording.flag_meaning(mode) == "mode (Mode): 0 = stop (stop), 3 = run (run)"
 
 
 def test_what_keeps_a_value() -> None:

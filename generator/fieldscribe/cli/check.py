@@ -11,7 +11,7 @@ from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.report import as_data
-from fieldscribe.wording.buses import counted
+from fieldscribe.wording.frames import counted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli import COMMANDS, FINE, command_module
 from fieldscribe.cli.common import default_folders, known_devices
 from fieldscribe.language.keys.forms import ID
-from fieldscribe.search.summaries import summary_of
+from fieldscribe.search import summary_of
 
 if TYPE_CHECKING:
     from argparse import Action, Namespace

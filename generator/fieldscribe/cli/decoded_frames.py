@@ -10,7 +10,7 @@ from fieldscribe.cli.terminal import is_coloured, print_rows
 from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import bits_label
 from fieldscribe.report import visible
-from fieldscribe.wording.buses import spaced
+from fieldscribe.wording.frames import spaced
 
 if TYPE_CHECKING:
     from fieldscribe.families.frame_results import FrameResult

@@ -18,7 +18,7 @@ from fieldscribe.cli.common import (
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import points_by_name, present
 from fieldscribe.report import visible
-from fieldscribe.search.summaries import summary_of
+from fieldscribe.search import summary_of
 from fieldscribe.text import csv_cell, line
 from fieldscribe.wording.exact import hex_text
 

@@ -12,8 +12,8 @@ from fieldscribe.families import family
 from fieldscribe.families.frame_results import Item
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, fixed_text, title_text
-from fieldscribe.wording.buses import counted, element_text, span_text, word_text, words_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import counted, element_text, hex_words, span_text, word_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -136,7 +136,7 @@ def element_items(state: DecodeState, element: Element) -> Iterator[Item]:
     """Return the items of one element of a parameter."""
     points = state.directory.at(PARAMETER, element.parameter, element.index)
     base = (PARAMETER, element.parameter, max(1, element.width))
-    carried = f"carries {words_text(element.words)}"
+    carried = f"carries {hex_words(element.words)}"
     if element.refused:
         yield from (named_item(point, (PARAMETER, element.parameter, point.words)) for point in points)
     elif not points:
@@ -183,7 +183,7 @@ def word_items(state: DecodeState, word: Word) -> Iterator[Item]:
     for point in state.texts.layout(_element_points, (word.address, 0, word.in_request)):
         yield _word_item(state, word, point)
     if not points:
-        carried = "" if word.raw is None else f" ({words_text((word.raw,))})"
+        carried = "" if word.raw is None else f" ({hex_words((word.raw,))})"
         yield Item(PARAMETER, word.address, 1, f"{address_text(word.address)}: no point is described here{carried}")
 
 
@@ -204,7 +204,7 @@ def _word_item(state: DecodeState, word: Word, point: Point) -> Item:
             return item
         return replace(item, summary=f"{item.summary}; {finding}", findings=(*item.findings, finding))
     words = {**state.words, word.address: word.raw}
-    part = f"word {point.addresses.index(word.address) + 1} of {len(point.addresses)} = {words_text((word.raw,))}"
+    part = f"word {point.addresses.index(word.address) + 1} of {len(point.addresses)} = {hex_words((word.raw,))}"
     raw = _raw(point, words)
     if raw is None:
         return named_item(point, base, f"{part}; {sum(at not in words for at in point.addresses)} more words to come")

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.families import family
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.samples import sample_raw, sample_said
+from fieldscribe.wording.exact import hex_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -117,7 +118,39 @@ def write_text(device: Device, point: Point) -> str:
         return ""
     raw = None if way.example is None else sample_raw(point)
     frames = "" if way.example is None or raw is None else way.example(raw)
-    return way.how if raw is None or not frames else f"{way.how}{way.joint}{sample_said(point, raw)}{frames}"
+    return way.how if raw is None or not frames else f"{way.how}{way.joint}{_sample_text(point, raw)}{frames}"
+
+
+def sample_raw(point: Point) -> int | None:
+    """Return a raw number for an example that may be written and moves a machine least; None if there is no sure one.
+
+    It is the default, else the allowed number nearest to zero.
+    """
+    if point.text is not None:
+        return None
+    if point.info.floating:
+        first = point.allowed.units[0][0] if point.allowed.units else 0
+        number = first if point.default is None else point.default
+        return pattern_of(number, point.info.bits)
+    raw = point.default_raw
+    if raw is not None:
+        special = point.special(raw)
+        if special is None or special.writable:
+            return with_fixed(point, raw) if special is None else raw
+    ends = [
+        end for interval in point.allowed.intervals for end in (interval.low, interval.high) if isinstance(end, int)
+    ]
+    return with_fixed(point, min(ends, key=abs)) if ends else None
+
+
+def _sample_text(point: Point, raw: int) -> str:
+    """Return the number as an example: its meaning, and the raw number."""
+    if point.info.floating:
+        number = float_of(raw, point.info.bits)
+        text = f"{number:g}" if point.display is None else rounded(*number.as_integer_ratio(), point.display)
+        return f"for example {wording.with_unit(text, point)} is the pattern {hex_text(raw, point.width // 4)}"
+    meaning = wording.meaning_text(point, raw)
+    return f"for example {meaning} is raw {raw}" if meaning else f"for example raw {raw}"
 
 
 def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.decoded_frame import Span
 from fieldscribe.text import line
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import spaced
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import spaced
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

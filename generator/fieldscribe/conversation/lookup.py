@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.families import family
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
-from fieldscribe.wording.buses import word_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import word_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.words import raw_of, raw_reader
 from fieldscribe.conversation.decode_state import named_item
 from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Item
-from fieldscribe.wording.buses import word_text, words_text
+from fieldscribe.wording.frames import hex_words, word_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -71,7 +71,7 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
         flags = point.flags if point is not None and len(words) == 1 else ()
         named = [flag.name for flag in flags if words[0] >> flag.low & 1]
         text = f"only these bits of {about} count" + (f" ({', '.join(named)})" if named else "")
-    return Item("mask", at, len(words), f"mask {words_text(words)}: {text}")
+    return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}")
 
 
 PieceKey = tuple[str, range, int]
@@ -142,7 +142,7 @@ def piece_items(state: DecodeState, piece: Piece) -> Iterable[Item]:
             lacking[name] = part.formatter, raw
         items.append(item)
     for number, at in enumerate(layout.unknown):
-        words = words_text((piece.words[at - piece.positions.start],))
+        words = hex_words((piece.words[at - piece.positions.start],))
         unknown = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({words})")
         items.insert(sum(part.start < at for part in layout.parts) + number, unknown)
     if state.changed:

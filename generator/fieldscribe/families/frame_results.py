@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import units_text
+from fieldscribe.wording.frames import units_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -1,7 +1,7 @@
-"""The facts of a point as texts for people: ranges, scales, units. All outputs use the same wording.
+"""The facts of a point as texts: ranges, scales, units. All outputs use the same wording.
 
-The texts are plain; targets escape them (text.py). Another point is called `name.raw` for its raw number, or `name` for
-its value where `points` is given and the rule uses the value.
+The texts are plain; targets escape them (text.py). Another point is written as `name.raw` for its raw number, or as
+`name` for its value if `points` is given and the rule uses the value. A text is empty if the point has no such fact.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
-from fieldscribe.wording.rules import Called, Points, called, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
 
@@ -22,27 +22,27 @@ _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": 
 
 
 def label(point: Point) -> str:
-    """How a point is called in answers: code and name."""
+    """Return the code and name of a point, as messages name it."""
     return f"{line(point.code)} {point.item}" if point.code else point.item
 
 
 def address_text(address: int) -> str:
-    """A wire address in both notations: `1028h (4136)`."""
+    """Return a wire address in both notations: `1028h (4136)`."""
     return " ".join(address_parts(address))
 
 
 def address_parts(address: int) -> tuple[str, str]:
-    """The two notations of a wire address, between which a line may be broken."""
+    """Return the two notations of a wire address, between which a line may be broken."""
     return hex_text(address), f"({address})"
 
 
 def words_text(point: Point) -> str:
-    """All words of a point, and which one holds the high part: `1013h (4115) high, 1014h (4116) low`."""
+    """Return all words of a point, and which one holds the high part: `1013h (4115) high, 1014h (4116) low`."""
     return _words_of(point, point.addresses)
 
 
 def write_place_text(point: Point) -> str:
-    """Where else the point is written, with the manual's numbers: `2028h (8232), modicon 8233`; mostly empty."""
+    """Return where else the point is written, with the manual's numbers: `2028h (8232), modicon 8233`."""
     if point.write_place is None:
         return ""
     printed = (f"{name} {number}" for name, number in point.write_place.references.items())
@@ -60,7 +60,7 @@ def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
 
 
 def order_text(point: Point) -> str:
-    """Which of several words comes first: `low word first`; empty for a single word."""
+    """Return which of several words comes first: `low word first`; empty for a single word."""
     first, *others = point.addresses or (0,)
     if not others:
         return ""
@@ -75,19 +75,19 @@ def order_text(point: Point) -> str:
 
 
 def with_unit(text: str, point: Point) -> str:
-    """The text with the point's unit behind it."""
+    """Return the text followed by the point's unit."""
     return f"{text} {point.unit.symbol}" if text and point.unit.symbol else text
 
 
 def title_text(titles: Titles) -> str:
-    """A title in all its languages, English first: `Base frequency / Basisfrequenz`."""
+    """Return a title in all its languages, English first: `Base frequency / Basisfrequenz`."""
     if len(titles) == 1:
         return titles["en"]
     return " / ".join(dict.fromkeys([titles["en"], *titles.values()]))
 
 
 def type_text(point: Point) -> str:
-    """The wire type, with the bits of a bit group: `u8, bits 15..14`."""
+    """Return the wire type, with the bits of a bit group: `u8, bits 15..14`."""
     if point.untyped is not None:
         return point.untyped or "not settled by the manual"
     if point.text is not None:
@@ -101,7 +101,7 @@ def type_text(point: Point) -> str:
 
 
 def fixed_text(point: Point) -> str:
-    """The bits of the word that are always written as a constant: `bit 10 always 1, bits 7..3 always 00000`."""
+    """Return the bits of the word that are always written as a constant: `bit 10 always 1, bits 7..3 always 00000`."""
     if point.fixed is None:
         return ""
     mask, bits = point.fixed.mask, point.fixed.bits
@@ -118,12 +118,12 @@ def fixed_text(point: Point) -> str:
 
 
 def shares_word(point: Point) -> bool:
-    """Whether writing the point needs the rest of its word; words of a telegram are all sent anyway."""
+    """Return True if writing the point needs the rest of its word; words of a telegram are all sent anyway."""
     return point.bits is not None and point.writable and point.telegram is None
 
 
 def shared_text(point: Point) -> str:
-    """How such a point is written: `shares its word: read it, change bits 11..8, write it back`; else empty."""
+    """Return how such a point is written: `shares its word: read it, change bits 11..8, write it back`."""
     if point.bits is None or not shares_word(point):
         return ""
     high, low = point.bits
@@ -135,34 +135,34 @@ def shared_text(point: Point) -> str:
 
 
 def access_text(access: str) -> str:
-    """What the bus may do with a point, in words."""
+    """Return what the bus may do with a point."""
     return _ACCESS.get(access, access)
 
 
 def value_text(point: Point, raw: int) -> str:
-    """The value of a raw number, without its unit; empty where other points decide it or raw is a bit pattern."""
+    """Return the value of a raw number without its unit; empty for a bit pattern, or if it depends on other points."""
     rule = None if point.info.floating else fixed_rule(point)
     if rule is None:
         return ""
     if point.display is not None:
         return rounded(raw * rule.factor + rule.add, rule.divisor, point.display)
-    return shown(raw, rule)
+    return converted(raw, rule)
 
 
 def display_text(point: Point) -> str:
-    """With how many decimals people see the value: `shown with 2 decimals`; empty where nobody says it."""
+    """Return with how many decimals instruments show the value: `shown with 2 decimals`."""
     return f"shown with {decimals_text(point)}" if point.display is not None else ""
 
 
 def decimals_text(point: Point) -> str:
-    """How many that are: `2 decimals`; empty where nobody says it."""
+    """Return the number of these decimals: `2 decimals`."""
     if point.display is None:
         return ""
     return f"{point.display or 'no'} decimal{'' if point.display == 1 else 's'}"
 
 
 def meaning_text(point: Point, raw: int) -> str:
-    """What a raw number means: a special code, an entry, or value and unit; empty where the number is the value."""
+    """Return the special code, the entry, or the value and unit of a raw number; empty if the number is the value."""
     special = point.special(raw)
     if special is not None:
         return special.name
@@ -173,7 +173,7 @@ def meaning_text(point: Point, raw: int) -> str:
 
 
 def resolution_text(point: Point) -> str:
-    """What one raw step is in the unit: `0.1 Hz`; with coarser steps: `0.01 s, from 100 s on 0.1 s`. May be empty."""
+    """Return one raw step in the unit: `0.1 Hz`; with coarser steps: `0.01 s, from 100 s on 0.1 s`."""
     rule = fixed_rule(point)
     stepped = point.form == "scaled" or (point.form == "integer" and (point.unit.symbol or point.steps))
     if rule is None or not stepped:
@@ -182,12 +182,12 @@ def resolution_text(point: Point) -> str:
     parts = [with_unit(exact(abs(steps[0][1] * rule.factor), rule.divisor), point)]
     for start, step in steps[1:]:
         coarser = with_unit(exact(abs(step * rule.factor), rule.divisor), point)
-        parts.append(f"from {with_unit(shown(start, rule), point)} on {coarser}")
+        parts.append(f"from {with_unit(converted(start, rule), point)} on {coarser}")
     return ", ".join(parts)
 
 
 def width_texts(point: Point) -> tuple[str, ...]:
-    """What a scaled point lacks because its numbers are too wide: sentences without a full stop."""
+    """Return what a scaled point lacks because its numbers are too wide: sentences without a full stop."""
     if point.form != "scaled" or not point.generated:
         return ()
     counts = ("no integer path: its counts need more than 64 bits",) if point.decimals is None else ()
@@ -196,14 +196,14 @@ def width_texts(point: Point) -> tuple[str, ...]:
 
 
 def steps_text(point: Point) -> str:
-    """The raw steps that the device keeps: `raw 1, from raw 10000 on 10`."""
+    """Return the raw steps that the device keeps: `raw 1, from raw 10000 on 10`."""
     if not point.steps:
         return ""
     return f"raw {point.steps[0][1]}" + "".join(f", from raw {start} on {step}" for start, step in point.steps[1:])
 
 
 def scale_text(point: Point, points: Points | None = None) -> str:
-    """How the value follows from the raw number: `raw x 0.1 Hz`; empty where it is the raw number or a bit pattern."""
+    """Return how the value follows from raw: `raw x 0.1 Hz`; empty if it is the raw number or a bit pattern."""
     if point.scale is None:
         plain = point.form == "integer" and point.unit.symbol and point.generated
         return f"raw x 1 {point.unit.symbol}" if plain else ""
@@ -216,17 +216,17 @@ def scale_text(point: Point, points: Points | None = None) -> str:
 
 
 def formula_text(point: Point, points: Points | None = None) -> str:
-    """The scale as the manual writes it: `value = raw * 0.1`; empty where the raw number is the value."""
+    """Return the scale as the manual writes it: `value = raw * 0.1`; empty if the raw number is the value."""
     return "; ".join(_case_text(case, points) for case in point.scale or ())
 
 
 def _case_text(case: ScaleCase, points: Points | None) -> str:
     formula = case.written or f"value = {inverse_text(case.rule, points)}"
-    return formula if case.point is None else f"{formula} when {called(case.point, points)}.raw is {case.raw}"
+    return formula if case.point is None else f"{formula} when {name_of(case.point, points)}.raw is {case.raw}"
 
 
 def range_text(point: Point, points: Points | None = None, *, unit: bool = True) -> str:
-    """Which values may be written, in the unit: `0..400 Hz`; empty where only raw numbers are known."""
+    """Return which values may be written, in the unit: `0..400 Hz`; empty if only raw numbers are known."""
     if _is_unbounded(point):
         return ""
     if point.info.floating:
@@ -237,47 +237,47 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
     return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol if unit else "")
 
 
-def raw_range_text(point: Point, points: Called | None = None) -> str:
-    """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
+def raw_range_text(point: Point, points: RenamedPoints | None = None) -> str:
+    """Return which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
     nothing = point.info.floating or point.text is not None or _is_unbounded(point)
     return "" if nothing else ranges_text(point, SAME, points, "")
 
 
 def _is_unbounded(point: Point) -> bool:
-    """Whether nothing limits the numbers: the point has no type, and the manual prints no range."""
+    """Return True if nothing limits the numbers: the point has no type, and the manual prints no range."""
     return point.untyped is not None and point.allowed.fixed == ((point.least, point.greatest),)
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
-    """The least and the greatest raw number that can ever be allowed."""
+    """Return the least and the greatest raw number that can ever be allowed."""
     return None if _is_unbounded(point) else point.allowed.outer
 
 
 def entry_text(entry: Entry) -> str:
-    """One named number: `0 = keypad (Keypad / Bedienfeld)`."""
+    """Return one named number: `0 = keypad (Keypad / Bedienfeld)`."""
     return f"{entry.raw} = {entry_meaning(entry)}"
 
 
 def entry_meaning(entry: Entry) -> str:
-    """What a named number means: `keypad (Keypad / Bedienfeld)`."""
+    """Return the meaning of a named number: `keypad (Keypad / Bedienfeld)`."""
     title = title_text(entry.title)
     quantity = f", {entry.quantity}" if entry.quantity and entry.quantity not in title else ""
     return f"{entry.name} ({title}{quantity})"
 
 
 def special_text(special: Special, width: int) -> str:
-    """A special code of a point of `width` bits: `7FFFh = no_sensor (No sensor), no value`."""
+    """Return a special code of a point of `width` bits: `7FFFh = no_sensor (No sensor), no value`."""
     return f"{special_numbers(special, width)} = {special_meaning(special)}"
 
 
 def special_meaning(special: Special) -> str:
-    """What a special code means: `no_sensor (No sensor), no value`."""
+    """Return the meaning of a special code: `no_sensor (No sensor), no value`."""
     remarks = special_remarks(special)
     return f"{special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
 
 
 def codes_text(point: Point, mark: str = "") -> str:
-    """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
+    """Return the codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
     named = []
     for special in point.specials:
         written = " (may be written)" if special.writable and point.writable else ""
@@ -286,24 +286,24 @@ def codes_text(point: Point, mark: str = "") -> str:
 
 
 def special_remarks(special: Special) -> str:
-    """What else a special code says: `no value, may be written`; may be empty."""
+    """Return remarks on a special code: `no value, may be written`."""
     remarks = (("no value", special.no_value), ("may be written", special.writable))
     return ", ".join(text for text, holds in remarks if holds)
 
 
 def special_numbers(special: Special, width: int) -> str:
-    """A special code, or a band of them, as the manual writes it: `FFFCh`, `4100..4103`."""
+    """Return a special code, or a band of them, as the manual writes it: `FFFCh`, `4100..4103`."""
     low, high = (code_text(end, width, hexadecimal=special.hexadecimal) for end in (special.low, special.high))
     return low if special.low == special.high else f"{low}..{high}"
 
 
 def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
-    """A raw number of `width` bits in decimal, or the pattern of its bits in hexadecimal."""
+    """Return a raw number of `width` bits in decimal, or the pattern of its bits in hexadecimal."""
     return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
 
 
 def default_text(point: Point, *, unit: bool = True) -> str:
-    """The factory setting with its unit, or the name of its special code; empty if there is none."""
+    """Return the factory setting with its unit, or the name of its special code."""
     raw = point.default_raw
     special = None if raw is None else point.special(raw)
     if special is not None:
@@ -315,7 +315,7 @@ def default_text(point: Point, *, unit: bool = True) -> str:
 
 
 def default_parts(point: Point) -> str:
-    """The factory setting of a word that is made of numbers, number by number: `source 52, bit 0`; else empty."""
+    """Return the factory setting of a word that consists of numbers: `source 52, bit 0`."""
     raw = point.default_raw
     if raw is None or not point.flags or any(flag.width == 1 for flag in point.flags):
         return ""
@@ -324,30 +324,25 @@ def default_parts(point: Point) -> str:
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:
-    """The bits of a flag: `3`, or `5..4`; with the point, as numbered in the whole word."""
+    """Return the bits of a flag: `3`, or `5..4`; with the point, as numbered in the whole word."""
     low = flag.low + (point.bits[1] if point is not None and point.bits else 0)
     return str(low) if flag.width == 1 else f"{low + flag.width - 1}..{low}"
 
 
-def flag_text(flag: Flag, point: Point | None = None) -> str:
-    """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
-    return f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag_meaning(flag)}"
-
-
 def flag_meaning(flag: Flag) -> str:
-    """What a flag means: `fault (Fault), true when 0`, or `mode (Mode): 0 = stop (Stop)`."""
+    """Return the meaning of a flag: `fault (Fault), true when 0`, or `mode (Mode): 0 = stop (Stop)`."""
     inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
     values = ": " + ", ".join(map(flag_value_text, flag.values)) if flag.values else ""
     return f"{flag.name} ({title_text(flag.title)}){inverted}{values}"
 
 
 def flag_value_text(entry: Entry) -> str:
-    """What a number of a flag means: `0 = not ready`, or `0 = stop (Stop)` where it has a name of its own."""
+    """Return the meaning of a flag's number: `0 = not ready`, or `0 = stop (Stop)` if it has a name."""
     return f"{entry.raw} = {title_text(entry.title)}" if entry.name in ("zero", "one") else entry_text(entry)
 
 
 def keeps_text(device: Device, point: Point) -> str:
-    """Whether a written value survives switching off, and what that takes."""
+    """Return whether a written value survives switching off, and what that takes."""
     if point.keeps is None:
         return ""
     if point.keeps == "choice":

@@ -1,4 +1,4 @@
-"""Exact numbers: as text, and values from the raw numbers of a point."""
+"""Texts of exact numbers, and the rule from the raw numbers of a point to its values."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Factor, Point
 
 _SHORT = 6
-"""A factor with at most this many decimals is said as a decimal (`x 0.125`), else as a division (`/ 256`)."""
+"""A factor with at most this many decimals is written as a decimal (`x 0.125`), else as a division (`/ 256`)."""
 
 
 @lru_cache(maxsize=4096)
 def exact(numerator: int, denominator: int = 1) -> str:
-    """The exact number as text: a decimal where it ends (`0.1`), else a fraction (`7/3`)."""
+    """Return the exact number as text: a decimal if it ends (`0.1`), else a fraction (`7/3`)."""
     if denominator == 1:
         return str(numerator)
     common = gcd(numerator, denominator) * (1 if denominator > 0 else -1)
@@ -34,29 +34,29 @@ def exact(numerator: int, denominator: int = 1) -> str:
 
 
 def number_text(number: Fraction) -> str:
-    """An exact fraction as text, see `exact`."""
+    """Return an exact fraction as text, as `exact` does."""
     return exact(number.numerator, number.denominator)
 
 
 def shortest(count: int, places: int) -> str:
-    """A count of 10^-places as a decimal without zeros at its end: `0.5`."""
+    """Return a count of 10^-places as a decimal without trailing zeros: `0.5`."""
     text = _decimal(count, places)
     return text.rstrip("0").rstrip(".") if places else text
 
 
 def rounded(numerator: int, denominator: int, decimals: int) -> str:
-    """The number with so many decimals, to nearest, halves away from zero: `50.00`; what rounds to zero has no sign."""
+    """Return the number with so many decimals, rounded to nearest, halves away from zero: `50.00`; never `-0`."""
     return _decimal(nearest(numerator * 10**decimals, denominator), decimals)
 
 
 def hex_text(number: int, digits: int = 4) -> str:
-    """A number as manuals print it: `1028h`."""
+    """Return a number as manuals print it: `1028h`."""
     return f"{number:0{digits}X}h"
 
 
 @lru_cache(maxsize=4096)
 def times_text(start: str, numerator: int, denominator: int) -> str:
-    """`start` times a positive or negative fraction: `raw x 0.1`, `raw / 256`, `raw x 7 / 3`; just `start` for one."""
+    """Return `start` times a fraction: `raw x 0.1`, `raw / 256`, `raw x 7 / 3`; just `start` for one."""
     if numerator == denominator:
         return start
     if numerator == 1:
@@ -69,21 +69,21 @@ def times_text(start: str, numerator: int, denominator: int) -> str:
 
 
 def plus_text(start: str, numerator: int, denominator: int) -> str:
-    """`start` plus a fraction: `raw + 2.5`, `raw - 7/3`; just `start` for zero."""
+    """Return `start` plus a fraction: `raw + 2.5`, `raw - 7/3`; just `start` for zero."""
     if numerator == 0:
         return start
     return f"{start} {'-' if numerator < 0 else '+'} {exact(abs(numerator), denominator)}"
 
 
 def fixed_rule(point: Point) -> Line | None:
-    """The rule from raw numbers to values; None where it depends on other points or is unknown."""
+    """Return the rule from raw numbers to values; None if it depends on other points or is unknown."""
     if point.scale is None:
         return SAME if point.generated or not point.unit.symbol else None
     return None if point.fixed_scale is None else value_line(point.fixed_scale)
 
 
 def value_multiple(factor: Factor, point: Point) -> Fraction | None:
-    """The constant k with `raw * slope + intercept == k * value` of the factor's point; None where there is none."""
+    """Return k such that `raw * slope + intercept == k * value` for the factor's point; None if there is none."""
     rule = fixed_rule(point)
     if rule is None or point.info.floating:
         return None
@@ -92,7 +92,7 @@ def value_multiple(factor: Factor, point: Point) -> Fraction | None:
 
 
 def _decimal(count: int, places: int) -> str:
-    """A count of 10^-places as a decimal."""
+    """Return a count of 10^-places as a decimal."""
     digits = str(abs(count)).rjust(places + 1, "0")
     point = "." if places else ""
     return f"{'-' if count < 0 else ''}{digits[: len(digits) - places]}{point}{digits[len(digits) - places :]}"
@@ -100,7 +100,7 @@ def _decimal(count: int, places: int) -> str:
 
 @lru_cache(maxsize=4096)
 def decimal_places(denominator: int) -> int | None:
-    """How many decimals a reduced fraction over `denominator` has; None when they never end."""
+    """Return how many decimals a reduced fraction over `denominator` has; None if they never end."""
     twos = (denominator & -denominator).bit_length() - 1
     rest, fives = denominator >> twos, 0
     while rest % 5 == 0:

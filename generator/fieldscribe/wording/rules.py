@@ -1,4 +1,4 @@
-"""The texts for scales, ranges and conditions."""
+"""Texts of scales, ranges and conditions."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ if TYPE_CHECKING:
     from fieldscribe.conditions import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
-"""Points by name: the texts of rules that refer to points look there for units and names."""
+"""Points by name, in which the texts of rules look up units and names."""
 
 
-class Called(dict[str, Point]):
-    """Points by name, and how texts call them. Without points, only raw numbers are spoken of."""
+class RenamedPoints(dict[str, Point]):
+    """Points by name, and other names for them in texts. Without points, texts use only raw numbers."""
 
-    def __init__(self, points: Points, called: Mapping[str, str]) -> None:
+    def __init__(self, points: Points, names: Mapping[str, str]) -> None:
         super().__init__(points)
-        self.called = called
+        self.names = names
 
 
 _TURNED = str.maketrans("<>", "><")
 
 
-def shown(raw: int, line: Line) -> str:
-    """The result of the line for a raw number, as text."""
+def converted(raw: int, line: Line) -> str:
+    """Return the value of a raw number as text."""
     return exact(raw * line.factor + line.add, line.divisor)
 
 
 def inverse_text(rule: Linear, points: Points | None = None) -> str:
-    """The inverse of a rule, with `raw` for its result: `raw x 0.1 - 0.25`."""
+    """Return the inverse of a rule, from `raw` to the value: `raw x 0.1 - 0.25`."""
     multiply, add, divide = value_line(rule)
     ratio = Fraction(multiply, divide)
     if not rule.factors:
@@ -47,12 +47,12 @@ def inverse_text(rule: Linear, points: Points | None = None) -> str:
 
 
 def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> str:
-    """All intervals in one text, with the unit behind the last number and the exceptions of limits at the end."""
+    """Return all intervals in one text, the unit after the last number and the exceptions of limits at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = line.factor < 0
     simple = intervals[0].fixed if len(intervals) == 1 and not listed else None
     if simple is not None:  # as below, but most points are so
-        ends = [shown(raw, line) for raw in (simple[::-1] if falling else simple)]
+        ends = [converted(raw, line) for raw in (simple[::-1] if falling else simple)]
         text = "..".join(ends) if simple[0] != simple[1] else ends[0]
         return f"{text} {unit}" if unit else text
     parts, remarks = [], []
@@ -72,17 +72,17 @@ def ranges_text(point: Point, line: Line, points: Points | None, unit: str) -> s
 
 
 def condition_text(condition: Condition | None, points: Points | None = None) -> str:
-    """When a point exists: `model == large and speed.raw > 600`; empty if always."""
+    """Return when a point exists: `model == large and speed.raw > 600`; empty if always."""
     return " or ".join(clause_text(clause, points) for clause in condition.clauses) if condition is not None else ""
 
 
 def clause_text(clause: Clause, points: Points | None = None) -> str:
-    """Comparisons joined by `and`; with values instead of raw numbers where `points` are given."""
+    """Return comparisons joined by `and`; with values instead of raw numbers if `points` are given."""
     return " and ".join(_comparison_text(comparison, points) for comparison in clause)
 
 
 def _comparison_text(comparison: Comparison, points: Points | None) -> str:
-    name = called(comparison.of, points)
+    name = name_of(comparison.of, points)
     numbers = [raw for raw in comparison.than if isinstance(raw, int)]
     if not numbers:
         return _test_text(name, comparison.test, [str(text) for text in comparison.than])
@@ -92,12 +92,12 @@ def _comparison_text(comparison: Comparison, points: Points | None) -> str:
         return _test_text(f"{name}.raw", comparison.test, [str(raw) for raw in numbers])
     names = {} if point.enum is None else {entry.raw: entry.name for entry in point.enum.entries}
     test = comparison.test.translate(_TURNED) if line.factor < 0 else comparison.test
-    return _test_text(name, test, [names.get(raw) or shown(raw, line) for raw in numbers])
+    return _test_text(name, test, [names.get(raw) or converted(raw, line) for raw in numbers])
 
 
-def called(name: str, points: Points | None) -> str:
-    """How texts call a point."""
-    return points.called.get(name, name) if isinstance(points, Called) else name
+def name_of(name: str, points: Points | None) -> str:
+    """Return the name of a point in texts."""
+    return points.names.get(name, name) if isinstance(points, RenamedPoints) else name
 
 
 def _test_text(name: str, test: str, than: list[str]) -> str:
@@ -116,21 +116,21 @@ def _span_text(interval: Interval, ends: list[str], falling: bool, listed: bool)
 
 def _bound_text(bound: Bound, is_low: bool, point: Point, line: Line, points: Points | None) -> str:
     if isinstance(bound, int):
-        return shown(bound, line)
+        return converted(bound, line)
     words = _limit_text(bound, line, points)
     fixed = bound.outermost(low=is_low)
     if fixed == (point.least if is_low else point.greatest):
         return words
-    return f"{'max' if is_low == (line.factor > 0) else 'min'}({shown(fixed, line)}, {words})"
+    return f"{'max' if is_low == (line.factor > 0) else 'min'}({converted(fixed, line)}, {words})"
 
 
 def _lifted_text(bound: Bound, side: str, line: Line, points: Points | None) -> str:
-    """The exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
+    """Return the exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
     if isinstance(bound, int) or not bound.unless:
         return ""
-    cases = [f"{called(name, points)}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
+    cases = [f"{name_of(name, points)}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
     fixed = bound.outermost(low=side == "low")
-    return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, line)}"
+    return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {converted(fixed, line)}"
 
 
 def _band_text(band: tuple[int, int]) -> str:
@@ -148,7 +148,7 @@ def _limit_text(limit: Limit, line: Line, points: Points | None) -> str:
         if constant is not None:
             ratio *= constant**factor.power
         factors.append(
-            (called(factor.point, points) if constant is not None else _limit_factor(factor, points), factor.power)
+            (name_of(factor.point, points) if constant is not None else _limit_factor(factor, points), factor.power)
         )
     factors.sort(key=lambda factor: -factor[1])
     if factors and factors[0][1] == 1:
@@ -163,14 +163,14 @@ def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
 
 
 def _limit_factor(factor: Factor, points: Points | None) -> str:
-    """A factor of a limit: always by its raw number."""
-    return _factor_text(factor, Called({}, points.called) if isinstance(points, Called) else None)
+    """Return a factor of a limit: always by its raw number."""
+    return _factor_text(factor, RenamedPoints({}, points.names) if isinstance(points, RenamedPoints) else None)
 
 
 def _factor_text(factor: Factor, points: Points | None = None) -> str:
     if points and factor.point in points and points[factor.point].info.floating:
-        return called(factor.point, points)  # its value: the raw number is only a bit pattern
-    text = f"{called(factor.point, points)}.raw"
+        return name_of(factor.point, points)  # its value: the raw number is only a bit pattern
+    text = f"{name_of(factor.point, points)}.raw"
     if factor.slope != 1 or factor.intercept:
         text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"
     return f"10^{text}" if factor.ten_to else text

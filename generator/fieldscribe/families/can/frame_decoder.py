@@ -29,8 +29,8 @@ from fieldscribe.families.decoded_frame import (
     Word,
 )
 from fieldscribe.families.frame_results import FrameResult
-from fieldscribe.wording.buses import check_text, strange_unit
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import check_text, strange_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
-from fieldscribe.wording.buses import strange_unit, words_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import hex_words, strange_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -69,7 +69,7 @@ def answer_findings(asked: Asked, known: Asked) -> Iterator[str]:
     if asked.address != known.address:
         yield f"the request before asked for parameter {asked.address}, this answers {known.address}"
     elif asked.raw is not None and asked.raw != known.raw:
-        was, came = (words_text((word or 0,)) for word in (asked.raw, known.raw))
+        was, came = (hex_words((word or 0,)) for word in (asked.raw, known.raw))
         yield f"it does not repeat what was written: {was} was, {came} came back"
 
 

@@ -10,8 +10,8 @@ from fieldscribe.families.modbus import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
-from fieldscribe.wording.buses import counted, spaced, units_text
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import counted, spaced, units_text
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings

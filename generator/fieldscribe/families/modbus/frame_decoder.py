@@ -21,7 +21,7 @@ from fieldscribe.families.modbus.frames import (
     without_crc,
 )
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.wording.buses import counted, no_answer_text, spaced, words_text
+from fieldscribe.wording.frames import counted, hex_words, no_answer_text, spaced
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -211,7 +211,7 @@ def _span(request: Request, words: tuple[int, ...] | None = None, *, learned: bo
 
 def _contents(request: Request, span: Span) -> tuple[Span | Item, ...]:
     if request.function == 0x08:
-        text = f"test data {words_text(span.words or ())}; the device sends it back unchanged"
+        text = f"test data {hex_words(span.words or ())}; the device sends it back unchanged"
         return (Item("", request.address, 1, text),)
     return (span,)
 

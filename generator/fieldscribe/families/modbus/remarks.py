@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FAMILY, FUNCTIONS, READS, profile_of
 from fieldscribe.text import line
-from fieldscribe.wording.buses import (
+from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import (
     check_text,
     counted,
     numbered,
@@ -16,7 +17,6 @@ from fieldscribe.wording.buses import (
     strange_unit,
     too_short,
 )
-from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -13,7 +13,7 @@ from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import fixed_text, label
-from fieldscribe.wording.buses import spaced
+from fieldscribe.wording.frames import spaced
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings

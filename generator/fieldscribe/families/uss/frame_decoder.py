@@ -23,7 +23,7 @@ from fieldscribe.families.uss.parts import (
 )
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.wording.buses import element_text, no_answer_text
+from fieldscribe.wording.frames import element_text, no_answer_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
 from fieldscribe.text import line
-from fieldscribe.wording.buses import check_text, counted, numbered, strange_unit, too_short
+from fieldscribe.wording.frames import check_text, counted, numbered, strange_unit, too_short
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

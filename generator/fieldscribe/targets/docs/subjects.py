@@ -9,7 +9,7 @@ from fieldscribe import wording
 from fieldscribe.model import Shape
 from fieldscribe.targets.docs.cells import LINE_BREAK, cell, narrow, number_cell
 from fieldscribe.wording.exact import fixed_rule
-from fieldscribe.wording.rules import Called
+from fieldscribe.wording.rules import RenamedPoints
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -39,7 +39,7 @@ class Scope(NamedTuple):
 
     device: Device
     by_name: Mapping[str, Point]
-    by_code: Called
+    by_code: RenamedPoints
     subjects: tuple[Subject, ...]
     several: bool
     """Whether facts come from several documents, so that each source names its own."""
@@ -48,7 +48,7 @@ class Scope(NamedTuple):
 def scope_of(device: Device) -> Scope:
     """The points of a device for its rows."""
     by_name = {point.name: point for point in device.points}
-    by_code = Called(by_name, _codes(device.points))
+    by_code = RenamedPoints(by_name, _codes(device.points))
     return Scope(device, by_name, by_code, tuple(_subjects(device.points, by_code)), len(device.documents) > 1)
 
 
@@ -91,7 +91,7 @@ def numbers_text(point: Point, keys: Sequence[str]) -> str:
     return " / ".join([number_cell(references.get(key, "-")) for key in keys])
 
 
-def _subjects(points: Iterable[Point], by_code: Called) -> Iterator[Subject]:
+def _subjects(points: Iterable[Point], by_code: RenamedPoints) -> Iterator[Subject]:
     shapes, kins = dict[int, object](), dict[object, int]()
     known_limits: dict[object, Limits] = {}
     for point in points:
@@ -121,9 +121,9 @@ def limits_of(point: Point, kin: int) -> object:
     return kin, id(point.allowed)
 
 
-def _limits(point: Point, by_code: Called) -> Limits:
+def _limits(point: Point, by_code: RenamedPoints) -> Limits:
     """The range without its unit, and the raw range where it says more; both call other points by their codes."""
-    raw = wording.raw_range_text(point, Called({}, by_code.called) if point.allowed.moves else None)
+    raw = wording.raw_range_text(point, RenamedPoints({}, by_code.names) if point.allowed.moves else None)
     span = wording.range_text(point, by_code, unit=False)
     return Limits(("" if point.flags else narrow(cell(span)), narrow(cell(raw)) if _has_rule(point) else ""))
 

@@ -1,4 +1,4 @@
-"""Sentences that every family needs: about units, places, and words as manuals print them."""
+"""Texts that all families use: about units, addresses, bytes and words, and replies that do not fit."""
 
 from __future__ import annotations
 
@@ -27,67 +27,67 @@ _NO_ANSWER: Mapping[str, str] = {
 
 
 def units_text(bus: Bus) -> str:
-    """Which units the device may have: `units are 1 to 32`."""
+    """Return which unit numbers the device may have: `units are 1 to 32`."""
     low, high = bus.units
     return f"units are {low} to {high}"
 
 
 def strange_unit(bus: Bus, unit: int) -> str:
-    """That no device has a unit number; empty if one may have it."""
+    """Return that the device cannot have a unit number; empty if it can."""
     low, high = bus.units
     return "" if low <= unit <= high else f"the device cannot have unit {unit}: {units_text(bus)}"
 
 
-def words_text(words: Sequence[int]) -> str:
-    """Words as manuals print them: `0001h FFFFh`."""
+def hex_words(words: Sequence[int]) -> str:
+    """Return words as manuals print them: `0001h FFFFh`."""
     return " ".join(f"{word:04X}h" for word in words)
 
 
 def counted(number: int, what: str) -> str:
-    """`1 word`, `2 words`."""
+    """Return a number with its noun: `1 word`, `2 words`."""
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def too_short(what: str, least: int, here: int) -> str:
-    """That there are fewer bytes than every frame has."""
+    """Return that there are fewer bytes than every frame has."""
     return f"{what} has at least {least} bytes, here {'is' if here == 1 else 'are'} {here}"
 
 
 def spaced(data: bytes) -> str:
-    """Bytes as manuals print them: `05 06 10 28`."""
+    """Return bytes as manuals print them: `05 06 10 28`."""
     return data.hex(" ").upper()
 
 
 def check_text(there: bytes, right: bytes) -> str:
-    """Whether a checksum is the one that the bytes give; where there is none, what it would be."""
+    """Return the result of comparing a checksum (`there`) with the computed one (`right`)."""
     if not there:
         return f"missing; it would be {spaced(right)}"
     return f"ok ({spaced(there)})" if there == right else f"wrong: {spaced(there)}; these bytes give {spaced(right)}"
 
 
 def no_answer_text(status: str, request: str = "request") -> str:
-    """Why a frame is no answer to the open request."""
+    """Return why a frame does not answer the open request."""
     return f"it does not answer the {request}: {_NO_ANSWER.get(status, status)}"
 
 
 def span_text(low: int, high: int) -> str:
-    """Addresses in both notations: `1028h (4136)`, `1013h to 1014h (4115 to 4116)`."""
+    """Return addresses in both notations: `1028h (4136)`, `1013h to 1014h (4115 to 4116)`."""
     return f"{hex_text(low)} ({low})" if low == high else f"{hex_text(low)} to {hex_text(high)} ({low} to {high})"
 
 
 def element_text(parameter: int, index: int, *, alone: bool) -> str:
-    """`parameter 1082`, `parameter 2010, index 1`; `alone`: no point there is one of several elements."""
+    """Return `parameter 1082`, or `parameter 2010, index 1`. `alone`: no point there is one of several elements."""
     beside = f", all elements (index {index})" if index == ALL_ELEMENTS else f", index {index}"
     return f"parameter {parameter}" + ("" if index == 0 and alone else beside)
 
 
 def numbered(codes: Sequence[Code], number: int) -> Code | None:
-    """The code of that number."""
+    """Return the code with that number."""
     return next((code for code in codes if code.number == number), None)
 
 
 def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -> str:
-    """Which word of a point an address is: `low word (2 of 2)`; empty for a point of one word."""
+    """Return which word of a point has an address: `low word (2 of 2)`; empty for a point of one word."""
     count = len(addresses)
     if count < 2 or address not in addresses:
         return ""
