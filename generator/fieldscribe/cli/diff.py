@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.differences.classes import CLASSES
+from fieldscribe.differences.changes import CLASSES
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -50,13 +50,15 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli.common import StopError, report_findings
     from fieldscribe.diagnostics import Report
     from fieldscribe.differences.changes import compared
-    from fieldscribe.differences.sides import opened
-    from fieldscribe.differences.table import UnfitError
+    from fieldscribe.differences.sides import EXPORT_HINT, opened
+    from fieldscribe.user_errors import UnclearError
 
     report = Report()
+    exported: list[str] = []
     try:
         with ExitStack() as stack:
             old, new = (stack.enter_context(opened(_known(side), report)) for side in (arguments.old, arguments.new))
+            exported += [side.name_of(side.file) for side in (*old.values(), *new.values()) if side.described is None]
             report_findings(report, "text")
             if not (old and new):
                 raise StopError("", code=1)
@@ -64,10 +66,15 @@ def run(arguments: Namespace) -> int:
             if arguments.keep_names and _keep_names(arguments.new, comparisons):
                 comparisons = compared(old, stack.enter_context(opened(_known(arguments.new), Report())))
             _print(arguments.format, comparisons)
-    except UnfitError as error:
+    except UnclearError as error:
         raise StopError(error.message, error.hint) from error
+    except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
+        if not exported:
+            raise
+        files = " or ".join(exported)  # strangers may have written them
+        raise StopError(f"{files} does not follow the schema of exported models", EXPORT_HINT) from error
     counted = list(CLASSES)[: _LEAST[arguments.fail_on]]
-    counts = any(difference.weight in counted for each in comparisons for difference in each.told)
+    counts = any(difference.weight in counted for each in comparisons for difference in each.differences)
     return int(counts or report.has_errors)
 
 
@@ -94,9 +101,9 @@ def _print(form: str, comparisons: list[Comparison]) -> None:
     from fieldscribe.differences.rendering import as_markdown, as_text
 
     if form == "markdown":
-        print(*as_markdown(comparisons), sep="\n")
+        print("\n".join(as_markdown(comparisons)))
     else:
-        print_lines(as_text(comparisons))
+        print_lines(list(as_text(comparisons)))
 
 
 def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:

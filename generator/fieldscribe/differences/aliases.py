@@ -60,26 +60,26 @@ def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias]
     """The old names by row, one for all points that it stands for, and the points that a row cannot give theirs."""
     aliases: dict[tuple[int, str], _Alias] = {}
     by_hand = []
-    for difference in comparison.told:
+    for difference in comparison.differences:
         if not difference.is_rename or difference.weight == "compatible" or len(difference.things) > 1:
             continue
         thing = difference.things[0]
         if thing.kind != "point" or thing.old is None or thing.new is None:
             continue
-        draft = described.draft(thing.new)
-        name, (before, _, behind) = _plain(thing.old, draft), draft.called("\0").partition("\0")
+        written = described.written(thing.new)
+        name, (before, _, behind) = _plain(thing.old, written), written.called("\0").partition("\0")
         old = name.removeprefix(before).removesuffix(behind)
-        if draft.called(old) != name:  # the record is used under another name
+        if written.called(old) != name:  # the record is used under another name
             by_hand.append((thing.new, name))
             continue
-        alias = aliases.setdefault((id(draft.row), old), _Alias(draft.row, old, []))
+        alias = aliases.setdefault((id(written.row), old), _Alias(written.row, old, []))
         alias.points.append((thing.new, name))
     return list(aliases.values()), by_hand
 
 
-def _plain(item: str, draft: PointFacts) -> str:
+def _plain(item: str, written: PointFacts) -> str:
     """The name of a point in generated code, without its variant."""
-    return item if draft.variant is None else item.removesuffix(f"_{draft.variant.value.lower()}")
+    return item if written.variant is None else item.removesuffix(f"_{written.variant.value.lower()}")
 
 
 def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], list[str]]:
@@ -107,19 +107,19 @@ def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, 
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(text.encode("utf-8"))
         report = Report()
-        subject = load_analysis(Path(copy, os.path.basename(sources[0].name)), report, with_errors=True)
-    before = {(finding.rule, finding.message) for finding in described.subject.report.findings}
+        analysis = load_analysis(Path(copy, os.path.basename(sources[0].name)), report, with_errors=True)
+    before = {(finding.rule, finding.message) for finding in described.analysis.report.findings}
     new = next((each.message for each in report.findings if (each.rule, each.message) not in before), "")
-    if subject is None or new:
+    if analysis is None or new:
         return [], new or "the description could not be read again"
-    known = {point.item: point.was for point in subject.device.points}
+    known = {point.item: point.was for point in analysis.device.points}
     pairs = [pair for alias in aliases for pair in alias.points]
     return [(item, old) for item, old in pairs if old not in known.get(item, ())], ""
 
 
 def _sources(described: Described) -> list[SourceFile]:
     """The files of a description, that of the head first."""
-    return list({id(node.file): node.file for node in described.subject.scope.files}.values())
+    return list({id(node.file): node.file for node in described.analysis.scope.files}.values())
 
 
 def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:

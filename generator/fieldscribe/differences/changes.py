@@ -5,14 +5,63 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.differences.classes import API, COMPATIBLE, DOCS, step_for
 from fieldscribe.differences.comparison import Difference, Thing, differences
-from fieldscribe.differences.symbols import Symbols
+from fieldscribe.facts.table import API, BEHAVIOUR, COMPATIBLE, DOCS, WIRE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.differences.sides import Side
+
+CLASSES = {
+    WIRE: "breaks on the wire",
+    API: "breaks code",
+    BEHAVIOUR: "changes behaviour",
+    COMPATIBLE: "is compatible",
+    DOCS: "changes the documentation",
+}
+"""The classes, the gravest first, and what such a difference does."""
+
+_STEPS = {WIRE: "major", API: "major", BEHAVIOUR: "minor", COMPATIBLE: "minor", DOCS: "patch"}
+STEPS = ("patch", "minor", "major")
+"""The steps of a version, the smallest first."""
+
+
+def step_for(classes: Iterable[str]) -> str | None:
+    """The step that differences of these classes ask for; None where there are none."""
+    asked = {_STEPS[name] for name in classes}
+    return next((step for step in reversed(STEPS) if step in asked), None)
+
+
+def next_version(version: str, step: str) -> str | None:
+    """The lowest version that takes this step; None where the version is no `1.2.3`.
+
+    Below 1.0 the middle number says what breaks, as Cargo and npm read it, and the last one everything else.
+    """
+    numbers = _numbers(version)
+    if numbers is None:
+        return None
+    major, minor, patch = numbers
+    if step == "major" and major:
+        return f"{major + 1}.0.0"
+    if step == "major" or (step == "minor" and major):
+        return f"{major}.{minor + 1}.0"
+    return f"{major}.{minor}.{patch + 1}"
+
+
+def is_taken(old: str, new: str, step: str) -> bool:
+    """Whether the way from the old version to the new one is at least that step; True where one is no `1.2.3`."""
+    least, there = next_version(old, step), _numbers(new)
+    return least is None or there is None or there >= (_numbers(least) or there)
+
+
+def _numbers(version: str) -> tuple[int, int, int] | None:
+    parts = version.split(".")
+    if len(parts) != 3 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
+        return None
+    major, minor, patch = map(int, parts)
+    return major, minor, patch
+
 
 Names = tuple[tuple[str, str], ...]
 """A thing by kinds and names, from the outside in."""
@@ -25,8 +74,8 @@ class Comparison:
         self.device, self.old, self.new = device, old, new
 
     @cached_property
-    def told(self) -> list[Difference]:
-        """The differences; what one side could not resolve is not told as gone."""
+    def differences(self) -> list[Difference]:
+        """The differences, without things that only seem to be gone because one side could not resolve them."""
         if self.old is None or self.new is None:
             names = [None if side is None else self.device for side in (self.old, self.new)]
             thing = Thing("device", *names)
@@ -38,7 +87,7 @@ class Comparison:
     @property
     def step(self) -> str | None:
         """The step that the version must take."""
-        return step_for(difference.weight for difference in self.told)
+        return step_for(difference.weight for difference in self.differences)
 
     def places(self, difference: Difference) -> dict[str, str | None]:
         """Where the fact stands on each side."""
@@ -48,27 +97,25 @@ class Comparison:
         }
 
     def symbols(self, difference: Difference) -> dict[str, list[str]]:
-        """The names in generated code, those of the old side first."""
+        """Return the names in generated code by language, those of the old side first."""
         sides = self.symbols_of_sides(difference)
         return {language: list(dict.fromkeys((*old, *new))) for language, (old, new) in sides.items()}
 
     def symbols_of_sides(self, difference: Difference) -> Mapping[str, tuple[list[str], list[str]]]:
-        """The names in generated code by language, on each side; an exported model does not know them."""
+        """Return the names in generated code by language on each side; an exported model does not know them."""
         symbols: dict[str, tuple[list[str], list[str]]] = {}
         for number, side in enumerate((self.old, self.new)):
             names = _names(difference, old=number == 0)
             if side is None or side.described is None or names is None or difference.weight == DOCS:
                 continue
-            listed = self._old_symbols if number == 0 else self._new_symbols
-            owners = side.described.owners(names, difference.fact)
-            for language, more in ({} if listed is None else listed.of(owners)).items():
-                symbols.setdefault(language, ([], []))[number].extend(dict.fromkeys(more))
+            for language, identifiers in side.described.identifiers(names, difference.fact).items():
+                symbols.setdefault(language, ([], []))[number].extend(dict.fromkeys(identifiers))
         return symbols
 
     @property
     def is_nameless(self) -> bool:
         """Whether names in code are missing in what is told."""
-        return any(self.nameless(difference) for difference in self.told)
+        return any(self.nameless(difference) for difference in self.differences)
 
     def nameless(self, difference: Difference) -> list[str]:
         """The sides whose names in code are not known: exported models, where the other side has not the same ones."""
@@ -99,14 +146,6 @@ class Comparison:
         lost = side.described.lost
         return lost is None or (thing.kind, thing.name) in lost
 
-    @cached_property
-    def _old_symbols(self) -> Symbols | None:
-        return _symbols(self.old)
-
-    @cached_property
-    def _new_symbols(self) -> Symbols | None:
-        return _symbols(self.new)
-
 
 def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
     """The devices of both sides by id, in the order of the new side, and those behind them that are gone."""
@@ -135,12 +174,12 @@ def fact_of(difference: Difference) -> str:
 
 def as_data(comparisons: list[Comparison]) -> dict[str, Any]:
     """Everything for JSON."""
-    changes = [_change(comparison, difference) for comparison in comparisons for difference in comparison.told]
+    changes = [_change(comparison, difference) for comparison in comparisons for difference in comparison.differences]
     return {"changes": changes, "step": step_for(_classes(comparisons))}
 
 
 def _classes(comparisons: list[Comparison]) -> Iterator[str]:
-    return (difference.weight for comparison in comparisons for difference in comparison.told)
+    return (difference.weight for comparison in comparisons for difference in comparison.differences)
 
 
 def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:
@@ -162,7 +201,3 @@ def _names(difference: Difference, *, old: bool) -> Names | None:
     """The thing by its names on one side; None where this side does not have it."""
     names = [(thing.kind, thing.old if old else thing.new) for thing in difference.things]
     return None if any(name is None for _, name in names) else tuple((kind, name or "") for kind, name in names)
-
-
-def _symbols(side: Side | None) -> Symbols | None:
-    return None if side is None or side.described is None else Symbols(side.described.device)

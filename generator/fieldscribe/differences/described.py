@@ -1,11 +1,16 @@
-"""The side of a comparison that is a description: its model, the places of its facts, and what did not resolve."""
+"""A description as one side of a comparison: its model, the places of its facts, and its names in generated code."""
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.identifier_places import IdentifierPlaces
+from fieldscribe.code_view import for_code
+from fieldscribe.facts.devices import device_table
+from fieldscribe.facts.table import Parts
+from fieldscribe.families import FAMILIES
+from fieldscribe.targets import TARGETS, knows, target
 from fieldscribe.targets.identifiers import Owner
 
 if TYPE_CHECKING:
@@ -17,33 +22,6 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.point_facts import PointFacts
 
-_KEYS = {
-    "address": ("at",),
-    "order of words": ("words",),
-    "base": ("numbering",),
-    "write address": ("write_at",),
-    "range": ("range", "range_in_units", "enum"),
-    "listed": ("range",),
-    "step": ("steps",),
-    "default": ("default", "default_in_units"),
-    "length": ("length", "characters"),
-    "kept": ("keep_with", "keeps"),
-    "codes of": ("special",),
-    "name of the enum": ("enum",),
-    "old names": ("was",),
-    "changes with": ("changes_with",),
-    "source": ("line", "lines", "page", "section"),
-    "bytes": ("bytes",),
-    "meaning": ("says", "with"),
-    "reason": ("why",),
-    "points": ("point", "points"),
-    "max": ("functions",),
-    "entry": ("enum",),
-    "flag": ("flags",),
-    "code": ("special", "code"),
-}
-"""The keys of a description that say a fact, where they are called otherwise than the fact."""
-
 _OF_ENUM = ("", "enum", "open", "name of the enum")
 """The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""
 
@@ -52,41 +30,50 @@ _OF_BUS = {"function": "functions", "exception": "exceptions", "response": "resp
 
 
 class Described:
-    """One description. `names` of things are given from the outside in, each with its kind."""
+    """One description. Things are given by kind and name, from the outside in."""
 
-    def __init__(self, subject: Analysis) -> None:
-        self._subject = subject
-        self.device: Device = subject.device
+    def __init__(self, analysis: Analysis) -> None:
+        self.analysis = analysis
+        self.device: Device = analysis.device
         self.points: Mapping[str, Point] = {point.item: point for point in self.device.points}
 
-    @property
-    def subject(self) -> Analysis:
-        """The description with its places."""
-        return self._subject
-
-    def draft(self, item: str) -> PointFacts:
-        """The point as the text has it."""
-        return self._subject.index.by_item(item)
+    def written(self, item: str) -> PointFacts:
+        """Return the point as the text has it."""
+        return self.analysis.index.by_item(item)
 
     @cached_property
     def _owners(self) -> IdentifierPlaces:
-        return IdentifierPlaces(self._subject)
+        return IdentifierPlaces(self.analysis)
 
     @cached_property
     def lost(self) -> frozenset[tuple[str, str]] | None:
-        """What stands in the text and did not resolve, by kind and name; None where even that is not known."""
-        if not self._subject.scope.complete:
+        """Kinds and names of what the text has and did not resolve; None where even that is not known."""
+        if not self.analysis.scope.complete:
             return None
-        drafts = self._subject.index.by_items.keys()
-        frames = {open_frame.frame.name for open_frame in self._subject.open_frames}
+        drafts = self.analysis.index.by_items.keys()
+        frames = {open_frame.frame.name for open_frame in self.analysis.open_frames}
         known_frames = {frame.name for frame in self.device.frames}
         return frozenset(
             {("point", item) for item in drafts - self.points.keys()}
             | {("frame", name) for name in frames - known_frames}
         )
 
-    def owners(self, names: tuple[tuple[str, str], ...], fact: str) -> Iterator[Owner]:
-        """The things that a difference is about, as targets know them: of the facts of an enum also the enum."""
+    def identifiers(self, names: tuple[tuple[str, str], ...], fact: str) -> dict[str, list[str]]:
+        """Return the names in generated code, by language, of what a difference is about."""
+        owners = tuple(self._owners_of(names, fact))
+        return {
+            language: [name for owner in owners for name in of_owner.get(owner, ())]
+            for language, of_owner in self._listed.items()
+        }
+
+    @cached_property
+    def _listed(self) -> Mapping[str, Mapping[Owner, Mapping[str, None]]]:
+        plain = for_code(self.device)
+        listed = {name: _names(name, plain) for name in TARGETS if knows(name, plain)}
+        return {name: names for name, names in listed.items() if names}
+
+    def _owners_of(self, names: tuple[tuple[str, str], ...], fact: str) -> Iterator[Owner]:
+        """Yield the things that a difference is about, as targets know them; for facts of an enum also the enum."""
         owner = self.owner(names)
         if owner is None:
             return
@@ -97,7 +84,7 @@ class Described:
         yield from owners if fact else reversed(owners)
 
     def owner(self, names: tuple[tuple[str, str], ...]) -> Owner | None:
-        """A thing as targets know it that give it names; None for the device as a whole."""
+        """Return a thing as targets know it; None for the device as a whole."""
         owner: Owner | None = None
         for kind, name in names:
             if kind == "entry":
@@ -109,40 +96,40 @@ class Described:
         return owner
 
     def span(self, names: tuple[tuple[str, str], ...], fact: str) -> Span | None:
-        """Where a fact stands; None where the description does not have the thing."""
+        """Return the place of a fact; None if the description does not have the thing."""
         if not names:
             return self._of_device(fact)
         (kind, name), parts = names[0], names[1:]
         if kind == "point":
-            return self._of_point(name, names, fact) if name in self._subject.index.by_items else None
+            return self._of_point(name, names, fact) if name in self.analysis.index.by_items else None
         node = next((node for node in self._nodes(kind) if name in (node.get("name"), node.get("id"))), None)
         if node is not None:
             return _said(node, fact) or node.span("name" if "name" in node else "id")
         return None if parts else self._of_key(kind, name)
 
     def _of_point(self, item: str, names: tuple[tuple[str, str], ...], fact: str) -> Span:
-        draft = self.draft(item)
-        for key in _KEYS.get(fact, (fact,)) if len(names) == 1 else ():
-            if key in draft.keys:
-                return draft.span(key)
-            if key in draft.group and fact == "base":
-                return draft.group.key_span(key)
+        written = self.written(item)
+        for key in _yaml_keys(fact) if len(names) == 1 else ():
+            if key in written.keys:
+                return written.span(key)
+            if key in written.group and fact == "base":
+                return written.group.key_span(key)
         owner = self.owner(names)
         return _found(lambda: self._owners.thing(owner).place if owner and len(names) > 1 else None) or (
-            draft.span("enum" if fact == "enum" else "flags" if fact == "flag" else None)
+            written.span("enum" if fact == "enum" else "flags" if fact == "flag" else None)
         )
 
     def _nodes(self, kind: str) -> Iterator[Map]:
-        subject = self._subject
+        analysis = self.analysis
         if kind == "frame":
-            return (open_frame.node for open_frame in subject.open_frames)
+            return (open_frame.node for open_frame in analysis.open_frames)
         if kind == "erratum":
-            return (open_erratum.node for open_erratum in subject.errata)
-        return subject.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())
+            return (open_erratum.node for open_erratum in analysis.errata)
+        return analysis.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())
 
     def _of_key(self, kind: str, name: str) -> Span | None:
-        """What is declared by a key."""
-        scope = self._subject.scope
+        """The place of what is declared by a key."""
+        scope = self.analysis.scope
         if kind == "group":
             return next((node.span("group") for node in scope.groups if node["group"] == name), None)
         if kind in _OF_BUS:
@@ -152,7 +139,7 @@ class Described:
         return holder.key_span(name) if holder and name in holder else None
 
     def _of_device(self, fact: str) -> Span:
-        scope, keys = self._subject.scope, _KEYS.get(fact, (fact,))
+        scope, keys = self.analysis.scope, _yaml_keys(fact)
         for holder in (scope.header, *([scope.bus] if scope.bus is not None else [])):
             for key in ("note",) if fact == "note of the bus" else keys:
                 if key in holder:
@@ -170,12 +157,39 @@ class Described:
 
 
 def _said(node: Map, fact: str) -> Span | None:
-    return next((node.span(key) for key in _KEYS.get(fact, (fact,)) if key in node), None)
+    return next((node.span(key) for key in _yaml_keys(fact) if key in node), None)
 
 
 def _found(place: Callable[[], Span | None]) -> Span | None:
-    """The place that something is found at; None for what only one of the sides has."""
+    """The place that the function finds; None for what only one of the sides has."""
     try:
         return place()
     except (KeyError, IndexError, StopIteration):
         return None
+
+
+def _names(name: str, plain: Device) -> Mapping[Owner, Mapping[str, None]]:
+    """All names in a language by owner, each once, in the order of the listing."""
+    by_owner: dict[Owner, dict[str, None]] = {}
+    for _, owner, names in target(name).identifiers(plain):
+        if owner.kind != "target":
+            by_owner.setdefault(owner, {}).update(dict.fromkeys(names))
+    return by_owner
+
+
+def _yaml_keys(label: str) -> tuple[str, ...]:
+    """The keys of a description that state the fact, or the parts of that kind, with this label."""
+    return _all_yaml_keys().get(label) or (label,)
+
+
+@cache
+def _all_yaml_keys() -> Mapping[str, tuple[str, ...]]:
+    keys: dict[str, tuple[str, ...]] = {}
+    views = [view for name in FAMILIES for fact in device_table(name) for view in fact.compared()]
+    while views:
+        view = views.pop()
+        if isinstance(view, Parts):
+            views += view.entries.values()
+        if view.yaml:
+            keys[view.kind if isinstance(view, Parts) else view.label] = view.yaml
+    return keys

@@ -181,10 +181,13 @@ _FRAME: Table = (
     ),
     Fact("direction", "`request`, `response` or `cyclic`.", STRING, weight=DOCS),
     Fact("answers", "The request that a response answers.", null_or(STRING), weight=DOCS, refers="frame"),
-    Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point"),
+    Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point", yaml=("says", "with")),
     Fact("valid", "False when the frame is misprinted.", BOOLEAN, weight=DOCS),
 )
-_CODE_VIEWS = (View("number", WIRE, itemgetter("number")), View("max", BEHAVIOUR, itemgetter("most")))
+_CODE_VIEWS = (
+    View("number", WIRE, itemgetter("number")),
+    View("max", BEHAVIOUR, itemgetter("most"), yaml=("functions",)),
+)
 CODE: Table = (
     NAME,
     TITLE,
@@ -209,14 +212,14 @@ ERRATUM: Table = (
         "The point it is about; a list for several; null for none.",
         {"anyOf": [STRING, list_of(STRING, 2), {"type": "null"}]},
         value=lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
-        views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point"),),
+        views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")),),
     ),
     Fact("where", "The place, in words.", STRING, value=lambda erratum, _: str(erratum.where), weight=DOCS),
     SOURCE,
     Fact("printed", "What is printed.", STRING, weight=_sentence),
     Fact("taken", "What this description takes instead.", STRING, weight=_sentence),
     Fact("facts", "The printed facts by their keys.", map_of(STRING), published=False),
-    Fact("reason", "Why.", STRING, attribute="why", weight=DOCS),
+    Fact("reason", "Why.", STRING, attribute="why", weight=DOCS, yaml=("why",)),
     Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), weight=BEHAVIOUR),
 )
 _LIMITS: Table = (

@@ -248,7 +248,15 @@ _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 NAME = Fact("name", "Its name.", STRING)
 TITLE = Fact("title", "What it means, for people.", TITLES, weight=DOCS, for_people=True)
 NOTE = Fact("note", "A remark for people; empty without one.", TITLES, weight=DOCS, for_people=True)
-SOURCE = Fact("source", "Where the manual says so.", ref("source"), value=_source, weight=DOCS, for_people=True)
+SOURCE = Fact(
+    "source",
+    "Where the manual says so.",
+    ref("source"),
+    value=_source,
+    weight=DOCS,
+    for_people=True,
+    yaml=("line", "lines", "page", "section"),
+)
 ERRATA = Fact("errata", "The errata that touch it.", list_of(STRING), derived="the errata name it")
 
 FLAG_VALUE: Table = (NAME, TITLE)
@@ -359,9 +367,17 @@ POINT: Table = (
         "addresses",
         "All words, the one that holds the high part (or the first characters) first.",
         list_of(ADDRESS),
-        views=(View("address", _settled, _address), View("order of words", WIRE, _word_order)),
+        views=(
+            View("address", _settled, _address, yaml=("at",)),
+            View("order of words", WIRE, _word_order, yaml=("words",)),
+        ),
     ),
-    Fact("references", *_REFERENCES, attribute="place.references", views=(View("base", WIRE, _base),)),
+    Fact(
+        "references",
+        *_REFERENCES,
+        attribute="place.references",
+        views=(View("base", WIRE, _base, yaml=("numbering",)),),
+    ),
     Fact(
         "places",
         "Where it is, by purpose; the first repeats `space` and `address`.",
@@ -374,7 +390,7 @@ POINT: Table = (
         "Where it is written, if that is not where it is read.",
         null_or(record({"addresses": ("As the point's own.", list_of(ADDRESS)), "references": _REFERENCES})),
         value=lambda point, _: None if point.write_place is None else _place(point.write_place),
-        views=(View("write address", WIRE, _written),),
+        views=(View("write address", WIRE, _written, yaml=("write_at",)),),
     ),
     Fact(
         "type",
@@ -396,7 +412,7 @@ POINT: Table = (
         "words",
         "How many words (or single bits) it takes.",
         COUNT,
-        views=(View("length", WIRE, _length, follows=("type",)),),
+        views=(View("length", WIRE, _length, follows=("type",), yaml=("length", "characters")),),
     ),
     Fact("access", "What the bus may do with it.", one_of("r", "w", "rw", "none"), shared="shape", weight=_access),
     Fact(
@@ -496,6 +512,7 @@ POINT: Table = (
         {"anyOf": [INTEGER, ref("number_text"), {"type": "null"}]},
         value=_default,
         weight=BEHAVIOUR,
+        yaml=("default", "default_in_units"),
     ),
     Fact(
         "default_value",
@@ -511,6 +528,7 @@ POINT: Table = (
         shared="terms",
         value=lambda point, _: [{"from": start, "step": step} for start, step in point.steps] or None,
         weight=BEHAVIOUR,
+        yaml=("steps",),
     ),
     Fact(
         "special",
@@ -519,7 +537,17 @@ POINT: Table = (
         shared="shape",
         attribute="specials",
         table=SPECIAL,
-        views=(Parts("special", "code", itemgetter("special"), SPECIAL, same_by=("raw",), added=BEHAVIOUR),),
+        views=(
+            Parts(
+                "special",
+                "code",
+                itemgetter("special"),
+                SPECIAL,
+                same_by=("raw",),
+                added=BEHAVIOUR,
+                yaml=("special", "code"),
+            ),
+        ),
     ),
     Fact(
         "special_of",
@@ -527,7 +555,7 @@ POINT: Table = (
         STRING,
         shared="shape",
         attribute="specials_of",
-        views=(View("codes of", API, itemgetter("special_of"), follows=("special",)),),
+        views=(View("codes of", API, itemgetter("special_of"), follows=("special",), yaml=("special",)),),
     ),
     Fact(
         "fixed",
@@ -552,6 +580,7 @@ POINT: Table = (
         shared="terms",
         weight=BEHAVIOUR,
         refers="point",
+        yaml=("changes_with",),
     ),
     Fact(
         "together",
@@ -587,8 +616,8 @@ POINT: Table = (
         shared="limits",
         value=_raw,
         views=(
-            View("range", BEHAVIOUR, _range, refers="point"),
-            View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type")),
+            View("range", BEHAVIOUR, _range, refers="point", yaml=("range", "range_in_units", "enum")),
+            View("listed", DOCS, lambda point: point["raw"]["values"], follows=("range", "type"), yaml=("range",)),
         ),
     ),
     Fact(
@@ -608,6 +637,7 @@ POINT: Table = (
                 same_by=("raw",),
                 added=BEHAVIOUR,
                 whole=API,
+                yaml=("enum",),
             ),
         ),
     ),
@@ -617,7 +647,7 @@ POINT: Table = (
         null_or(STRING),
         shared="shape",
         value=lambda point, _: None if (enum := _enum_of(point)) is None else enum.name,
-        views=(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",)),),
+        views=(View("name of the enum", API, itemgetter("enum_name"), follows=("enum as a whole",), yaml=("enum",)),),
     ),
     Fact(
         "enum_was",
@@ -642,7 +672,7 @@ POINT: Table = (
         list_of(ref("flag")),
         shared="shape",
         table=FLAG,
-        views=(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API),),
+        views=(Parts("flag", "flag", itemgetter("flags"), FLAG, same_by=("bits",), whole=API, yaml=("flags",)),),
     ),
     Fact(
         "digits",
@@ -668,7 +698,16 @@ POINT: Table = (
         null_or(STRING),
         shared="terms",
         attribute="keeps",
-        views=(View("kept", BEHAVIOUR, itemgetter("persistence"), follows=("access",), refers="command"),),
+        views=(
+            View(
+                "kept",
+                BEHAVIOUR,
+                itemgetter("persistence"),
+                follows=("access",),
+                refers="command",
+                yaml=("keep_with", "keeps"),
+            ),
+        ),
     ),
     Fact(
         "conditions",
@@ -686,7 +725,7 @@ POINT: Table = (
         "was",
         "Former names, which stay alive as deprecated aliases.",
         list_of(STRING),
-        views=(View("old names", grown, itemgetter("was")),),
+        views=(View("old names", grown, itemgetter("was"), yaml=("was",)),),
     ),
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, shared="terms", weight=API),
     Fact(

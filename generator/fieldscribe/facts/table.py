@@ -46,7 +46,8 @@ class View(NamedTuple):
     """What `diff` compares of an exported thing: a label, the class of a difference, and the compared value.
 
     No difference is reported if one of the labels that it `follows` differs, too. `refers` is the kind of the things
-    that the value names: a new name of such a thing is no difference.
+    that the value names: a new name of such a thing is no difference. `yaml` are the keys of a description that state
+    the fact, where they differ from the label.
     """
 
     label: str
@@ -54,6 +55,7 @@ class View(NamedTuple):
     value: Callable[[Exported], Any]
     follows: tuple[str, ...] = ()
     refers: str = ""
+    yaml: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +79,14 @@ class Parts:
     renamed: Weight = API
     whole: str = ""
     shown: Callable[[Exported], Any] = itemgetter("name")
+    yaml: tuple[str, ...] = ()
     in_code: Callable[[Exported, Exported, str, str], str] = lambda _old, _new, _label, weight: weight
+
+    @cached_property
+    def entries(self) -> Mapping[str, View | Parts]:
+        """What is compared of a part, by label."""
+        views = *(view for fact in self.table for view in fact.compared()), *self.views
+        return {view.label: view for view in views}
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +112,7 @@ class Fact:
     weight: Weight = ""
     follows: tuple[str, ...] = ()
     refers: str = ""
+    yaml: tuple[str, ...] = ()
     views: tuple[View | Parts, ...] = ()
     derived: str = ""
     published: bool = True
@@ -112,7 +122,7 @@ class Fact:
         """What `diff` compares of the fact."""
         if self.weight:
             label = self.key.replace("_", " ")
-            return View(label, self.weight, itemgetter(self.key), self.follows, self.refers), *self.views
+            return View(label, self.weight, itemgetter(self.key), self.follows, self.refers, self.yaml), *self.views
         return self.views
 
     @cached_property
