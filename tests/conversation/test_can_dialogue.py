@@ -13,10 +13,9 @@ from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.meanings import quoted_text
-from fieldscribe.families.can.frame_decoder import CanFrameDecoder, Recogniser
+from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
-from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.model import Role
 from fieldscribe.user_errors import Options, RefusedError, UnclearError
 from hypothesis import given
@@ -28,6 +27,8 @@ from support.models import named
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from fieldscribe.families.frame_results import FrameResult
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")
@@ -289,7 +290,7 @@ def test_any_frames_are_safe(frames: list[tuple[int, bytes, bytes]]) -> None:
             assert heard.as_data()
 
 
-RECOGNISER = Recogniser(DEVICE, lambda _head, _identifier: FrameResult(b"", "can", "other", None, None, ""))
+RECOGNISER = CanFrameDecoder(DEVICE)
 """It remembers what the heads of all the frames have told."""
 
 

@@ -17,7 +17,7 @@ from fieldscribe.cli import main
 from fieldscribe.export import ExportError, export_form
 from fieldscribe.families.can import of_bus
 from fieldscribe.families.can.dbc import export_dbc
-from fieldscribe.families.can.dbc_points import decimal, signals_of_point
+from fieldscribe.families.can.dbc_signals import decimal, point_signals
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit
@@ -99,7 +99,7 @@ def test_a_signal_is_written_as_the_format_has_it() -> None:
 @pytest.mark.parametrize(("last", "listed"), [(0x101F, True), (0x1020, False)], ids=["32 codes", "33 codes"])
 def test_a_long_band_of_special_codes_is_told_in_the_comment_alone(last: int, listed: bool) -> None:
     band = Special(0x1000, last, "fault", titles("Fault"), True)
-    (signal,) = signals_of_point(sample_device(), point("speed", 1, specials=(band,)), 3, joins=True)
+    ((signal, _, _),) = point_signals(sample_device(), point("speed", 1, specials=(band,)), CYCLIC)
     assert signal.values == (tuple((raw, "fault") for raw in range(0x1000, last + 1)) if listed else ())
     assert ("No quantity" in signal.comment) is not listed
 

@@ -48,7 +48,7 @@ ROOMS = (
     ("a family's own checks", "families.*.checks"),
     ("the table of contents", "pipeline"),
     ("what talks to people", "conversation audit export differences importing search"),
-    ("what a family exports alone", "families.*.dbc families.*.dbc_signals families.*.dbc_points"),
+    ("what a family exports alone", "families.*.dbc families.*.dbc_signals"),
     ("output", "output"),
     ("what a project takes", "vendoring"),
     ("a person at work on a description", "working"),

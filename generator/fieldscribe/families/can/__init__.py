@@ -17,7 +17,7 @@ USUAL_BITS = 11
 
 FAMILY = Family(
     name="can",
-    folder=__package__,
+    folder=__name__,
     spaces={"parameter": "word", "telegram": "word"},
     last_address=0xFFFF,
     bus=BusKeys((), frozenset({"bitrate"}), (0, 0)),
@@ -50,15 +50,15 @@ class CanExample(Own):
 
 
 def of_bus(bus: Bus) -> CanBus:
-    """What the family alone knows of a bus."""
+    """Return the facts of a bus that only this family has."""
     return bus.own if isinstance(bus.own, CanBus) else CanBus()
 
 
 def identifier_bits(bus: Bus) -> int:
-    """How many bits an identifier has."""
+    """Return the number of bits of an identifier."""
     return of_bus(bus).identifier_bits or USUAL_BITS
 
 
 def identifier_of(frame: Frame) -> int | None:
-    """The identifier of a worked example."""
+    """Return the identifier of a worked example; None if it has none."""
     return frame.own.identifier if isinstance(frame.own, CanExample) else None

@@ -45,7 +45,7 @@ FRAME = (
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
-    """Label and text of each fact that people must know about the line."""
+    """Yield label and text of each fact about the line."""
     own = of_bus(bus)
     if own.bitrate is not None:
         yield "Bit rate", f"{own.bitrate} bit/s"
@@ -55,12 +55,12 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:
-    """The numbers that people use for an address, whatever the manual prints."""
+    """Return other numbers that people use for an address: none."""
     del space, address  # an address is a number for people already
     return {}
 
 
 def goes_to_all(function: Code) -> bool:
-    """Whether a function may be broadcast where the description does not say so."""
-    del function  # there are no functions
+    """Return False: there are no functions."""
+    del function
     return False

@@ -1,24 +1,36 @@
-"""The messages of a CAN device for a database: the bits of each signal, and the multiplexer that selects it."""
+"""The messages and signals of a CAN database: scale, limits, names and bits of each point, and its multiplexer.
+
+`messages_of` returns what `dbc.py` writes.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
+from fieldscribe import wording
+from fieldscribe.arithmetic.lines import SAME
 from fieldscribe.export import ExportError
-from fieldscribe.families.can.dbc_points import Meaning, signals_of_point
+from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.exact import fixed_rule, hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
-    from fieldscribe.model import Device, Message, Point, Role, Telegram
-
+    from fieldscribe.model import Device, Flag, Message, Point, Telegram
 
 _MOST_NAME = 32
-_BYTES = 8
+_MOST_CODES = 32
+"""A longer band of special codes goes to the comment only: a database names single numbers."""
+_NUMBERS = {
+    "unit": ("unit", "The unit"),
+    "address": ("parameter", "The id of the parameter"),
+    "raw": ("value", "The raw word of the parameter"),
+}
+"""The names and comments of the signals of a parameter's message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +38,8 @@ class Signal:
     """A signal of a database. `switch` is (the multiplexing signal, its value); `start` is the database's start bit."""
 
     name: str
-    start: int
-    size: int
+    start: int = 0
+    size: int = 8
     big_endian: bool = True
     signed: bool = False
     factor: str = "1"
@@ -61,7 +73,7 @@ class DbcMessage:
 
 
 def messages_of(device: Device, unit: int) -> list[DbcMessage]:
-    """The messages of a database for one unit. Raises ExportError."""
+    """Return the messages of a database for one unit. Raises ExportError."""
     by_identifier: dict[tuple[int, bool], list[Message]] = {}
     for message in device.messages:
         by_identifier.setdefault((message.identifier, message.adds_unit), []).append(message)
@@ -73,151 +85,131 @@ def messages_of(device: Device, unit: int) -> list[DbcMessage]:
 
 
 def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
+    """Return the message of one identifier; if several share it, a signal `message` selects which one it is."""
     first = group[0]
     number = first.identifier + unit if first.adds_unit else first.identifier
     masters = all(message.direction == "request" for message in group)
     kinds = "requests" if masters else f"unit_{unit}_messages" if first.adds_unit else f"messages_{number:X}"
-    name = first.name if len(group) == 1 else kinds
     titles = "; ".join(f"{message.name}: {message.title['en']}" for message in group)
-    result = DbcMessage(name, number, len(first.roles), masters, line(titles))
+    result = DbcMessage(first.name if len(group) == 1 else kinds, number, len(first.roles), masters, line(titles))
     selector = _selector(group) if len(group) > 1 else None
+    signals: list[Signal] = []
     if selector is not None:
         values = tuple((message.roles[selector].number, message.name) for message in group)
-        kind = Signal("message", 8 * selector + 7, 8, values=values, switches=True)
+        low, high = str(min(values)[0]), str(max(values)[0])
         comment = f"Byte {selector} says which message it is"
-        kind = replace(kind, least=str(min(values)[0]), greatest=str(max(values)[0]), comment=comment)
-        result.signals.append(kind)
+        name, start = "message", 8 * selector + 7
+        signals = [Signal(name, start, least=low, greatest=high, comment=comment, values=values, switches=True)]
     for message in group:
         switch = None if selector is None else ("message", message.roles[selector].number)
-        result.signals += [
-            signal if signal.switch is not None else replace(signal, switch=switch)
-            for signal in _signals(device, message, unit, skip=selector)
-        ]
-    result.signals = _named(result.signals)
+        for signal in (*_head_signals(device, message, unit, selector), *_telegram_signals(device, message)):
+            signals.append(signal if signal.switch is not None else replace(signal, switch=switch))
+    names: set[str] = set()
+    shorts: set[str] = set()
+    result.signals = [
+        replace(signal, name=_unique(signal.name, names), short=_unique(signal.name, shorts, _MOST_NAME))
+        for signal in signals
+    ]
     return result
 
 
 def _selector(group: list[Message]) -> int:
-    """The byte that has a different constant in each message. Raises ExportError."""
-    for place in range(_BYTES):
-        roles = [message.roles[place] for message in group if place < len(message.roles)]
-        numbers = {role.number for role in roles if role.kind == "constant"}
-        if len(numbers) == len(group) == len(roles):
+    """Return the byte that has a different constant in each message. Raises ExportError."""
+    for place in range(LENGTH):
+        numbers = {message.roles[place].number for message in group if place in places(message, "constant")}
+        if len(numbers) == len(group):
             return place
     names = ", ".join(message.name for message in group)
     raise ExportError(f"no byte tells the messages {names} apart")
 
 
-def _signals(device: Device, message: Message, unit: int, skip: int | None) -> Iterator[Signal]:
-    """The signals of one message; those of a telegram know their multiplexer already."""
-    for kind, places in _fields(message.roles, skip):
-        roles = [message.roles[place] for place in places]
+def _head_signals(device: Device, message: Message, unit: int, selector: int | None) -> Iterator[Signal]:
+    """Yield the signals of all bytes but the selector and the words of a telegram."""
+    fields = [place for place, role in enumerate(message.roles) if place != selector and role.kind != "word"]
+    runs = groupby(enumerate(fields), lambda numbered: (message.roles[numbered[1]].kind, numbered[1] - numbered[0]))
+    for (kind, _), run in runs:
+        run_places = [place for _, place in run]
+        start, size = 8 * run_places[0] + 7, 8 * len(run_places)
         if kind == "constant":
-            for place, role in zip(places, roles, strict=True):
-                number = str(role.number)
-                comment = f"Always {hex_text(role.number, 2)}"
-                yield Signal(
-                    f"{message.name}_byte_{place}", 8 * place + 7, 8, least=number, greatest=number, comment=comment
-                )
+            for place in run_places:
+                constant, text = str(message.roles[place].number), f"Always {hex_text(message.roles[place].number, 2)}"
+                name = f"{message.name}_byte_{place}"
+                yield Signal(name, 8 * place + 7, least=constant, greatest=constant, comment=text)
         elif kind == "xor":
-            summed = "; ".join(f"byte {place} is bytes {_mask(role.number)} combined by exclusive or"
-                               for place, role in zip(places, roles, strict=True))  # fmt: skip
-            size = 8 * len(places)
-            start = 8 * places[0] + 7
-            yield Signal(f"{message.name}_checksum", start, size, comment=summed, greatest=str((1 << size) - 1))
-        elif kind in ("unit", "address", "raw"):
-            units = (unit, unit) if message.adds_unit else device.bus.units
-            yield _number(device, message, kind, places, units)
+            sums = [f"byte {place} is bytes {_bytes_of_mask(message.roles[place].number)}" for place in run_places]
+            comment = "; ".join(f"{text} combined by exclusive or" for text in sums)
+            yield Signal(f"{message.name}_checksum", start, size, greatest=str((1 << size) - 1), comment=comment)
         elif kind == "multiplexer":
             telegram = next((candidate for candidate in device.telegrams if candidate.message == message.name), None)
             slots = -(-telegram.words // message.words) if telegram is not None and message.words else 256
-            yield Signal(f"{message.name}_multiplexer", 8 * places[0] + 7, 8, greatest=str(slots - 1), switches=True,
-                         comment="Which words of the telegram follow")  # fmt: skip
-    for telegram in device.telegrams:
-        if telegram.message == message.name:
-            yield from _telegram(device, message, telegram)
+            comment = "Which words of the telegram follow"
+            name = f"{message.name}_multiplexer"
+            yield Signal(name, start, greatest=str(slots - 1), comment=comment, switches=True)
+        else:
+            units = (unit, unit) if message.adds_unit else device.bus.units
+            yield _number(device, message, kind, run_places, units)
 
 
-def _fields(roles: Sequence[Role], skip: int | None) -> Iterator[tuple[str, list[int]]]:
-    """The runs of neighbouring bytes of one kind, without the words of a telegram."""
-    places = [place for place in range(len(roles)) if place != skip and roles[place].kind != "word"]
-    for (kind, _), run in groupby(
-        enumerate(places), lambda numbered: (roles[numbered[1]].kind, numbered[1] - numbered[0])
-    ):
-        yield kind, [place for _, place in run]
-
-
-def _number(device: Device, message: Message, kind: str, places: list[int], units: tuple[int, int]) -> Signal:
-    """The signal for the unit, the parameter's id or the parameter's word."""
-    name = {"unit": "unit", "address": "parameter", "raw": "value"}[kind]
-    start, size, big = span_of({message.roles[place].number: place for place in places}, message.name)
+def _number(device: Device, message: Message, kind: str, run: list[int], units: tuple[int, int]) -> Signal:
+    """Return the signal of the unit, the parameter's id or the parameter's word."""
+    name, comment = _NUMBERS[kind]
+    start, size, big = span_of({message.roles[place].number: place for place in run}, message.name)
     low, high = units if kind == "unit" else (0, (1 << size) - 1)
     values = tuple(_parameter_names(device)) if kind == "address" else ()
-    comment = {"unit": "The unit", "address": "The id of the parameter", "raw": "The raw word of the parameter"}[kind]
-    return Signal(
-        f"{message.name}_{name}", start, size, big, least=str(low), greatest=str(high), values=values, comment=comment
-    )
+    least, greatest, name = str(low), str(high), f"{message.name}_{name}"
+    return Signal(name, start, size, big, least=least, greatest=greatest, comment=comment, values=values)
 
 
 def span_of(bytes_by_shift: dict[int, int], name: str) -> tuple[int, int, bool]:
-    """(start bit, size, big endian) of bytes, each given by its distance from bit 0. Raises ExportError."""
+    """Return (start bit, size, big endian) of bytes, each given by its distance from bit 0. Raises ExportError."""
     shifts = sorted(bytes_by_shift, reverse=True)
-    places = [bytes_by_shift[shift] for shift in shifts]
-    size = 8 * len(places)
+    run = [bytes_by_shift[shift] for shift in shifts]
+    size = 8 * len(run)
     if shifts != list(range(size - 8, -8, -8)):
         raise ExportError(f"message {name}: a number has a hole between its bytes")
-    if all(after == before + 1 for before, after in pairwise(places)):
-        return 8 * places[0] + 7, size, True
-    if all(after == before - 1 for before, after in pairwise(places)):
-        return 8 * places[-1], size, False
+    if all(after == before + 1 for before, after in pairwise(run)):
+        return 8 * run[0] + 7, size, True
+    if all(after == before - 1 for before, after in pairwise(run)):
+        return 8 * run[-1], size, False
     raise ExportError(f"message {name}: a number lies in bytes that are not neighbours")
 
 
 def _parameter_names(device: Device) -> Iterator[tuple[int, str]]:
-    """The names of parameters by id: all names where several share a word; with the number of the word for texts."""
+    """Yield the names of parameters by id: all names if several share a word; with the number of the word for texts."""
     names: dict[int, dict[str, None]] = {}
     for point in device.points:
-        if point.space != "parameter" or not point.generated:
-            continue
-        for place, address in enumerate(point.addresses, 1):
-            part = f" {place}" if len(point.addresses) > 1 else ""
-            names.setdefault(address, {})[point.name + part] = None
+        if point.space == "parameter" and point.generated:
+            for place, address in enumerate(point.addresses, 1):
+                part = f" {place}" if len(point.addresses) > 1 else ""
+                names.setdefault(address, {})[point.name + part] = None
     for address in sorted(names):
         yield address, ", ".join(names[address])
 
 
-def _telegram(device: Device, message: Message, telegram: Telegram) -> Iterator[Signal]:
-    """The signals for the points of a telegram."""
-    taken: dict[tuple[int, int], str] = {}
-    multiplexed = any(role.kind == "multiplexer" for role in message.roles)
-    for point in _points(device, telegram):
-        for meaning in signals_of_point(device, point, message.words, joins=_joins(message)):
-            slot, word = divmod(meaning.address, message.words)
-            bits = {(slot, 16 * word + bit) for bit in range(16 * meaning.words)}
-            if meaning.bits is not None:
-                bits = {(slot, 16 * word + bit) for bit in range(meaning.bits[1], meaning.bits[0] + 1)}
-            other = next((taken[bit] for bit in sorted(bits) if bit in taken), None)
-            if other is not None:
-                raise ExportError(f"{meaning.name} and {other} share bits; choose with --variant")
-            taken.update(dict.fromkeys(bits, meaning.name))
-            yield _placed(message, meaning, word, (f"{message.name}_multiplexer", slot) if multiplexed else None)
-    for address in range(telegram.words):
-        slot, word = divmod(address, message.words)
-        if not any((slot, 16 * word + bit) in taken for bit in range(16)):
-            name, comment = f"{telegram.name}_word_{address}", "No point is described here"
-            meaning = Meaning(name, address, 1, None, False, "1", "0", "0", "65535", "", comment, ())
-            yield _placed(message, meaning, word, (f"{message.name}_multiplexer", slot) if multiplexed else None)
-
-
-def _joins(message: Message) -> bool:
-    """Whether the words of a frame lie side by side with the high byte first, as in one big-endian number."""
-    places = [place for place, role in enumerate(message.roles) if role.kind == "word"]
-    numbers = [message.roles[place].number for place in places]
-    return numbers == list(range(len(numbers))) and places[-1] - places[0] == len(places) - 1
+def _telegram_signals(device: Device, message: Message) -> Iterator[Signal]:
+    """Yield the signals of the points of a telegram, and of its words without a point."""
+    for telegram in (telegram for telegram in device.telegrams if telegram.message == message.name):
+        taken: dict[tuple[int, int], str] = {}
+        for point in _points(device, telegram):
+            for signal, address, words in point_signals(device, point, message):
+                slot, word = divmod(address, message.words)
+                high, low = point.bits or (16 * words - 1, 0)
+                bits = [(slot, 16 * word + bit) for bit in range(low, high + 1)]
+                other = next((taken[bit] for bit in bits if bit in taken), None)
+                if other is not None:
+                    raise ExportError(f"{signal.name} and {other} share bits; choose with --variant")
+                taken.update(dict.fromkeys(bits, signal.name))
+                yield _placed(message, signal, address, words, point.bits)
+        for address in range(telegram.words):
+            slot, word = divmod(address, message.words)
+            if not any((slot, 16 * word + bit) in taken for bit in range(16)):
+                comment = "No point is described here"
+                signal = Signal(f"{telegram.name}_word_{address}", greatest="65535", comment=comment)
+                yield _placed(message, signal, address, 1, None)
 
 
 def _points(device: Device, telegram: Telegram) -> Iterator[Point]:
-    """The points of a telegram, also reserved ones; of variants that mean the same only the first."""
+    """Yield the points of a telegram, also reserved ones; of variants with the same facts only the first."""
     seen: dict[str, Point] = {}
     for point in device.points:
         if point.telegram != telegram.name or not point.addresses:
@@ -229,43 +221,118 @@ def _points(device: Device, telegram: Telegram) -> Iterator[Point]:
         yield point
 
 
-def _placed(message: Message, meaning: Meaning, word: int, switch: tuple[str, int] | None) -> Signal:
-    """The signal at its bits in the frame."""
-    bytes_of = {16 * (meaning.words - 1 - (role.number // 2 - word)) + (0 if role.number & 1 else 8): place
-                for place, role in enumerate(message.roles)
-                if role.kind == "word" and word <= role.number // 2 < word + meaning.words}  # fmt: skip
-    if meaning.bits is None:
+def point_signals(device: Device, point: Point, message: Message) -> Iterator[tuple[Signal, int, int]]:
+    """Yield the signals of a point without their bits, each with its first word and its number of words.
+
+    A point has one signal for each word where a database cannot join its words: they lie in two frames or in falling
+    order, or are no big-endian integer.
+    """
+    addresses, per_frame = point.addresses, message.words
+    comment = _comment(device, point)
+    in_order = addresses == tuple(range(addresses[0], addresses[0] + len(addresses)))
+    joins = point.words == 1 or (_words_join(message) and not point.info.floating and point.text is None)
+    if in_order and joins and addresses[0] // per_frame == addresses[-1] // per_frame:
+        yield _scaled_signal(point, comment), addresses[0], point.words
+        return
+    count = len(addresses)
+    for place, address in enumerate(addresses):
+        name = ("high", "low")[place] if count == 2 else f"word_{place + 1}"
+        remark = f"{comment}. Word {place + 1} of {count}, the high part first; a database cannot put them together"
+        yield Signal(f"{point.name}_{name}", greatest="65535", comment=line(remark)), address, 1
+
+
+def _words_join(message: Message) -> bool:
+    """Return True if the words of a frame lie side by side with the high byte first, as one big-endian number."""
+    run = places(message, "word")
+    return [message.roles[place].number for place in run] == list(range(len(run))) and run[-1] - run[0] == len(run) - 1
+
+
+def _scaled_signal(point: Point, comment: str) -> Signal:
+    rule = fixed_rule(point) if point.generated else None
+    multiply, add, divide = exact = rule or SAME
+    least, greatest = sorted(map(exact.result, wording.outer_raw(point) or (point.least, point.greatest)))
+    return Signal(
+        point.name,
+        signed=point.info.signed,
+        factor=decimal(Fraction(multiply, divide)),
+        offset=decimal(Fraction(add, divide)),
+        least=decimal(least),
+        greatest=decimal(greatest),
+        unit=point.unit.symbol if rule is not None else "",
+        comment=comment,
+        values=tuple(_names(point)),
+    )
+
+
+def _placed(message: Message, signal: Signal, address: int, words: int, bits: tuple[int, int] | None) -> Signal:
+    """Return the signal at its bits in the frame, with the multiplexer value that selects it."""
+    slot, word = divmod(address, message.words)
+    bytes_of = {
+        16 * (words - 1 - (role.number // 2 - word)) + (0 if role.number & 1 else 8): place
+        for place, role in enumerate(message.roles)
+        if role.kind == "word" and word <= role.number // 2 < word + words
+    }
+    if bits is None:
         start, size, big = span_of(bytes_of, message.name)
     else:
-        high, low = meaning.bits
-        size = high - low + 1
+        high, low = bits
+        size, big = high - low + 1, True
         if high >> 3 == low >> 3:
-            start, big = 8 * bytes_of[high & 8] + (high & 7), True
+            start = 8 * bytes_of[high & 8] + (high & 7)
         else:
             _, _, big = span_of(bytes_of, message.name)
             start = 8 * bytes_of[8] + (high & 7) if big else 8 * bytes_of[0] + low
-    return Signal(
-        meaning.name, start, size, big, meaning.signed, meaning.factor, meaning.offset, meaning.least, meaning.greatest,
-        meaning.unit, meaning.comment, meaning.values, switch,
-    )  # fmt: skip
+    switch = (f"{message.name}_multiplexer", slot) if carries(message, "multiplexer") else None
+    return replace(signal, start=start, size=size, big_endian=big, switch=switch)
 
 
-def _mask(mask: int) -> str:
-    return ", ".join(str(place) for place in range(_BYTES) if mask >> place & 1)
+def decimal(number: Fraction) -> str:
+    """Return a number as databases write it: the shortest decimal of the nearest binary64."""
+    return str(number.numerator) if number.denominator == 1 else repr(float(number))
 
 
-def _named(signals: list[Signal]) -> list[Signal]:
-    """The signals, each with a unique name and a unique short name."""
-    names: set[str] = set()
-    shorts: set[str] = set()
-    return [
-        replace(signal, name=_unique(signal.name, names), short=_unique(signal.name, shorts, _MOST_NAME))
-        for signal in signals
-    ]
+def _names(point: Point) -> Iterator[tuple[int, str]]:
+    """Yield the names of single numbers: special codes, then entries of the enum."""
+    names: dict[int, str] = {}
+    for special in point.specials if not point.info.floating else ():
+        if special.high - special.low < _MOST_CODES:
+            names.update(dict.fromkeys(range(special.low, special.high + 1), special.name))
+    for entry in point.enum.entries if point.enum is not None else ():
+        names.setdefault(entry.raw, entry.name)
+    yield from names.items()
+
+
+def _comment(device: Device, point: Point) -> str:
+    """Return the title, and facts that a database has no place for: rules that need other points, bits of a word."""
+    parts = [point.title["en"]]
+    if not point.generated:
+        parts.append(f"Raw: {point.reason or 'the manual leaves it open'}")
+    elif fixed_rule(point) is None:
+        by_name = {named.name: named for named in device.points}
+        parts.append(f"Raw: the value is {wording.scale_text(point, by_name)}")
+    parts += [_flag_text(flag, point) for flag in point.flags]
+    for special in point.specials:
+        if point.info.floating or special.high - special.low >= _MOST_CODES or len(point.addresses) > 1:
+            parts.append(f"No quantity: {wording.special_numbers(special, point.width)} {special.name}")
+    if point.references:
+        parts.append("In the manual: " + ", ".join(f"{key} {number}" for key, number in point.references.items()))
+    return line(". ".join(parts))
+
+
+def _flag_text(flag: Flag, point: Point) -> str:
+    """Return a flag with the meaning of its numbers: `bits 7..6 fault_class_3: 0 Inactive, 3 Active`."""
+    head = f"{'bit' if flag.width == 1 else 'bits'} {wording.flag_bits(flag, point)} {flag.name}"
+    if flag.values:
+        return f"{head}: " + ", ".join(f"{value.raw} {value.title['en']}" for value in flag.values)
+    return head + (", true when 0" if flag.width == 1 and flag.active == 0 else "")
+
+
+def _bytes_of_mask(mask: int) -> str:
+    return ", ".join(str(place) for place in range(LENGTH) if mask >> place & 1)
 
 
 def _unique(name: str, taken: set[str], most: int | None = None) -> str:
-    """A unique name, at most so long; it gets a number if another has it."""
+    """Return a name that is not taken, at most so long; it gets a number if another has it."""
     free_name, count = name[:most], 1
     while free_name in taken:
         count += 1

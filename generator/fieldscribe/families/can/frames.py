@@ -1,4 +1,4 @@
-"""Messages of a CAN device: building their frames, and reading frames back. Pure functions, no I/O."""
+"""Messages of a CAN device: builds their frames, and reads frames as messages. Pure functions, no I/O."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
     from fieldscribe.model import Message, Role
 
 LENGTH = 8
-"""How many bytes every message of this family has."""
+"""The number of bytes of every message of this family."""
 _WORD = 0xFFFF
 _STATUSES = {"constant": "wrong_constant", "unit": "wrong_unit"}
-"""What is wrong with a frame whose bytes of this role differ."""
+"""The status of a frame whose bytes of this role differ."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Parsed:
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A byte that a message cannot have: its place, the kind of its role, what is here and what is due."""
+    """A wrong byte of a message: its place, the kind of its role, the byte found and the byte expected."""
 
     place: int
     kind: str
@@ -45,12 +45,12 @@ class Difference:
 
 
 def identifier(message: Message, unit: int) -> int:
-    """The identifier that carries a message to or from a unit."""
+    """Return the identifier that carries a message to or from a unit."""
     return message.identifier + unit if message.adds_unit else message.identifier
 
 
 def checksum(data: Sequence[int], mask: int) -> int:
-    """The exclusive or of the bytes that `mask` selects."""
+    """Return the exclusive or of the bytes that `mask` selects."""
     result = 0
     for place, byte in enumerate(data):
         if mask >> place & 1:
@@ -59,17 +59,26 @@ def checksum(data: Sequence[int], mask: int) -> int:
 
 
 def places(message: Message, kind: str) -> list[int]:
-    """The bytes of the message with a role of this kind."""
+    """Return the places of the bytes with a role of this kind."""
     return [place for place, role in enumerate(message.roles) if role.kind == kind]
 
 
 def carries(message: Message, kind: str) -> bool:
-    """Whether any byte of the message has a role of this kind."""
+    """Return True if any byte of the message has a role of this kind."""
     return bool(places(message, kind))
 
 
+def request_and_answer(messages: Sequence[Message], *, writes: bool) -> tuple[Message | None, Message | None]:
+    """Return the request that reads or writes a parameter, and its answer; None for what the device lacks."""
+    for request in messages:
+        asks = request.direction == "request" and carries(request, "address")
+        if asks and carries(request, "raw") == writes:
+            return request, next((message for message in messages if message.answers == request.name), None)
+    return None, None
+
+
 def carried(message: Message, frame: CanFrame, kind: str) -> int:
-    """The number that the bytes with a role of this kind make up."""
+    """Return the number in the bytes with a role of this kind."""
     bytes_by_role = zip(message.roles, frame.data, strict=False)
     return sum(
         byte << (0 if kind == "multiplexer" else role.number) for role, byte in bytes_by_role if role.kind == kind
@@ -77,14 +86,14 @@ def carried(message: Message, frame: CanFrame, kind: str) -> int:
 
 
 def unit_of(message: Message, frame: CanFrame) -> int | None:
-    """The unit that a frame says it is to or from, by its identifier or its bytes; None where neither tells."""
+    """Return the unit that sends or receives a frame, by its identifier or its bytes; None if neither gives it."""
     if message.adds_unit:
         return frame.id - message.identifier
     return carried(message, frame, "unit") if carries(message, "unit") else None
 
 
 def telegram_words(message: Message, frame: CanFrame) -> dict[int, int]:
-    """The words of a telegram that a frame brings, by their position in the telegram."""
+    """Return the words of a telegram in a frame, by their position in the telegram."""
     first = carried(message, frame, "multiplexer") * message.words
     words: dict[int, int] = {}
     for role, byte in zip(message.roles, frame.data, strict=True):
@@ -95,7 +104,7 @@ def telegram_words(message: Message, frame: CanFrame) -> dict[int, int]:
 
 
 def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:
-    """The frame of a message; (status, an empty frame) when it must not be sent.
+    """Return ("ok", the frame of a message), or (status, an empty frame) if it must not be sent.
 
     The first failure wins: `bad_unit` (outside `units`), `bad_address` and `bad_value` (not 16 bits).
     """
@@ -120,7 +129,7 @@ def _byte(role: Role, unit: int, address: int, raw: int) -> int:
 
 
 def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Difference, ...]:
-    """The bytes of a frame of the right length that this message of this unit cannot have, whatever its checksum."""
+    """Return the bytes of a frame of the right length that this message of this unit cannot have; no checksums."""
     result = []
     for place, (role, here) in enumerate(zip(message.roles, frame.data, strict=True)):
         if role.kind in _STATUSES:
@@ -130,13 +139,13 @@ def differences(message: Message, unit: int, frame: CanFrame) -> tuple[Differenc
 
 
 def sums(message: Message, data: bytes) -> tuple[bytes, bytes]:
-    """The checksums in the data of a message, and those that its other bytes give."""
+    """Return the checksums in the data of a message, and those that its other bytes give."""
     masks = {place: message.roles[place].number for place in places(message, "xor")}
     return bytes([data[place] for place in masks]), bytes([checksum(data, mask) for mask in masks.values()])
 
 
 def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
-    """The frame read as this message of this unit. Any bytes at any length are safe; the first failure wins.
+    """Return the frame as this message of this unit. Any bytes at any length are safe; the first failure wins.
 
     `wrong_id`, `wrong_length` (not 8 bytes), `wrong_constant`, `wrong_unit`, `wrong_check`.
     """

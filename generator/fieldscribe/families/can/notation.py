@@ -1,4 +1,4 @@
-"""CAN frames as people paste them: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
+"""Reads and writes CAN frames as text: `321#DD00051513880064`, lines of candump, bytes for a known identifier."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _REMOTE = re.compile(r"[Rr][0-8]?|remote request")
 
 @dataclass(frozen=True, slots=True)
 class Pasted:
-    """A frame, when and where it was captured, and whether it only asks for data."""
+    """A frame with the time and the bus of its capture; `remote` frames only ask for data."""
 
     frame: CanFrame
     stamp: str = ""
@@ -50,18 +50,18 @@ class Pasted:
 
     @property
     def details(self) -> dict[str, object]:
-        """When and where the frame was captured, for JSON."""
+        """The time and the bus of the capture, for JSON."""
         return {"time": self.stamp.strip("()") or None, "interface": self.bus or None}
 
 
 def frame_text(frame: CanFrame, *, remote: bool = False) -> str:
-    """A frame as candump and cansend write it."""
+    """Return a frame as candump and cansend write it."""
     identifier = "%03X" % frame.id if frame.id <= 0x7FF else "%08X" % frame.id  # noqa: UP031  # a stream has millions
     return f"{identifier}#{'R' if remote else frame.data.hex().upper()}"
 
 
 def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
-    """The frames in the arguments, one on each line; `known` is the identifier of bare bytes. Raises UnclearError."""
+    """Return the frames in the arguments, one a line; `known` is the identifier of bare bytes. Raises UnclearError."""
     if len(texts) == 1 and texts[0].isprintable() and (match := _LOGGED.fullmatch(texts[0])):
         return [_matched(match)]
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
@@ -71,12 +71,12 @@ def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
 
 
 def _frames_of_line(line: str) -> list[str]:
-    """The frames in one argument; the line as it is if it is not made of frames alone."""
+    """Return the frames in one argument; the whole line if it holds anything else."""
     return [match[0].strip() for match in _BEHIND.finditer(line)] if _SEVERAL.fullmatch(line) else [line]
 
 
 def read_identifier(text: str) -> int:
-    """An identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
+    """Return an identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
     match = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
     if match is None or int(match[1], 16) > MOST_IDENTIFIER:
         raise UnclearError(f"`{quoted(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
@@ -84,7 +84,7 @@ def read_identifier(text: str) -> int:
 
 
 def _joined(texts: Sequence[str]) -> Iterable[str]:
-    """The arguments; pieces of one line are joined again where somebody forgot the quotes."""
+    """Return the arguments; pieces of one line are joined again if the user forgot the quotes."""
     if len(texts) == 1 or not any("#" in text for text in texts):
         return rejoined(texts, 2)
     return _lines_of_pieces(list(texts))
@@ -107,7 +107,7 @@ def _frame(line: str, known: int | None) -> Pasted:
 
 
 def _matched(match: re.Match[str]) -> Pasted:
-    """The frame in a line of candump. Raises UnclearError."""
+    """Return the frame in a line of candump. Raises UnclearError."""
     stamp, bus, digits, data = match.group("stamp", "bus", "id", "data")
     number = int(digits, 16)
     if number > MOST_IDENTIFIER:

@@ -1,4 +1,4 @@
-"""Collects the frames of a multiplexed telegram, and tells which of its words belong together."""
+"""Collects the frames of a multiplexed telegram, and returns words that belong together."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class _Slot:
 
 
 class Receiver:
-    """Takes the frames of a telegram of one unit, and gives the words that have come."""
+    """Takes the frames of one unit's telegram, and returns the words that have come."""
 
     def __init__(self, telegram: Telegram, message: Message, unit: int) -> None:
         self.message = message
@@ -39,11 +39,11 @@ class Receiver:
         self._own = itemgetter(*[at.get(number, -1) for word in words for number in (2 * word, 2 * word + 1)])
         firsts = range(0, telegram.words, self.per_frame)
         self.positions = [range(first, min(first + self.per_frame, telegram.words)) for first in firsts]
-        """The words of the telegram that a frame with each multiplexer brings."""
+        """The positions of the words that a frame with each multiplexer brings."""
         self._slots = [_Slot() for _ in firsts]
 
     def take(self, frame: CanFrame) -> bool:
-        """Whether the frame belongs to the telegram; if so its words are kept."""
+        """Keep the words of a frame; return False if it does not belong to the telegram."""
         place = self._place(frame)
         if place is None:
             return False
@@ -51,7 +51,7 @@ class Receiver:
         return True
 
     def keep(self, place: int, frame: CanFrame) -> tuple[int, ...]:
-        """Keep the words of a sound frame of the telegram, whose multiplexer is `place`, and give them."""
+        """Keep and return the words of a sound frame of the telegram, whose multiplexer is `place`."""
         self._clock += 1
         slot = self._slots[place]
         slot.words_before, slot.before = slot.words, slot.at
@@ -60,14 +60,14 @@ class Receiver:
         return slot.words
 
     def _place(self, frame: CanFrame) -> int | None:
-        """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
+        """Return the slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
         if parse(self.message, self.unit, frame).status != "ok":
             return None
         place = carried(self.message, frame, "multiplexer")
         return place if place < len(self._slots) else None
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
-        """The words at these positions, the high one first: ("ok", words), or "missing" or "torn" without words.
+        """Return the words at these positions, the high one first: ("ok", words), or "missing" or "torn" without words.
 
         Two words from two frames belong together if the same high word came before and after the low one. More than two
         words, such as a text, are given as they came last.

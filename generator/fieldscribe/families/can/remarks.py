@@ -1,4 +1,4 @@
-"""Sentences about CAN frames for people: which message one is, and what is unusual about it."""
+"""Sentences about CAN frames: the message, faults, findings and notes."""
 
 from __future__ import annotations
 
@@ -7,35 +7,35 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
+from fieldscribe.wording.buses import strange_unit, hex_words
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import hex_words, strange_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from fieldscribe.families.can.frame_decoder import Asked, Head
+    from fieldscribe.families.can.frame_decoder import Head, ParameterWord
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.model import Bus, Device, Message, Telegram
 
 DAMAGED = "its words are not read, for the frame is damaged"
 
 
-def message_text(recognised: Head, identifier: int, telegram: Telegram | None) -> str:
-    """A frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
-    message = recognised.message
-    unit = "" if recognised.unit is None else f", unit {recognised.unit}"
-    head = f"CAN {hex_text(identifier, 3)}{unit}, {message.name}"
-    if recognised.address is not None:
-        return f"{head}: parameter {address_text(recognised.address)}"
+def message_text(head: Head, identifier: int, telegram: Telegram | None) -> str:
+    """Return a frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
+    message = head.message
+    unit = "" if head.unit is None else f", unit {head.unit}"
+    name = f"CAN {hex_text(identifier, 3)}{unit}, {message.name}"
+    if head.address is not None:
+        return f"{name}: parameter {address_text(head.address)}"
     if telegram is None:
-        return line(f"{head}: {message.title['en']}")
-    first = recognised.slot * message.words
-    where = f"multiplexer {recognised.slot}, " if carries(message, "multiplexer") else ""
-    return f"{head}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
+        return line(f"{name}: {message.title['en']}")
+    first = head.slot * message.words
+    where = f"multiplexer {head.slot}, " if carries(message, "multiplexer") else ""
+    return f"{name}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
 
 
 def foreign_note(device: Device) -> str:
-    """Which identifiers the messages have: `33Fh read_request, write_request; 320h to 33Eh visualisation, ...`."""
+    """Return the identifiers of the messages: `33Fh read_request, write_request; 320h to 33Eh visualisation, ...`."""
     low, high = device.bus.units
     names: dict[str, list[str]] = {}
     for message in device.messages:
@@ -47,34 +47,34 @@ def foreign_note(device: Device) -> str:
     return f"no message of {device.id} has this identifier: {known}"
 
 
-def faults(recognised: Head, bus: Bus) -> Iterator[str]:
-    """What is wrong with a frame as this message."""
-    if recognised.foreign:
-        yield strange_unit(bus, recognised.unit or 0)
-    for byte in recognised.differences:
+def faults(head: Head, bus: Bus) -> Iterator[str]:
+    """Yield what is wrong with a frame as this message."""
+    if head.foreign:
+        yield strange_unit(bus, head.unit or 0)
+    for byte in head.differences:
         here, due = hex_text(byte.here, 2), hex_text(byte.due, 2)
         yield f"byte {byte.place} is {here}, in this message it is {due}"
-    if recognised.wrong_sum:
+    if head.wrong_sum:
         yield "the checksum is wrong"
 
 
 def multiplexer_finding(message: Message, telegram: Telegram) -> str:
-    """That a telegram has no words at a multiplexer."""
+    """Return the finding that a telegram has no words at a multiplexer."""
     last = -(-telegram.words // max(1, message.words)) - 1
     return f"the manual knows multiplexers 0 to {last} only"
 
 
-def answer_findings(asked: Asked, known: Asked) -> Iterator[str]:
-    """How an answer contradicts the request before it."""
-    if asked.address != known.address:
-        yield f"the request before asked for parameter {asked.address}, this answers {known.address}"
-    elif asked.raw is not None and asked.raw != known.raw:
-        was, came = (hex_words((word or 0,)) for word in (asked.raw, known.raw))
+def answer_findings(asked: ParameterWord, answered: ParameterWord) -> Iterator[str]:
+    """Yield how an answer contradicts the request before it."""
+    if asked.address != answered.address:
+        yield f"the request before asked for parameter {asked.address}, this answers {answered.address}"
+    elif asked.raw is not None and asked.raw != answered.raw:
+        was, came = (hex_words((word or 0,)) for word in (asked.raw, answered.raw))
         yield f"it does not repeat what was written: {was} was, {came} came back"
 
 
 def unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
-    """Why a frame is none of the messages with its identifier."""
+    """Return why a frame is none of the messages with its identifier."""
     frame = pasted.frame
     if pasted.remote:
         return "a remote request carries no data, and the manual knows none"
