@@ -1,11 +1,11 @@
-"""The frames that read and write parameters."""
+"""Builds the CAN frames that read and write points, for `encode` and as examples for `explain`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
-from fieldscribe.families.can.frames import CanFrame, build, carries, identifier
+from fieldscribe.families.can.frames import CanFrame, build, carries, identifier, request_and_answer
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.pasted_numbers import number_of
@@ -19,25 +19,54 @@ if TYPE_CHECKING:
     from fieldscribe.user_errors import Options
 
 
-def request_of(device: Device, *, writes: bool) -> Message | None:
-    """The message that asks for a parameter, or that changes one."""
-    asking = (message for message in device.messages if message.direction == "request" and carries(message, "address"))
-    return next((message for message in asking if carries(message, "raw") == writes), None)
+def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
+    """Return the frames that write a raw number. Raises RefusedError, UnclearError.
+
+    A bit group is put into the word of `--with-word`.
+    """
+    del settings  # a message carries one parameter alone
+    word_text: str | None = options.own.get("with_word")
+    if point.bits is None:
+        if word_text is not None:
+            raise UnclearError(f"{label(point)} takes its whole word", "--with-word is for bit groups")
+        count = len(point.addresses)
+        notes = [f"a text takes {count} messages, one for each word"] if point.text is not None and count > 1 else []
+        return BuiltFrames(write_frames(device, point, words_of(point, raw), options.unit), tuple(notes))
+    if word_text is None:
+        mask = group_mask(point)
+        request = read_frame(device, point.addresses[0], options.unit) if point.addresses else ""
+        raise RefusedError(
+            "shared_word",
+            f"{label(point)} shares its word with other points, so it takes the word that is there now",
+            f"read it ({request}) and say --with-word WORD: the bits of mask {hex_text(mask)} in it are replaced",
+        )
+    word = insert(point, _word(word_text), raw)
+    notes = [f"the other bits stay as in {word_text.strip()}: the word becomes {hex_text(word)}"]
+    if point.fixed is not None:
+        notes.append(f"the word has bits that are always written so: {fixed_text(point)}")
+    return BuiltFrames(write_frames(device, point, (word,), options.unit), tuple(notes))
+
+
+def _word(text: str) -> int:
+    digits = text.strip()
+    number = number_of(f"0{digits}" if digits[-1:] in ("h", "H") else digits)
+    if number is None or number > 0xFFFF:
+        raise UnclearError(f"--with-word: `{quoted(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
+    return number
 
 
 def read_frame(device: Device, address: int, unit: int | None = None) -> str:
-    """The request that asks for a parameter; empty if there is no such message."""
-    message = request_of(device, writes=False)
+    """Return the request that reads a parameter; empty if there is no such message."""
+    message, _ = request_and_answer(device.messages, writes=False)
     if message is None:
         return ""
-    chosen = device.bus.usual_unit if unit is None else unit
-    status, frame = build(message, device.bus.units, chosen, address, 0)
+    status, frame = build(message, device.bus.units, device.bus.usual_unit if unit is None else unit, address, 0)
     return frame_text(frame) if status == "ok" else ""
 
 
 def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int | None) -> tuple[str, ...]:
-    """A request for each word of a point. Raises RefusedError."""
-    message = request_of(device, writes=True)
+    """Return a request for each word of a point. Raises RefusedError."""
+    message, _ = request_and_answer(device.messages, writes=True)
     if message is None or point.space != "parameter":
         raise refused(device.bus, point, "no_message")
     chosen = device.bus.usual_unit if unit is None else unit
@@ -50,55 +79,19 @@ def write_frames(device: Device, point: Point, words: tuple[int, ...], unit: int
     return tuple(frames)
 
 
-def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:
-    """The frames that write a raw number; a bit group is put into the word of `--with-word`. Raises RefusedError."""
-    del settings  # a message carries one parameter alone
-    there: str | None = options.own.get("with_word")
-    if point.bits is None:
-        if there is not None:
-            raise UnclearError(f"{label(point)} takes its whole word", "--with-word is for bit groups")
-        return BuiltFrames(write_frames(device, point, words_of(point, raw), options.unit), _text_note(point))
-    if there is None:
-        mask = group_mask(point)
-        ask = read_frame(device, point.addresses[0], options.unit) if point.addresses else ""
-        raise RefusedError(
-            "shared_word",
-            f"{label(point)} shares its word with other points, so it takes the word that is there now",
-            f"read it ({ask}) and say --with-word WORD: the bits of mask {hex_text(mask)} in it are replaced",
-        )
-    word = insert(point, _word(there), raw)
-    notes = [f"the other bits stay as in {there.strip()}: the word becomes {hex_text(word)}"]
-    if point.fixed is not None:
-        notes.append(f"the word has bits that are always written so: {fixed_text(point)}")
-    return BuiltFrames(write_frames(device, point, (word,), options.unit), tuple(notes))
-
-
-def _text_note(point: Point) -> tuple[str, ...]:
-    count = len(point.addresses)
-    return (f"a text takes {count} messages, one for each word",) if point.text is not None and count > 1 else ()
-
-
-def _word(text: str) -> int:
-    asked = text.strip()
-    number = number_of(f"0{asked}" if asked[-1:] in ("h", "H") else asked)
-    if number is None or number > 0xFFFF:
-        raise UnclearError(f"--with-word: `{quoted(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
-    return number
-
-
 def read_text(device: Device, point: Point) -> str:
-    """How to read the point, by a request or from a telegram; empty if it cannot be read."""
+    """Return how to read the point, by a request or from a telegram; empty if it cannot be read."""
     if point.telegram is not None:
         return _telegram_text(device, point)
-    message = request_of(device, writes=False)
+    message, _ = request_and_answer(device.messages, writes=False)
     if message is None:
         return ""
     return f"{_messages_text(point, message)}to unit {device.bus.usual_unit}: {read_frame(device, point.addresses[0])}"
 
 
 def way_to_write(device: Device, point: Point) -> WriteMethod | None:
-    """How to write the point; None if it cannot be written."""
-    message = request_of(device, writes=True)
+    """Return how to write the point; None if it cannot be written."""
+    message, _ = request_and_answer(device.messages, writes=True)
     if point.telegram is not None or message is None:
         return None
     head = _messages_text(point, message)
@@ -109,13 +102,13 @@ def way_to_write(device: Device, point: Point) -> WriteMethod | None:
             f"for other points share the word{fixed}"
         )
     if point.text is None:
-        return WriteMethod(head.rstrip(", "), lambda raw: _written(device, point, raw), ", ")
-    shown = _written(device, point, int.from_bytes(b"TEXT".ljust(2 * point.words), "big"))
-    return WriteMethod(f'{head}for example "TEXT", padded with spaces{shown}' if shown else head.rstrip(", "))
+        return WriteMethod(head.rstrip(", "), lambda raw: _write_example(device, point, raw), ", ")
+    example = _write_example(device, point, int.from_bytes(b"TEXT".ljust(2 * point.words), "big"))
+    return WriteMethod(f'{head}for example "TEXT", padded with spaces{example}' if example else head.rstrip(", "))
 
 
-def _written(device: Device, point: Point, raw: int) -> str:
-    """The frames that write the point; empty where there are none."""
+def _write_example(device: Device, point: Point, raw: int) -> str:
+    """Return the frames that write the point; empty if there are none."""
     try:
         frames = write_frames(device, point, words_of(point, with_fixed(point, raw)), None)
     except RefusedError:
@@ -129,27 +122,27 @@ def _messages_text(point: Point, message: Message) -> str:
 
 
 def _telegram_text(device: Device, point: Point) -> str:
-    """Which frames and bytes of a telegram carry the point."""
-    telegram = next((telegram for telegram in device.telegrams if telegram.name == point.telegram), None)
-    message = next(
-        (message for message in device.messages if telegram is not None and message.name == telegram.message), None
-    )
-    if telegram is None or message is None or not message.words:
+    """Return which frames and bytes of a telegram carry the point."""
+    carriers = {telegram.name: telegram.message for telegram in device.telegrams}
+    messages = {message.name: message for message in device.messages}
+    message = messages.get(carriers.get(point.telegram or "") or "")
+    if message is None or not message.words:
         return ""
-    unit = device.bus.usual_unit
-    places = []
-    for address in point.addresses:
-        slot, word = divmod(address, message.words)
-        at = [place for place, role in enumerate(message.roles) if role.kind == "word" and role.number >> 1 == word]
-        data = bytes(
-            {"constant": role.number, "unit": unit, "multiplexer": slot}.get(role.kind, 0) for role in message.roles
-        )
-        shown = frame_text(CanFrame(identifier(message, unit), data))
-        mark = shown.index("#") + 1 + 2 * min(at)
-        shown = f"{shown[:mark]}{'hhll' if max(at) > min(at) else 'll'}{shown[mark + 2 * len(at) :]}"
-        slots = f"multiplexer {slot}, " if carries(message, "multiplexer") else ""
-        places.append(f"{slots}bytes {' and '.join(map(str, at))} ({shown})")
+    places = ", then ".join(_place_text(message, device.bus.usual_unit, address) for address in point.addresses)
     torn = ""
     if len({address // message.words for address in point.addresses}) > 1:
         torn = "; the words come in two frames: they belong together when the same high word came before and after"
-    return f"sent by itself, message {message.name}; from unit {unit}: {', then '.join(places)}{torn}"
+    return f"sent by itself, message {message.name}; from unit {device.bus.usual_unit}: {places}{torn}"
+
+
+def _place_text(message: Message, unit: int, address: int) -> str:
+    """Return the multiplexer and the bytes of one word, with a frame in which they are marked."""
+    slot, word = divmod(address, message.words)
+    at = [place for place, role in enumerate(message.roles) if role.kind == "word" and role.number >> 1 == word]
+    known = {"unit": unit, "multiplexer": slot}
+    data = bytes(role.number if role.kind == "constant" else known.get(role.kind, 0) for role in message.roles)
+    frame = frame_text(CanFrame(identifier(message, unit), data))
+    mark = frame.index("#") + 1 + 2 * min(at)
+    frame = f"{frame[:mark]}{'hhll' if max(at) > min(at) else 'll'}{frame[mark + 2 * len(at) :]}"
+    slots = f"multiplexer {slot}, " if carries(message, "multiplexer") else ""
+    return f"{slots}bytes {' and '.join(map(str, at))} ({frame})"

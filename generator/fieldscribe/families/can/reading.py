@@ -1,9 +1,8 @@
-"""Reads the family's own facts from the description."""
+"""Reads the facts that only CAN has from the description: bit rate, identifiers, and the layout of messages."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -11,9 +10,9 @@ from fieldscribe.families.can import CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.numbers import NumberError, parse_integer, shown
-from fieldscribe.model import Bus, Message, Role
+from fieldscribe.model import Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader
-from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.scope import humanised, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
 
 if TYPE_CHECKING:
@@ -22,17 +21,23 @@ if TYPE_CHECKING:
     from fieldscribe.model import Bus, Code
     from fieldscribe.resolve.scope import Scope
 
+_HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
+_WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}
+"""The most bytes that each word of a layout covers."""
+_UNITS = 256
+_BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
+
 
 class CanReading(FamilyReader):
-    """Frames have an identifier, and the description lays out their bytes."""
+    """Reads the bus, the identifiers of frames, and the layouts of messages."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> CanBus:
-        """How fast the bus is, and how long its identifiers are."""
+        """Return the bit rate, and the length of identifiers."""
         del scope, functions
         return CanBus(node.get("bitrate"), node.get("identifier_bits"))
 
     def frame(self, scope: Scope, node: Map, framing: str) -> CanExample:
-        """The identifier of a frame; a finding where there is none."""
+        """Return the identifier of a frame; report a frame without one."""
         del framing
         if "can_id" in node:
             return CanExample(integer(node["can_id"], node.span("can_id"), scope.report))
@@ -42,36 +47,25 @@ class CanReading(FamilyReader):
         return CanExample()
 
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:
-        """The messages that the description lays out."""
-        return messages_of(scope, bus)
+        """Return all messages in the order of the description; report and leave out those with a wrong layout."""
+        result: dict[str, Message] = {}
+        seen: dict[str, Span] = {}
+        for node in scope.listed("messages"):
+            name = str(node["name"])
+            if name in seen:
+                first = [(seen[name], "first given here")]
+                message = f"two messages have the name `{name}`"
+                scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
+                continue
+            seen[name] = node.span("name")
+            read = _message(scope, bus, node)
+            if read is not None:
+                result[name] = read
+        _check_answers(scope, result)
+        return tuple(result.values())
 
 
 READING = CanReading()
-
-
-_HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
-_WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}
-_UNITS = 256
-_BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
-
-
-def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
-    """All messages in the order of the description; one with a wrong layout is reported and left out."""
-    result: dict[str, Message] = {}
-    seen: dict[str, Span] = {}
-    for node in scope.listed("messages"):
-        name = str(node["name"])
-        if name in seen:
-            first = [(seen[name], "first given here")]
-            message = f"two messages have the name `{name}`"
-            scope.report.error("duplicate-name", message, node.span("name"), "rename one of them", first)
-            continue
-        seen[name] = node.span("name")
-        laid_out = _message(scope, bus, node)
-        if laid_out is not None:
-            result[name] = laid_out
-    _answers(scope, result)
-    return tuple(result.values())
 
 
 def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
@@ -92,7 +86,7 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
 
 
 def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
-    """The identifier, and whether the unit is added to it; None after a finding."""
+    """Return the identifier, and True if the unit is added to it; None after a finding."""
     span, text = node.span("can_id"), str(node["can_id"])
     try:
         expression = parse_expression(text)
@@ -107,39 +101,36 @@ def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
         hint = "write it as `33Fh`, or `320h + unit`"
         scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
         return None
-    first, adds = at[0].numerator, bool(slope)
-    bits = identifier_bits(bus)
-    ends = [first + unit * adds for unit in bus.units]
-    if not 0 <= min(ends) <= max(ends) < 1 << bits:
-        outside = min(ends) if min(ends) < 0 else max(ends)
-        message = f"the identifier {outside:X}h lies outside {bits} bits"
-        hint = (
-            f"identifiers of {bits} bits are 0..{(1 << bits) - 1:X}h; `identifier_bits` and `units` stand under `bus`"
-        )
+    first, adds, bits = at[0].numerator, bool(slope), identifier_bits(bus)
+    low, high = sorted(first + unit * adds for unit in bus.units)
+    if not 0 <= low <= high < 1 << bits:
+        message = f"the identifier {low if low < 0 else high:X}h lies outside {bits} bits"
+        ends = f"identifiers of {bits} bits are 0..{(1 << bits) - 1:X}h"
+        hint = f"{ends}; `identifier_bits` and `units` stand under `bus`"
         scope.report.error("address-outside-space", message, span, hint)
         return None
     return first, adds
 
 
 def _roles(scope: Scope, node: Map) -> tuple[Role, ...] | None:
-    """The role of each byte; None after a finding."""
+    """Return the role of each byte; None after a finding."""
     layout: Map = node["layout"]
     role_of: dict[int, Role] = {}
     fine = "layout" not in node.broken and not layout.broken
     for key, value in layout.items():
         first_text, dots, last_text = key.partition("..")
         first, last = parse_integer(first_text), parse_integer(last_text if dots else first_text)
+        finding: tuple[str, str, str] | None = None
         if last < first:
-            message = f"bytes `{key}` run downwards"
-            scope.report.error("range-reversed", message, layout.key_span(key), f"write {last}..{first}")
-            fine = False
-            continue
-        if last >= LENGTH:
+            finding = "range-reversed", f"bytes `{key}` run downwards", f"write {last}..{first}"
+        elif last >= LENGTH:
             message = f"byte {last} lies outside the {LENGTH} bytes of a message"
-            scope.report.error("bit-outside-word", message, layout.key_span(key), f"bytes are 0..{LENGTH - 1}")
+            finding = "bit-outside-word", message, f"bytes are 0..{LENGTH - 1}"
+        if finding is not None:
+            scope.report.error(finding[0], finding[1], layout.key_span(key), finding[2])
             fine = False
             continue
-        roles = _Part(scope, str(value).strip(), layout.span(key), last - first + 1).roles()
+        roles = _roles_of_entry(scope, str(value).strip(), layout.span(key), last - first + 1)
         fine = fine and roles is not None
         for byte, role in zip(range(first, last + 1), roles or (), strict=False):
             if byte in role_of:
@@ -152,85 +143,76 @@ def _roles(scope: Scope, node: Map) -> tuple[Role, ...] | None:
         message = f"byte {missing[0]} of `{node['name']}` means nothing"
         hint = f"say what each of the bytes 0..{LENGTH - 1} holds; unused ones are a constant"
         scope.report.error("missing-key", message, node.span("layout"), hint)
-    if missing or not fine:
+    if missing or not fine or not _roles_fit(scope, node, role_of):
         return None
-    return tuple(role_of[byte] for byte in range(LENGTH)) if _sums_fit(scope, node, role_of) else None
+    return tuple(role_of[byte] for byte in range(LENGTH))
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
-    """One entry of a layout: its text, and how many bytes it covers."""
-
-    scope: Scope
-    text: str
-    span: Span
-    count: int
-
-    def roles(self) -> list[Role] | None:
-        """The role of each byte; None after a finding."""
-        if self.text.startswith("xor "):
-            return self._xor(self.text[4:])
-        return self._carried() if self.text in _WIDEST else self._constant()
-
-    def _carried(self) -> list[Role] | None:
-        text, count = self.text, self.count
-        if count > _WIDEST[text] or (text == "telegram" and count % 2):
-            hint = "each word of it takes two bytes" if text == "telegram" else f"it takes at most {_WIDEST[text]}"
-            self._refuse(f"`{text}` cannot take {count} bytes", hint)
-            return None
-        if text == "telegram":
-            return [Role("word", number) for number in range(count)]
-        if text == "multiplexer":
-            return [Role("multiplexer", 0)]
-        return [Role(text, 8 * below) for below in reversed(range(count))]
-
-    def _constant(self) -> list[Role] | None:
-        try:
-            number = parse_integer(self.text)
-        except NumberError:
-            self._refuse(f"`{shown(self.text)}` is nothing that a byte can hold", _HOW)
-            return None
-        if not 0 <= number < 1 << 8 * self.count:
-            bytes_ = f"{self.count} byte{'s' * (self.count > 1)}"
-            self._refuse(f"{self.text} does not fit into {bytes_}", f"0..{(1 << 8 * self.count) - 1:X}h does")
-            return None
-        return [Role("constant", byte) for byte in number.to_bytes(self.count, "big")]
-
-    def _xor(self, text: str) -> list[Role] | None:
-        """The roles of a checksum: each of its bytes is the exclusive or of every `count`-th byte of an interval."""
-        interval = _BYTES.fullmatch(text.strip())
-        if interval is None:
-            self._refuse(f"`xor {shown(text)}` names no bytes", _HOW)
-            return None
-        low, high = int(interval[1]), int(interval[2] or interval[1])
-        if low > high or (high - low + 1) % self.count:
-            message = f"`xor {text}` cannot be made of pieces of {self.count} byte{'s' * (self.count > 1)}"
-            self._refuse(message, "name the lower byte first, and as many bytes as whole pieces have")
-            return None
-        pieces = [range(low + place, high + 1, self.count) for place in range(self.count)]
-        return [Role("xor", sum(1 << byte for byte in piece)) for piece in pieces]
-
-    def _refuse(self, message: str, hint: str) -> None:
-        self.scope.report.error("wrong-choice", message, self.span, hint)
+def _roles_of_entry(scope: Scope, text: str, span: Span, count: int) -> list[Role] | None:
+    """Return the roles of the bytes of one entry of a layout; None after a finding."""
+    result = _checksum(text, count) if text.startswith("xor ") else _field(text, count)
+    if isinstance(result, tuple):
+        scope.report.error("wrong-choice", result[0], span, result[1])
+        return None
+    return result
 
 
-def _sums_fit(scope: Scope, node: Map, role_of: dict[int, Role]) -> bool:
-    """Whether no checksum covers another checksum, and no role stands in two places."""
+def _field(text: str, count: int) -> list[Role] | tuple[str, str]:
+    """Return the roles of a field or a constant, or the message and the hint of a finding."""
+    if text not in _WIDEST:
+        return _constant(text, count)
+    if count > _WIDEST[text] or (text == "telegram" and count % 2):
+        hint = "each word of it takes two bytes" if text == "telegram" else f"it takes at most {_WIDEST[text]}"
+        return f"`{text}` cannot take {count} bytes", hint
+    if text == "telegram":
+        return [Role("word", number) for number in range(count)]
+    return [Role(text, 8 * below) for below in reversed(range(count))]
+
+
+def _constant(text: str, count: int) -> list[Role] | tuple[str, str]:
+    try:
+        number = parse_integer(text)
+    except NumberError:
+        return f"`{shown(text)}` is nothing that a byte can hold", _HOW
+    if not 0 <= number < 1 << 8 * count:
+        return f"{text} does not fit into {_bytes(count)}", f"0..{(1 << 8 * count) - 1:X}h does"
+    return [Role("constant", byte) for byte in number.to_bytes(count, "big")]
+
+
+def _checksum(text: str, count: int) -> list[Role] | tuple[str, str]:
+    """Return the roles of a checksum: each byte is the exclusive or of every `count`-th byte of an interval."""
+    interval = _BYTES.fullmatch(text.removeprefix("xor ").strip())
+    if interval is None:
+        return f"`xor {shown(text.removeprefix('xor '))}` names no bytes", _HOW
+    low, high = int(interval[1]), int(interval[2] or interval[1])
+    if low > high or (high - low + 1) % count:
+        hint = "name the lower byte first, and as many bytes as whole pieces have"
+        return f"`{text}` cannot be made of pieces of {_bytes(count)}", hint
+    pieces = [range(low + place, high + 1, count) for place in range(count)]
+    return [Role("xor", sum(1 << byte for byte in piece)) for piece in pieces]
+
+
+def _bytes(count: int) -> str:
+    return f"{count} byte{'s' * (count > 1)}"
+
+
+def _roles_fit(scope: Scope, node: Map, role_of: dict[int, Role]) -> bool:
+    """Report a checksum of a checksum, or a role in two places; return True if there is none."""
     sums = sum(1 << byte for byte, role in role_of.items() if role.kind == "xor")
+    fields = [role for role in role_of.values() if role.kind not in ("constant", "xor")]
+    twice = next((role.kind for role in fields if fields.count(role) > 1), None)
     if any(role.kind == "xor" and role.number & sums for role in role_of.values()):
-        message = "a checksum cannot be made of a checksum"
-        scope.report.error("wrong-choice", message, node.span("layout"), "name the bytes before it")
-        return False
-    carried = [role for role in role_of.values() if role.kind not in ("constant", "xor")]
-    twice = next((role.kind for role in carried if carried.count(role) > 1), None)
-    if twice is not None:
+        finding = "wrong-choice", "a checksum cannot be made of a checksum", "name the bytes before it"
+    elif twice is not None:
         message = f"`{'telegram' if twice == 'word' else twice}` stands in two places"
-        scope.report.error("duplicate-name", message, node.span("layout"), "write its bytes as one interval")
-        return False
-    return True
+        finding = "duplicate-name", message, "write its bytes as one interval"
+    else:
+        return True
+    scope.report.error(finding[0], finding[1], node.span("layout"), finding[2])
+    return False
 
 
-def _answers(scope: Scope, messages: dict[str, Message]) -> None:
+def _check_answers(scope: Scope, messages: dict[str, Message]) -> None:
     """Report responses that name no existing request, and `answers` at other messages."""
     for node in scope.listed("messages"):
         name, answers = str(node["name"]), node.get("answers")
@@ -244,9 +226,9 @@ def _answers(scope: Scope, messages: dict[str, Message]) -> None:
         if node["direction"] != "response":
             message = f"`{name}` answers, but is no response"
             scope.report.error("wrong-choice", message, node.span("direction"), "write `direction: response`")
-        asked = messages.get(answers)
-        if asked is None:
+        request = messages.get(answers)
+        if request is None:
             scope.unknown("message", answers, node.span("answers"), list(messages))
-        elif asked.direction != "request":
+        elif request.direction != "request":
             message = f"`{answers}` is no request"
             scope.report.error("wrong-choice", message, node.span("answers"), "a response answers a request")

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
-from fieldscribe.wording.buses import strange_unit, hex_words
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import hex_words, strange_unit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

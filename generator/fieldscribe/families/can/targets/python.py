@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:
-    """The profile: the messages and telegrams of the device."""
+    """Return the profile: the messages and telegrams of the device."""
     scope.used.add("Profile")
     bus = device.bus
     arguments: list[Node] = [

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import identifier_bits, of_bus
+from fieldscribe.families.can.frames import request_and_answer
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of
@@ -23,8 +24,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Role, Telegram
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
-_NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
-_PLAIN = {"multiplexer": "Multiplexer"}
+_NUMBERED = ("unit", "address", "raw", "word")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class TelegramView:
 
 
 def context(device: Device) -> dict[str, object]:
-    """The names that the family's template uses."""
+    """Return the names that the family's template uses."""
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
@@ -58,7 +58,10 @@ def context(device: Device) -> dict[str, object]:
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "identifier_bits": identifier_bits(bus),
         "bitrate": "" if of_bus(bus).bitrate is None else integer(of_bus(bus).bitrate or 0),
-        "dialogues": tuple(_request_and_answer_constants(device.messages)),
+        "dialogues": (
+            _dialogue(device.messages, "READ", writes=False),
+            _dialogue(device.messages, "WRITE", writes=True),
+        ),
         "messages": tuple(map(_message, device.messages)),
         "message_names": array(
             Item("pub const MESSAGES", "&[&Message]"),
@@ -74,7 +77,7 @@ def context(device: Device) -> dict[str, object]:
 
 
 def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
-    """A parameter is read and written word by word; a point of a telegram is received in frames."""
+    """Yield the trait of a point: a parameter is read word by word, a point of a telegram is received in frames."""
     if subject.point.telegram is None:
         yield "impl runtime::can::Parameter {}"
     telegram = _received(subject, scope)
@@ -83,7 +86,7 @@ def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
 
 
 def _received(subject: CratePoint, scope: CrateScope) -> str | None:
-    """The telegram whose frames carry a point; None where its words cannot be matched to each other."""
+    """Return the telegram whose frames carry a point; None if its words cannot be matched to each other."""
     point = subject.point
     _, message = scope.telegrams.get(point.telegram or "", (None, None))
     if not point.readable or message is None or not message.words:
@@ -93,29 +96,19 @@ def _received(subject: CratePoint, scope: CrateScope) -> str | None:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """The names of messages and telegrams."""
+    """Yield the names of messages and telegrams."""
     for message in device.messages:
         yield Names("Rust, module `messages`", Owner("message", message.name), (message.name.upper(),))
     for telegram in device.telegrams:
         yield Names("Rust, module `telegrams`", Owner("telegram", telegram.name), (type_name(telegram.name),))
 
 
-def _request_and_answer_constants(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
-    """The constants of the messages that read and write a parameter, and of their answers; empty without one."""
-    requests = [message for message in messages if message.direction == "request" and _carries(message, "address")]
-    for name, writes in (("READ", False), ("WRITE", True)):
-        request = next((message for message in requests if _carries(message, "raw") is writes), None)
-        answer = next(
-            (message for message in messages if request is not None and message.answers == request.name), None
-        )
-        if request is None or (answer is None and not writes):
-            yield name, "", ""
-        else:
-            yield name, request.name.upper(), "None" if answer is None else f"Some(&messages::{answer.name.upper()})"
-
-
-def _carries(message: Message, kind: str) -> bool:
-    return any(role.kind == kind for role in message.roles)
+def _dialogue(messages: Sequence[Message], name: str, *, writes: bool) -> tuple[str, str, str]:
+    """Return the constants of the request that reads or writes a parameter, and of its answer; empty without one."""
+    request, answer = request_and_answer(messages, writes=writes)
+    if request is None or (answer is None and not writes):
+        return name, "", ""
+    return name, request.name.upper(), "None" if answer is None else f"Some(&messages::{answer.name.upper()})"
 
 
 def _message(message: Message) -> MessageView:
@@ -130,13 +123,11 @@ def _message(message: Message) -> MessageView:
 
 
 def _role(role: Role) -> str:
-    if role.kind in _PLAIN:
-        return _PLAIN[role.kind]
     if role.kind in _NUMBERED:
-        return f"{_NUMBERED[role.kind]}({role.number})"
+        return f"{role.kind.capitalize()}({role.number})"
     if role.kind == "xor":
         return f"Xor(0b{role.number >> 4:04b}_{role.number & 15:04b})"
-    return f"Constant(0x{role.number:02X})"
+    return f"Constant(0x{role.number:02X})" if role.kind == "constant" else "Multiplexer"
 
 
 def _telegram(telegram: Telegram, message: Message) -> TelegramView:
@@ -148,7 +139,7 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
 
 
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
-    """The table of points that come in frames of a telegram."""
+    """Yield the table of points that come in frames of a telegram."""
     heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
     if heard:
         yield Table(
@@ -157,7 +148,7 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
 
 
 def heard(scope: CrateScope) -> tuple[str, Snippet]:
-    """An example for the documentation: the first telegram with a point that needs no other, and lines that read it."""
+    """Return an example for the documentation: a telegram with a point that needs no other, and lines that read it."""
     come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
     if not plain:
@@ -179,7 +170,7 @@ def heard(scope: CrateScope) -> tuple[str, Snippet]:
 
 
 def tables_of_frames(device: Device) -> Iterator[Table]:
-    """The table of telegrams that come in frames."""
+    """Yield the tables of telegrams that come in frames."""
     carriers = {message.name for message in device.messages if message.words}
     heard = [telegram for telegram in device.telegrams if telegram.message in carriers]
     if heard:
