@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.distinct_names import Kinds
+from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.checks.identifier_places import IdentifierPlaces, given_names
 
 if TYPE_CHECKING:
@@ -34,9 +34,9 @@ def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> N
     from fieldscribe.targets.identifiers import clashes
 
     owners, device = IdentifierPlaces(analysis), analysis.code_device
-    kinds = Kinds(device)
+    kinds = PointKinds(device)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
-        if language.KEEPS_NAMES and kinds.proves(language.identifiers):
+        if language.KEEPS_NAMES and kinds.are_distinct(language.identifiers):
             continue
         for clash in clashes(language.identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)

@@ -1,11 +1,11 @@
-"""The cheap proof that identifiers differ: points of one kind have the same names around their own, and no more."""
+"""The proof that identifiers differ: points of one kind have the same identifiers but for their names."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.checks.distinct_names import Kinds
+from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.targets import knows, target
 from support.described import made, shipped
 
@@ -19,17 +19,18 @@ SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woo
 MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
 
 
-class _OfOneKind(Kinds):
-    """Kinds that forget what points share."""
+class _TooCoarse(PointKinds):
+    """Ignores the shape and the terms of points: too coarse, as a counterexample."""
 
     def kind(self, point: Point) -> object:
         return super().kind(point)[2:]  # type: ignore[index]  # a tuple, of which shape and terms are first
 
 
-def strangers(device: Device, kinds: Kinds, language: str) -> Iterator[str]:
-    """The identifiers of points that the first point of their kind does not have, with another name in them."""
+def strangers(device: Device, kinds: PointKinds, language: str) -> Iterator[str]:
+    """Yield the identifiers of points that the first point of their kind lacks, with its own name put in."""
     identifiers = target(language).identifiers
     sample = {(space, name) for space, _, names in identifiers(kinds.sample) for name in map(plain, names)}
+    known = {name for names in kinds.names.values() for name in names}
     first: dict[object, str] = {}
     stands_for = {point.item: first.setdefault(kinds.kind(point), point.item) for point in device.points}
     for space, owner, names in identifiers(device):
@@ -37,7 +38,7 @@ def strangers(device: Device, kinds: Kinds, language: str) -> Iterator[str]:
         while whole.of is not None:
             whole = whole.of
         item = whole.name
-        if plain(item) not in kinds.items or whole.kind not in ("point", "enum"):
+        if plain(item) not in known or whole.kind not in ("point", "enum"):
             continue
         other = stands_for[item]
         for name in map(plain, names):
@@ -57,13 +58,13 @@ def devices() -> list[Device]:
 def test_points_of_a_kind_have_the_same_names(language: str) -> None:
     for device in devices():
         if knows(language, device):
-            assert list(strangers(device, Kinds(device), language)) == []
+            assert list(strangers(device, PointKinds(device), language)) == []
 
 
 def test_a_kind_that_forgets_shape_and_terms_is_noticed() -> None:
-    assert any(list(strangers(device, _OfOneKind(device), "c")) for device in devices())
+    assert any(list(strangers(device, _TooCoarse(device), "c")) for device in devices())
 
 
 def test_large_devices_are_proven() -> None:
     for device in (shipped("hitachi_l200"), shipped("woodward_mpu2s")):
-        assert all(Kinds(device).proves(target(language).identifiers) for language in LANGUAGES)
+        assert all(PointKinds(device).are_distinct(target(language).identifiers) for language in LANGUAGES)
