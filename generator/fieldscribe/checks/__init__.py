@@ -1,55 +1,47 @@
-"""What must be true of a device beyond the shape of its keys. Each file checks one fact and has its name."""
+"""Checks: what must be true of a device beyond the shape of its keys. One module checks one fact and is named after it.
+
+To add a check:
+
+1. Write a module named after the fact, such as `addresses_do_not_overlap.py`, with a function `check(analysis)`. It
+   reads the resolved points (`analysis.resolved`: each with its model `point` and its `facts` in the text) and reports
+   each finding with `analysis.report.error(rule, message, span, hint)`. `facts.span(key)` is the place of a key. Skip
+   points whose `facts.failed` has a key that the check depends on: they have a finding already.
+2. Add the module to `CHECKS` below, before `errata_are_used` if an erratum may explain what the check finds.
+3. Add a wrong description to `tests/bad` with the expected findings as its first comments. With FIELDSCRIBE_ACCEPT=1 in
+   the environment `pytest tests/checks/test_bad.py` writes these comments; read what it wrote.
+"""
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from fieldscribe.resolve.analysis import Analysis
+
+CHECKS = (
+    "device_name_is_free",
+    "every_point_has_a_source",
+    "lines_run_upwards",
+    "meanings_do_not_compete",
+    "conditions_can_hold",
+    "write_addresses_are_used",
+    "addresses_do_not_overlap",
+    "groups_use_what_they_say",
+    "enums_fit_their_range",
+    "fixed_bits_can_be_written",
+    "defaults_are_allowed",
+    "references_exist",
+    "printed_facts_agree",
+    "checks_of_the_family",
+    "frames_agree",
+    "errata_are_used",
+    "names_do_not_clash",
+)
+"""The checks in their order."""
 
 
 def run_checks(analysis: Analysis) -> None:
-    """Run all checks, also those of the family. Errata come after the checks that use them, names last."""
-    from fieldscribe.checks import (
-        addresses_do_not_overlap,
-        conditions_can_hold,
-        defaults_are_allowed,
-        device_name_is_free,
-        enums_fit_their_range,
-        errata_are_used,
-        every_point_has_a_source,
-        fixed_bits_can_be_written,
-        frames_agree,
-        groups_use_what_they_say,
-        lines_run_upwards,
-        meanings_do_not_compete,
-        names_do_not_clash,
-        printed_facts_agree,
-        references_exist,
-        write_addresses_are_used,
-    )
-
-    family_part = analysis.scope.family.part("checks")
-    checks: tuple[Callable[[Analysis], None], ...] = (
-        device_name_is_free.check,
-        every_point_has_a_source.check,
-        lines_run_upwards.check,
-        meanings_do_not_compete.check,
-        conditions_can_hold.check,
-        write_addresses_are_used.check,
-        addresses_do_not_overlap.check,
-        groups_use_what_they_say.check,
-        enums_fit_their_range.check,
-        fixed_bits_can_be_written.check,
-        defaults_are_allowed.check,
-        references_exist.check,
-        printed_facts_agree.check,
-        *(() if family_part is None else family_part.CHECKS),
-        frames_agree.check,
-        errata_are_used.check,
-        names_do_not_clash.check,
-    )
-    for check in checks:
-        check(analysis)
+    """Run all checks on a resolved device."""
+    for name in CHECKS:
+        import_module(f"fieldscribe.checks.{name}").check(analysis)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from fieldscribe.checks.coexistence import Coexistence
-from fieldscribe.resolve.points import ResolvedPoint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.diagnostics import Span
+    from fieldscribe.diagnostics import Report, Span
     from fieldscribe.model import Command, Point
     from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.points import ResolvedPoint
 
 _WHOLE = (15, 0)
 _MOST = 512
@@ -21,13 +21,10 @@ _APART = ", or say by `when`, `variants`, `since` or `until` that they are never
 _Key = tuple[str, str | None, int, int]
 """Space, telegram, index (0 where addresses of the space have no index) and address."""
 
-Taken = dict[_Key, list[ResolvedPoint]]
-
 
 def check(analysis: Analysis) -> None:
-    """Overlapping points, points in gaps, commands on points or in gaps."""
-    taken: Taken = {}
-    known = _Known(Coexistence(analysis), set())
+    """Report overlapping points, points in gaps, and commands on points or in gaps."""
+    overlaps = _Overlaps(analysis)
     gaps = any(analysis.bus.gaps.values())
     for resolved in analysis.resolved:
         if analysis.report.full:
@@ -35,44 +32,49 @@ def check(analysis: Analysis) -> None:
         if "space" in resolved.facts.failed:
             continue
         for address, key in _stands(resolved.point):
-            others = taken.setdefault(_key(analysis, resolved.point, address), [])
-            if others:
-                _compare(analysis, resolved, others, (address, key), known)
-            others.append(resolved)
+            overlaps.add(resolved, address, key)
             if gaps:
-                _gap(analysis, resolved, address, key)
-    _commands(analysis, taken)
+                _check_gap(analysis, resolved, address, key)
+    _check_commands(analysis, overlaps.taken)
 
 
-class _Known(NamedTuple):
-    """Which points can meet, and the rows of the manual whose overlaps are told."""
+class _Overlaps:
+    """Collects the points at each address and reports those that share bits."""
 
-    meetings: Coexistence
-    told_rows: set[int]
+    def __init__(self, analysis: Analysis) -> None:
+        self.taken: dict[_Key, list[ResolvedPoint]] = {}
+        self._analysis = analysis
+        self._coexistence = Coexistence(analysis)
+        self._reported_rows: set[int] = set()
 
+    def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
+        """Add a point at the address that it has by this key."""
+        others = self.taken.setdefault(_key(self._analysis, resolved.point, address), [])
+        if others:
+            self._compare(resolved, others, address, key)
+        others.append(resolved)
 
-def _compare(
-    analysis: Analysis, resolved: ResolvedPoint, others: list[ResolvedPoint], stands: tuple[int, str], known: _Known
-) -> None:
-    """Findings for bits of an address that the others there have, too."""
-    meetings, told_rows = known
-    address, key = stands
-    fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in told_rows]
-    rivals = [
-        other
-        for other in fresh
-        if other is not resolved and _overlap(resolved.point, other.point) and not meetings.never(resolved, other)
-    ]
-    if rivals:
-        _report_overlap(analysis, resolved, rivals, address, key)
-    told_rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
-    if len(fresh) == _MOST:
-        message = f"more than {_MOST} points stand at {_place_in_words(analysis, resolved.point, address)}"
-        analysis.report.error("too-many-items", message, resolved.facts.span(key), "nobody needs so many")
+    def _compare(self, resolved: ResolvedPoint, others: list[ResolvedPoint], address: int, key: str) -> None:
+        rows, report = self._reported_rows, self._analysis.report
+        fresh = [other for other in others if (row := _row(resolved, other)) is None or row not in rows]
+        rivals = [other for other in fresh if self._overlap(resolved, other)]
+        place = _place_in_words(self._analysis, resolved.point, address)
+        if rivals:
+            _report_overlap(report, [resolved, *rivals], address, key, place)
+        rows.update(row for rival in rivals if (row := _row(resolved, rival)) is not None)
+        if len(fresh) == _MOST:
+            message = f"more than {_MOST} points stand at {place}"
+            report.error("too-many-items", message, resolved.facts.span(key), "nobody needs so many")
+
+    def _overlap(self, mine: ResolvedPoint, other: ResolvedPoint) -> bool:
+        """Return True if two points at one address have bits in common and can exist in the same device."""
+        (high, low), (other_high, other_low) = mine.point.bits or _WHOLE, other.point.bits or _WHOLE
+        common = low <= other_high and other_low <= high and other is not mine
+        return common and not self._coexistence.never(mine, other)
 
 
 def _stands(point: Point) -> Iterator[tuple[int, str]]:
-    """The addresses where the point is read, and those where else it is written, with the keys that say them."""
+    """Yield the addresses where the point is read and those where it is written elsewhere, each with its key."""
     for address in point.place.addresses:
         yield address, "at"
     for address in () if point.write_place is None else point.write_place.addresses:
@@ -80,7 +82,7 @@ def _stands(point: Point) -> Iterator[tuple[int, str]]:
 
 
 def _stands_here(other: ResolvedPoint, address: int) -> tuple[Span, str]:
-    """The place in the text that puts a point at an address, with a remark."""
+    """Return the place in the text that puts a point at an address, with a remark."""
     if address in other.point.addresses:
         return other.facts.span("at"), f"`{other.point.name}` stands here"
     return other.facts.span("write_at"), f"`{other.point.name}` is written here"
@@ -93,7 +95,7 @@ def _key(analysis: Analysis, point: Point, address: int) -> _Key:
 
 
 def _place_in_words(analysis: Analysis, point: Point, address: int) -> str:
-    """The address in words."""
+    """Return the address as a message shows it."""
     if point.telegram is not None:
         return f"word {address} of the telegram {point.telegram}"
     if point.space in analysis.scope.family.indexed and point.index is not None:
@@ -102,32 +104,20 @@ def _place_in_words(analysis: Analysis, point: Point, address: int) -> str:
 
 
 def _row(mine: ResolvedPoint, other: ResolvedPoint) -> int | None:
-    """The row of the manual, if both points were expanded from the same: all its overlaps are one finding."""
+    """Return the row of the manual if both points were expanded from it: all its overlaps are one finding."""
     expanded = mine.facts.element and other.facts.element
     return id(mine.facts.own) if expanded and mine.facts.own is other.facts.own else None
 
 
-def _overlap(mine: Point, other: Point) -> bool:
-    """Whether two points at one address have bits in common."""
-    return (mine.bits or _WHOLE)[1] <= (other.bits or _WHOLE)[0] and (other.bits or _WHOLE)[1] <= (mine.bits or _WHOLE)[
-        0
-    ]
-
-
-def _report_overlap(
-    analysis: Analysis, mine: ResolvedPoint, others: list[ResolvedPoint], address: int, key: str
-) -> None:
-    """One finding that names all points at the address."""
-    together = [mine, *others]
+def _report_overlap(report: Report, together: list[ResolvedPoint], address: int, key: str, place: str) -> None:
+    """Report all points that overlap at an address as one finding about the first of them."""
+    mine, *others = together
     related = [_stands_here(other, address) for other in others]
-    place = _place_in_words(analysis, mine.point, address)
     what = f"{_listed([resolved.point.name for resolved in together])} {'both' if len(together) == 2 else 'all'}"
     if all(resolved.point.bits for resolved in together):
-        bit = max(resolved.point.bits[1] for resolved in (mine, others[0]) if resolved.point.bits)
+        bit = max(resolved.point.bits[1] for resolved in together[:2] if resolved.point.bits)
         hint = f"points may share a word, but not its bits: correct one{_APART}"
-        analysis.report.error(
-            "bits-overlap", f"{what} take bit {bit} of {place}", mine.facts.span("bits"), hint, related
-        )
+        report.error("bits-overlap", f"{what} take bit {bit} of {place}", mine.facts.span("bits"), hint, related)
         return
     hint = f"correct one `{key}`, give each `bits` of the word{_APART}"
     if any(len(resolved.point.addresses) > 1 for resolved in together):
@@ -136,7 +126,7 @@ def _report_overlap(
         hint = "each set, variant and member with an `at` of its own needs a `write_at`, or `write_at: ~`"
     elif any(_row(mine, other) is not None for other in others):
         hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
-    analysis.report.error("address-taken", f"{what} stand at {place}", mine.facts.span(key), hint, related)
+    report.error("address-taken", f"{what} stand at {place}", mine.facts.span(key), hint, related)
 
 
 def _listed(names: list[str]) -> str:
@@ -144,7 +134,7 @@ def _listed(names: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
 
 
-def _gap(analysis: Analysis, resolved: ResolvedPoint, address: int, key: str) -> None:
+def _check_gap(analysis: Analysis, resolved: ResolvedPoint, address: int, key: str) -> None:
     gap = _gap_at(analysis, resolved.point.space, address)
     if gap is not None:
         message = f"`{resolved.point.name}` lies in the gap {gap[0]:04X}h..{gap[1]:04X}h, which no request may touch"
@@ -159,17 +149,13 @@ def _gap_at(analysis: Analysis, space: str, address: int) -> tuple[int, int] | N
 
 
 def _writes_a_value(command: Command, point: Point) -> bool:
-    """Whether the command is a name for writing one allowed value to the point."""
+    """Return True if the command is a name for writing one allowed value to the point."""
     whole = point.writable and point.bits is None and not point.info.floating
-    return (
-        whole
-        and point.written.addresses == (command.address,)
-        and command.value is not None
-        and point.allowed.holds(command.value)
-    )
+    known = command.value is not None and point.allowed.holds(command.value)
+    return whole and known and point.written.addresses == (command.address,)
 
 
-def _commands(analysis: Analysis, taken: Taken) -> None:
+def _check_commands(analysis: Analysis, taken: dict[_Key, list[ResolvedPoint]]) -> None:
     raws = {str(node["name"]): node for node in reversed(list(analysis.scope.listed("commands")))}
     for command in analysis.commands:
         span = raws[command.name].span("at")

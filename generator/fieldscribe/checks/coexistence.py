@@ -1,4 +1,4 @@
-"""Which points can exist in the same device: variants, conditions and firmwares tell."""
+"""Tells which points can exist in the same device, by their variants, conditions and firmware versions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Coexistence:
-    """Answers whether conditions and points can occur together in one device."""
+    """Answers whether conditions, or points, can hold or exist together in one device."""
 
     def __init__(self, analysis: Analysis) -> None:
         self.axes = {axis: tuple(entry["values"]) for axis, entry in analysis.scope.axes.items()}
@@ -25,7 +25,7 @@ class Coexistence:
 
     @cached_property
     def points(self) -> dict[str, list[Point]]:
-        """The points by name (of all variants) and by item."""
+        """Return the points by name (in all variants) and by item."""
         points_of_name: dict[str, list[Point]] = {}
         for resolved in self._resolved:
             for name in {resolved.point.name, resolved.point.item}:
@@ -33,17 +33,17 @@ class Coexistence:
         return points_of_name
 
     def domain(self, name: str) -> Domain:
-        """The values of an axis, or the raw numbers that a point may hold."""
+        """Return the values of an axis, or the raw numbers that a point may hold."""
         if name not in self._domains:
             self._domains[name] = self.axes.get(name) or _numbers(self.points.get(name, []))
         return self._domains[name]
 
     def possible(self, clause: Clause) -> bool:
-        """Whether the comparisons can be true at once."""
+        """Return True if all comparisons of a clause can be true at once."""
         return possible(clause, self.domain)
 
     def never(self, resolved: ResolvedPoint, other: ResolvedPoint) -> bool:
-        """Whether no device can have both points."""
+        """Return True if no device can have both points."""
         if "when" in resolved.facts.failed or "when" in other.facts.failed:
             return True  # the condition could not be read, and has a finding
         mine, theirs = resolved.point, other.point
@@ -55,7 +55,7 @@ class Coexistence:
 
 
 def clauses(point: Point) -> tuple[Clause, ...]:
-    """The clauses of which one must hold for the point to exist: its condition, and its variant in each."""
+    """Return the clauses of which one must hold for the point to exist; each includes its variant."""
     variant_clause: Clause = ()
     if point.variant is not None:
         variant_clause = (Comparison(point.variant.axis, "==", (point.variant.value,)),)
@@ -67,7 +67,7 @@ def _numbers(points: list[Point]) -> Domain:
 
 
 def _bands(point: Point) -> Iterator[tuple[int, int]]:
-    """The raw numbers of a point: entries of its enum, its range unless the enum is closed, its special codes."""
+    """Yield the raw numbers of a point: entries of its enum, its range unless the enum is closed, its special codes."""
     if point.enum is not None:
         yield from ((entry.raw, entry.raw) for entry in point.enum.entries)
     if point.enum is None or not point.enum.closed:

@@ -17,7 +17,7 @@ _MOST_SHOWN = 12
 
 
 def check(analysis: Analysis) -> None:
-    """Comparisons and clauses that nothing in the device can make true, and circles of conditions."""
+    """Report comparisons and clauses that can never be true, and conditions that need each other."""
     _circles(analysis)
     meetings = Coexistence(analysis)
     known: dict[Clause, bool] = {}
@@ -37,7 +37,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _circles(analysis: Analysis) -> None:
-    """Findings for conditions in a circle: two points of which each exists only if the other does."""
+    """Report conditions in a circle, such as two points of which each exists only if the other does."""
     from graphlib import CycleError, TopologicalSorter
 
     expanded = {resolved.point.name: resolved for resolved in analysis.resolved if resolved.point.when is not None}
@@ -56,7 +56,7 @@ def _circles(analysis: Analysis) -> None:
 
 
 def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, meetings: Coexistence, clause: Clause) -> None:
-    """A finding about the first comparison that is never true, or about all of them together."""
+    """Report the first comparison that is never true, or all of them together."""
     points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
     alone = next((part for part in clause if not meetings.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)

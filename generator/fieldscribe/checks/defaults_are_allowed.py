@@ -15,7 +15,7 @@ _LONGEST = 30
 
 
 def check(analysis: Analysis) -> None:
-    """Defaults that the range excludes."""
+    """Report defaults that the range excludes."""
     for resolved in analysis.resolved:
         point = resolved.point
         if resolved.facts.failed & {"scale", "range", "type", "enum"}:
@@ -26,7 +26,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _fault(point: Point) -> str | None:
-    """Why the point does not take its default; None if it does, or if only other points tell."""
+    """Return why the point does not take its default; None if it does, or if that depends on other points."""
     default, raw = point.default, point.default_raw
     if raw is not None:
         return None if point.special(raw) else _forbidden(point, raw)
@@ -72,7 +72,7 @@ def _report(analysis: Analysis, resolved: ResolvedPoint, fault: str) -> None:
 
 
 def _fits_in_units(point: Point) -> bool:
-    """Whether the number would do as a value: it was meant so, then."""
+    """Return True if the raw default would be allowed as a value in the unit, which was probably intended."""
     rule = fixed_rule(point)
     if rule is None or point.default_raw is None or point.default == point.default_raw:
         return False

@@ -1,4 +1,4 @@
-"""The files of a device have names that neither an operating system, nor our runtime, nor a language uses."""
+"""No operating system, runtime or target language uses the name of the device."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _UNSAFE = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("co
 
 
 def check(analysis: Analysis) -> None:
-    """The first reason why the name is taken, if there is one."""
+    """Report the first reason why the name is taken."""
     header = analysis.scope.header
     name = str(header["device"])
     for taken in reasons(name):
@@ -23,7 +23,7 @@ def check(analysis: Analysis) -> None:
 
 
 def reasons(name: str) -> Iterator[str]:
-    """Why a device may not have that name, as a sentence goes on behind it."""
+    """Yield the reasons why a device may not have the name, each as the rest of a sentence."""
     from fieldscribe.targets import TARGETS, target
 
     if name in _UNSAFE:

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import ResolvedPoint
 
 _UNKNOWN = {"type", "bits"}
-"""Keys without which nothing is known of a point's numbers."""
+"""Keys without which the numbers of a point are unknown."""
 
 
 def check(analysis: Analysis) -> None:
-    """Entries that the range or the type excludes or that are special codes too, and steps outside the type."""
+    """Report entries outside the range or the type, entries that are special codes too, and steps outside the type."""
     for resolved in analysis.resolved:
         if not resolved.facts.failed.isdisjoint(_UNKNOWN):
             continue
@@ -39,7 +39,7 @@ def _held(point: Point) -> str:
 
 
 def _specials(analysis: Analysis, resolved: ResolvedPoint) -> None:
-    """Findings for numbers that are an entry of the enum and a special code."""
+    """Report numbers that are an entry of the enum and also a special code."""
     point, facts = resolved.point, resolved.facts
     for entry in point.enum.entries if point.enum is not None else ():
         special = point.special(entry.raw)

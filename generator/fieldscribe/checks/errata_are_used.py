@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for what an erratum says is printed wrong, where nothing disagrees."""
+    """Report printed values of errata with which nothing disagrees."""
     for erratum in analysis.errata:
         printed = erratum.node["printed"]
         on_bus = any(isinstance(about, Named) for about in erratum.subjects)

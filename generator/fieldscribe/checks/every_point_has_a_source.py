@@ -1,8 +1,7 @@
-"""Every point cites its section or page, and its line too where the document names the file of its text."""
+"""Every point cites its section or page, and its line too if the document has a text file."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.nodes import Map
@@ -11,21 +10,12 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.point_facts import PointFacts
 
-
-@dataclass(frozen=True, slots=True)
-class _Lacks:
-    """A point that cites no section and no page, or, where `file` is given, no line of that file."""
-
-    facts: PointFacts
-    file: str | None
-
-
-_SAID = {"source", "section", "page", "line"}
+_KEYS = {"source", "section", "page", "line"}
 
 
 def check(analysis: Analysis) -> None:
-    """Points without a source; where no point of a group has one, that is one finding about the group."""
-    lacking: dict[int, list[_Lacks]] = {}
+    """Report points without a source; if a whole group lacks the same, report the group once."""
+    lacking: dict[int, list[tuple[PointFacts, str | None]]] = {}
     members: dict[int, int] = {}
     documents = analysis.scope.documents
     for resolved in analysis.resolved:
@@ -38,37 +28,34 @@ def check(analysis: Analysis) -> None:
         cited = source.section is not None or source.page is not None
         if cited and (document.file is None or source.line is not None):
             continue
-        if not _SAID & {*facts.failed, *_broken(facts)}:
-            lacking.setdefault(id(facts.group), []).append(_Lacks(facts, document.file if cited else None))
+        if not _KEYS & {*facts.failed, *_broken(facts)}:
+            lacking.setdefault(id(facts.group), []).append((facts, document.file if cited else None))
     for key, lacks in lacking.items():
-        if len(lacks) == members[key] > 1 and len({lack.file for lack in lacks}) == 1:
-            _report_group(analysis, lacks[0])
+        if len(lacks) == members[key] > 1 and len({file for _, file in lacks}) == 1:
+            _report_group(analysis, lacks[0][0].group, lacks[0][1])
         else:
-            _report_points(analysis, lacks)
+            for facts, file in lacks:
+                _report_point(analysis, facts, file)
 
 
 def _broken(facts: PointFacts) -> tuple[str, ...]:
-    """The keys of group and source that were left out because of their shape: they have a finding already."""
+    """Return the keys of group and source that were left out because of an earlier finding."""
     source = facts.get("source")
     return (*facts.group.broken, *(source.broken if isinstance(source, Map) else ()))
 
 
-def _report_points(analysis: Analysis, lacks: list[_Lacks]) -> None:
-    for lack in lacks:
-        message, hint = (
-            f"`{lack.facts.name}` cites no line of the manual's text",
-            f"add `line: …`, its line in {lack.file}",
-        )
-        if lack.file is None:
-            message = f"`{lack.facts.name}` cites no section and no page"
-            hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"
-        analysis.report.error("missing-source", message, lack.facts.span(), hint)
+def _report_point(analysis: Analysis, facts: PointFacts, file: str | None) -> None:
+    """Report a point that cites no section and no page, or, with a `file`, no line of it."""
+    message, hint = f"`{facts.name}` cites no line of the manual's text", f"add `line: …`, its line in {file}"
+    if file is None:
+        message = f"`{facts.name}` cites no section and no page"
+        hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"
+    analysis.report.error("missing-source", message, facts.span(), hint)
 
 
-def _report_group(analysis: Analysis, lack: _Lacks) -> None:
-    group = lack.facts.group
-    what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {lack.file}"
-    if lack.file is None:
-        what, hint = "section and no page", "add `source: {document: …, section: …}` to the group"
-    message = f"no point of the group `{group['group']}` cites a {what.replace(' and no', ' or a')}"
+def _report_group(analysis: Analysis, group: Map, file: str | None) -> None:
+    what, hint = "line of the manual's text", f"add `line: …` to each point: its line in {file}"
+    if file is None:
+        what, hint = "section or a page", "add `source: {document: …, section: …}` to the group"
+    message = f"no point of the group `{group['group']}` cites a {what}"
     analysis.report.error("missing-source", message, group.span("group"), hint)

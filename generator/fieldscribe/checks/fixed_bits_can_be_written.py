@@ -1,4 +1,4 @@
-"""Bits that are always written as a constant leave some number to write, and are not bits of other points."""
+"""Bits that are always written as a constant leave a number to write and belong to no other point."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _RIVALS = ("enum", "digits", "scale")
 """Keys that a word with fixed bits cannot have."""
 
 _MOST = 64
-"""With how many bit groups of a word each is compared: a word has 16 bits, with its variants a few times as many."""
+"""The most bit groups of a word that each is compared with: a word has 16 bits, times its variants."""
 
 
 def check(analysis: Analysis) -> None:
-    """Fixed bits that no allowed number has, that two points write differently, or that another point takes."""
+    """Report fixed bits that no allowed number has, that two points write differently, or that another point takes."""
     meetings = Coexistence(analysis)
     words: dict[tuple[str, str | None, int, int], list[ResolvedPoint]] = {}
     fixed = [resolved for resolved in analysis.resolved if resolved.point.fixed is not None]
@@ -46,13 +46,13 @@ def check(analysis: Analysis) -> None:
 
 
 def _word(analysis: Analysis, point: Point) -> tuple[str, str | None, int, int]:
-    """The word that is written, by space, telegram, index and address."""
+    """Return the key of the word that is written: space, telegram, index and address."""
     index = (point.index or 0) if point.space in analysis.scope.family.indexed else 0
     return point.space, point.telegram, index, min(point.written.addresses)
 
 
 def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: ResolvedPoint, *, behind: bool) -> None:
-    """Findings about two bit groups of one word; the one that stands `behind` reports what is wrong with both."""
+    """Report what is wrong between two bit groups of one word; the later one (`behind`) reports what concerns both."""
     mask = group_mask(other.point)
     other_fixed = other.point.fixed
     related = [(other.facts.span(), f"`{other.point.name}` stands here")]
@@ -69,7 +69,7 @@ def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: R
 
 
 def _leaves_any(point: Point, fixed: Fixed) -> bool:
-    """Whether some number with the fixed bits may be written; limits set by other points count at their widest."""
+    """Return True if a number with the fixed bits may be written; limits set by other points count at their widest."""
     span = 1 << point.width
     for interval in point.allowed.intervals:
         low, high = interval.outer
@@ -80,7 +80,7 @@ def _leaves_any(point: Point, fixed: Fixed) -> bool:
 
 
 def _next_with_bits(number: int, fixed: Fixed) -> int:
-    """The least number not below `number` that has the fixed bits."""
+    """Return the least number from `number` on that has the fixed bits."""
     while wrong := (number ^ fixed.bits) & fixed.mask:
         top = wrong.bit_length() - 1
         number = ((number >> top) + 1) << top  # rounded up to that bit, which sets it or carries over it

@@ -1,4 +1,4 @@
-"""The manual's worked examples are frames of this device and mean what the manual says; else an erratum explains it."""
+"""The manual's worked examples are frames of this device and mean what the description says, or errata explain them."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.frames import LocatedFrame
 
 Carries = Callable[["Point"], int | None]
-"""The raw number of a point that a frame carries; None if it does not."""
+"""Returns the raw number that a frame carries of a point; None if it carries none."""
 
 
 @dataclass(slots=True)
 class Seen:
-    """What a frame was read as. `request` is the family's own form of it, which its answers are parsed with.
+    """How the family read a frame.
 
-    `carries` is None where the bytes are no frame of the device.
+    `request` is the family's own form of the frame, for parsing its answers. `carries` is None if the bytes are no frame of
+    the device.
     """
 
     frame: Frame
@@ -33,11 +34,11 @@ class Seen:
 
 
 Reader = Callable[[Analysis, "LocatedFrame", dict[str, Seen]], Seen]
-"""Reads a frame as the family does; takes the frames before it by name, and reports what disagrees."""
+"""Reads a frame as the family does, given the frames before it by name, and reports what disagrees."""
 
 
 def check(analysis: Analysis) -> None:
-    """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
+    """Report frames with a wrong checksum, count or length, wrong answers, and meanings that the bytes do not have."""
     if not analysis.bus_is_whole:
         return
     family_part = analysis.scope.family.part("checks")
@@ -57,7 +58,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _unread(analysis: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
-    """The reader for families that do not read frames."""
+    """Read nothing, for families that do not read frames."""
     del analysis, seen
     return Seen(open_frame.frame)
 
@@ -79,36 +80,32 @@ def _compare_meaning(analysis: Analysis, open_frame: LocatedFrame, carries: Carr
 
 
 def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: list[Point]) -> None:
-    """Findings for requests that write a word without its constant bits."""
+    """Report requests that write a word without its constant bits."""
     for point in points:
         word = carries(_whole_word(point))
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        analysis.report_printed(
-            PrintedFact(open_frame.about, "fixed", printed, None, open_frame.node.span("bytes"), message)
-        )
+        analysis.report_printed(open_frame.printed("fixed", printed, None, message))
 
 
 def _whole_word(point: Point) -> Point:
-    """The point, or the whole word that it has a few bits of, as a point."""
+    """Return the point, or the whole word of a bit group as a point."""
     if point.bits is None:
         return point
     return replace(point, terms=replace(point.terms, bits=None), shape=replace(point.shape, type="u16", width=16))
 
 
 def report_no_frame(analysis: Analysis, open_frame: LocatedFrame, message: str) -> Seen:
-    """A finding for bytes that are no frame of the device; an erratum may say which bytes are right."""
+    """Report bytes that are no frame of the device; an erratum may give the right ones."""
     printed = hex_of(open_frame.frame.printed)
-    analysis.report_printed(
-        PrintedFact(open_frame.about, "form", printed, None, open_frame.node.span("bytes"), message)
-    )
+    analysis.report_printed(open_frame.printed("form", printed, None, message))
     return Seen(replace(open_frame.frame, valid=False))
 
 
 def report_refused(analysis: Analysis, open_frame: LocatedFrame, status: str) -> Seen:
-    """A finding for a request that the device does not take, or a response that is no answer to its request."""
+    """Report a request that the device does not take, or a response that does not answer its request."""
     frame = open_frame.frame
     asks = frame.direction == "request"
     what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
@@ -116,37 +113,33 @@ def report_refused(analysis: Analysis, open_frame: LocatedFrame, status: str) ->
 
 
 def report_no_request(analysis: Analysis, open_frame: LocatedFrame) -> None:
-    """A finding for a response that does not say what it answers."""
+    """Report a response that names no request."""
     if open_frame.frame.answers is None:
         message = f"the response `{open_frame.frame.name}` answers nothing"
-        analysis.report.error(
-            "unknown-frame", message, open_frame.node.span("name"), "name the request under `answers`"
-        )
+        span = open_frame.node.span("name")
+        analysis.report.error("unknown-frame", message, span, "name the request under `answers`")
 
 
 def report_wrong_error(analysis: Analysis, open_frame: LocatedFrame, carried: int | None) -> None:
-    """A finding for a frame that carries another error than the description says."""
+    """Report a frame that carries another error than the description states."""
     stated = open_frame.node.get("error")
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        analysis.report_printed(
-            PrintedFact(open_frame.about, "error", stated, carried, open_frame.node.span("error"), message)
-        )
+        analysis.report_printed(open_frame.printed("error", stated, carried, message, at="error"))
 
 
 def report_wrong_sum(analysis: Analysis, open_frame: LocatedFrame, key: str, here: bytes, right: bytes) -> None:
-    """A finding for a checksum or a length that is not the one that the bytes give."""
+    """Report a checksum or a length that the bytes do not give."""
     printed, taken = hex_of(here), hex_of(right)
     if printed != taken:
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
-        span = open_frame.node.span("bytes")
-        analysis.report_printed(PrintedFact(open_frame.about, key, printed, taken, span, message))
+        analysis.report_printed(open_frame.printed(key, printed, taken, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
-    """The raw number of a point from its words, the high part first; None if a word is missing, or all are."""
+    """Return the raw number of a point from its words, high part first; None if a word is missing."""
     known = [word for word in words if word is not None]
     return raw_of(point, known) if known and len(known) == len(words) else None
 

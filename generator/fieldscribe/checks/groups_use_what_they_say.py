@@ -1,4 +1,4 @@
-"""The `telegram` and the `addressing` of a group have points that they apply to."""
+"""The `telegram` and the `addressing` of a group apply to points of it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for a telegram without points, and for a rule of addresses that cannot be read."""
+    """Report a telegram without points, and an address rule that cannot be read."""
     groups: dict[int, Map] = {}
     with_words: set[int] = set()
     for resolved in analysis.resolved:

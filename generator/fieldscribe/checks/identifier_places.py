@@ -1,4 +1,4 @@
-"""The owners of identifiers, as messages name them and with their places in the description."""
+"""Names the owners of identifiers for messages and finds their places in the description."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}
 _OF_POINT = {"flag": "flags", "code": "special", "special codes": "special", "old name": "was"}
-"""The key of a point under which parts of each kind stand."""
+"""The key of a point that holds its parts of each kind."""
 
 
 class Thing(NamedTuple):
-    """Something with a name: its words in messages and its place; None for what a target itself needs."""
+    """A named thing: how messages call it, and its place; the place is None if a target itself needs the name."""
 
     words: str
     place: Span | None
 
 
 class _EnumFound(NamedTuple):
-    """An enum with the place where it is written: under `enums`, or in its point."""
+    """An enum with the place of its entries: under `enums`, or in its point."""
 
     name: str
     was: tuple[str, ...]
@@ -40,7 +40,7 @@ class _EnumFound(NamedTuple):
 
 
 def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
-    """The names of groups, points and enums as the description gives them: namespace, name, and whose it is."""
+    """Yield the names of groups, points and enums in the description: namespace, name, and a function for the owner."""
     for group in analysis.scope.groups:
         name = str(group["group"])
         yield "the list of groups", name, partial(Thing, f"the group `{name}`", group.span("group"))
@@ -52,7 +52,7 @@ def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Callable[[], Thi
 
 
 def _names_of_point(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
-    """The names of a point: its item, its own name where it has a variant, and its former names."""
+    """Yield the names of a point: its item, its plain name if it has a variant, and its former names."""
     where, point, facts = "generated code", resolved.point, resolved.facts
     yield where, facts.item, partial(_point_thing, facts)
     if point.variant is not None:
@@ -79,7 +79,7 @@ def _point_words(facts: PointFacts) -> str:
 
 
 def _enums(analysis: Analysis) -> Iterator[_EnumFound]:
-    """The enums of generated points, each once, in the order of the points."""
+    """Yield the enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
     for resolved in analysis.resolved:
         point, facts = resolved.point, resolved.facts
@@ -109,7 +109,7 @@ class IdentifierPlaces:
         self._analysis = analysis
 
     def thing(self, owner: Owner) -> Thing:
-        """The owner in words, with its place."""
+        """Return the owner as messages call it, with its place."""
         if owner.kind == "target":
             return Thing(owner.name, None)
         if owner.kind == "enum":
@@ -167,12 +167,12 @@ class IdentifierPlaces:
         return next(filter(None, places), None) or facts.span(key)
 
     def _holder_of_codes(self, codes: Owner) -> PointFacts:
-        """The first point that has codes which many share."""
+        """Return the first point that has these shared special codes."""
         return next(resolved.facts for resolved in self._analysis.resolved if resolved.point.shared_codes == codes.name)
 
 
 def _key_place(holder: object, name: str) -> Span | None:
-    """The place of the key that is the name, or whose value is or has the name."""
+    """Return the place of the key that equals the name, or whose value is or has the name."""
     for key, value in holder.items() if isinstance(holder, Map) else ():
         if name in (key, value, value.get("name") if isinstance(value, Map) else None):
             return holder.key_span(key) if isinstance(holder, Map) else None

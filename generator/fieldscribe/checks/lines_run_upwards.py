@@ -18,7 +18,7 @@ _LISTS = lists_with(DEVICE, "lines")
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for `lines` such as 9..3."""
+    """Report `lines` such as 9..3."""
     seen: set[int] = set()
     for resolved in analysis.resolved:
         for layer in resolved.facts.layers:

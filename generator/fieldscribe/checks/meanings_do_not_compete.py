@@ -1,4 +1,4 @@
-"""A point has one meaning: a named number, a word of flags, a quantity by a scale, or a floating-point number."""
+"""A point is one thing: a named number, a word of flags, a quantity with a scale, or a floating-point number."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _RIVALS = (
 
 
 class _Rivals:
-    """Finds the rivals among the keys that points have; many have the same keys."""
+    """Finds keys of points that exclude each other; the result is kept, because many points have the same keys."""
 
     def __init__(self) -> None:
         self._known: dict[tuple[str, ...], tuple[tuple[str, str, str], ...]] = {}
 
     def among(self, facts: PointFacts) -> tuple[tuple[str, str, str], ...]:
-        """The pairs of keys that a point has both of, though they exclude each other."""
+        """Return the pairs of keys that exclude each other and that the point both has."""
         keys = tuple(facts.keys)
         if keys not in self._known:
             self._known[keys] = tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
@@ -46,7 +46,7 @@ class _Rivals:
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for facts of one point that exclude each other."""
+    """Report facts of one point that exclude each other."""
     rivals = _Rivals()
     for resolved in analysis.resolved:
         facts, shape = resolved.facts, resolved.point.shape
@@ -76,7 +76,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
-    """Findings for a name that is a special code and also an enum entry or a flag: it would be ambiguous."""
+    """Report a name that is both a special code and an enum entry or a flag."""
     point = resolved.point
     enum = point.digits.enum if point.digits is not None else point.enum
     numbers = {} if enum is None else {entry.name: entry.raw for entry in enum.entries}
@@ -96,7 +96,7 @@ def _shared_names(analysis: Analysis, resolved: ResolvedPoint) -> None:
 
 
 def _alien(analysis: Analysis, facts: PointFacts, keys: tuple[str, ...], what: str, why: str) -> None:
-    """Findings for facts about whole numbers that a text or a floating-point number was given."""
+    """Report facts about whole numbers that a text or a floating-point number has."""
     rule = "text-fact" if facts.text else "float-fact"
     for key in keys:
         if facts.get(key) is not None and facts.layer(key) is not facts.group:

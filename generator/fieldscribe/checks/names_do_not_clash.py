@@ -1,7 +1,7 @@
-"""No two things get the same identifier in any target, and none gets an identifier that generated code needs.
+"""No two things get the same identifier in a target, and none gets an identifier that generated code needs.
 
 Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
-that have other findings are left out. Reserved words are no clash: targets change such names themselves.
+that have other findings are left out. Reserved words do not clash: targets change such names themselves.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for equal names in the description, then for equal identifiers in a target."""
+    """Report equal names in the description, then equal identifiers in a target."""
     told_pairs: set[frozenset[Thing]] = set()
     first: dict[tuple[str, str], Callable[[], Thing]] = {}
     for namespace, name, whose in given_names(analysis):
@@ -44,7 +44,7 @@ def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> N
 
 
 def _report(analysis: Analysis, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
-    """Report a pair once: names that clash in one language mostly clash in others too."""
+    """Report a pair once, because names that clash in one language mostly clash in the others too."""
     pair = frozenset((first, second))
     if second.place is None:
         first, second = second, first

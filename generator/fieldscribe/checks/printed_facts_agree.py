@@ -1,4 +1,4 @@
-"""What the manual prints redundantly about a point agrees with the facts taken, or an erratum says why not."""
+"""What the manual prints redundantly about a point agrees with its facts, or an erratum says why not."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ _NEEDS = {
     "choices": {"enum", "range"},
     "pairs": {"type", "scale", "unit"},
 }
-"""The keys of the facts that each printed key is compared with; all others are compared with the address."""
+"""The facts that each printed key is compared with; every other printed key is compared with the address."""
 
 
 def check(analysis: Analysis) -> None:
-    """PrintedFact numbers, ranges, resolutions and counts that disagree with the point."""
+    """Report printed numbers, ranges, resolutions and counts that disagree with the point."""
     for resolved in analysis.resolved:
         layer = resolved.facts.layer("printed")
         if layer is not None:
@@ -52,7 +52,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _doubtful(printed: Map, point: Point) -> list[str]:
-    """The printed keys that need a closer look: all but those that are plainly numbers of the point."""
+    """Return the printed keys that are not plainly the numbers of the point, and need a closer look."""
     references, addresses = point.place.references, point.place.addresses
     wire = None if not addresses else addresses[0] if point.shape.text is not None else min(addresses)
     return [
@@ -63,7 +63,7 @@ def _doubtful(printed: Map, point: Point) -> list[str]:
 
 
 def _is_plainly(value: object, number: int | str | None) -> bool:
-    """Whether all that is printed is plainly this number."""
+    """Return True if everything printed is plainly this number."""
     if not isinstance(number, int):
         return False
     hexadecimal = f"{number:04X}h"
@@ -97,10 +97,9 @@ def _printed(analysis: Analysis, resolved: ResolvedPoint, printed: Map, keys: li
 
 
 def _numbers(analysis: Analysis, resolved: ResolvedPoint) -> Mapping[str, int]:
-    """The point's number in every numbering of its group.
+    """Return the point's number in every numbering of its group.
 
-    `low_...` and `high_...` are for the words with the low and the high part, `write_...` for where else the point is
-    written.
+    The prefixes `low_` and `high_` stand for the words with the low and the high part, `write_` for the write address.
     """
     known: dict[str, int] = {}
     for place in resolved.point.places:
@@ -151,50 +150,40 @@ def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
 
 
 def _range(analysis: Analysis, resolved: ResolvedPoint, key: str, value: Any, span: Span) -> None:
-    point = resolved.point
-    if point.info.floating:
-        _units(analysis, resolved, value, span)
-        return
-    in_units = key == "range_in_units"
+    point, facts = resolved.point, resolved.facts
+    in_units = key == "range_in_units" or point.info.floating
 
-    def agrees(printed_range: Any) -> bool | None:
-        intervals = analysis.ranges.intervals(resolved.facts, printed_range, span, in_units, printed=True)
+    def agrees(printed: Any) -> bool | None:
+        if point.info.floating:
+            return _same_units(point, printed)
+        intervals = analysis.ranges.intervals(facts, printed, span, in_units, printed=True)
         return None if intervals is None else _same_range(point.allowed, without_codes(intervals, point.specials))
 
     if agrees(value) is not False:
         return
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
-    taken = taken or as_text(resolved.facts.get(key) or resolved.facts.get("range") or "another")
-    message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-    right = PrintedFact(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
-    analysis.report_printed(right)
+    taken = taken or as_text(facts.get(key) or facts.get("range") or "another")
+    what = "range" if point.info.floating else key.replace("_", " ")
+    message = f"the {what} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
+    key = "range_in_units" if in_units else key
+    fact = PrintedFact(point.name, key, value, taken, span, message, lambda stated: bool(agrees(stated)))
+    analysis.report_printed(fact)
 
 
-def _units(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:
-    point = resolved.point
-
-    def agrees(printed_range: Any) -> bool:
-        try:
-            return constant_range(as_text(printed_range)) in (None, point.allowed.units)
-        except FormulaError:
-            return False
-
-    if not agrees(value):
-        taken = wording.range_text(point)
-        message = f"the range {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-        analysis.report_printed(PrintedFact(point.name, "range_in_units", value, taken, span, message, agrees))
+def _same_units(point: Point, printed: Any) -> bool:
+    """Return True if the printed limits of a floating-point number are those taken, or name other points."""
+    try:
+        return constant_range(as_text(printed)) in (None, point.allowed.units)
+    except FormulaError:
+        return False
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
-    fixed = [
-        interval for interval in taken.intervals if isinstance(interval.low, int) and isinstance(interval.high, int)
-    ]
-    printed_fixed = [
-        interval for interval in printed.intervals if isinstance(interval.low, int) and isinstance(interval.high, int)
-    ]
-    moving = taken.intervals[len(fixed) :]  # intervals that other points limit come last
-    printed_moving = printed.intervals[len(printed_fixed) :]
-    return moving == printed_moving and (fixed == printed_fixed or (bool(moving) and not printed_fixed))
+    """Return True if the intervals are equal. Fixed ones need not be printed where other points set limits."""
+    moving = taken.intervals[len(taken.fixed) :]  # these stand behind the fixed ones
+    if moving != printed.intervals[len(printed.fixed) :]:
+        return False
+    return taken.fixed == printed.fixed or (bool(moving) and not printed.fixed)
 
 
 def _resolution(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:

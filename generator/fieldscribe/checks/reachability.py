@@ -1,4 +1,4 @@
-"""Findings for points that no frame of the device can read or write."""
+"""Reports points that no frame of the device can read or write."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.analysis import Analysis
 
 Needs = Callable[["Analysis", list["Point"]], Iterable[tuple[int, str, str]]]
-"""Yields what the device lacks: how many of the points need it, what it is, and a hint."""
+"""Yields what the device lacks: how many points need it, what it is, and a hint."""
 
 
 def report_missing(analysis: Analysis, needs: Needs) -> None:
-    """One finding for each missing way to read or write points outside telegrams."""
+    """Report each missing way to read or write points outside telegrams."""
     if not analysis.bus_is_whole or analysis.scope.bus is None:
         return
     sound = [

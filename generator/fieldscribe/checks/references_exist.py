@@ -1,4 +1,4 @@
-"""Names refer to what exists: `keep_with` to a command, a command's `busy` to a point."""
+"""Names refer to what exists: `keep_with` to a command, `busy` of a command to a point."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for names of commands and points that do not exist."""
+    """Report names of commands and points that do not exist."""
     scope = analysis.scope
     declared = {str(node["name"]) for node in scope.listed("commands")}
     for resolved in analysis.resolved:

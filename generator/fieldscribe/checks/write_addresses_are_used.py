@@ -1,4 +1,4 @@
-"""A write address is the point's own, beside one where it is read, in a family that can write elsewhere."""
+"""A write address differs from the read address, in a family that can write elsewhere."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LEAVE_OUT = "leave `write_at` out"
 
 
 def check(analysis: Analysis) -> None:
-    """Findings for write addresses that no request would use, or that say nothing."""
+    """Report write addresses that no request would use, or that add nothing."""
     for resolved in analysis.resolved:
         facts = resolved.facts
         if facts.get("write_at") is None or facts.failed & {"at", "write_at", "space"}:
@@ -26,7 +26,7 @@ def check(analysis: Analysis) -> None:
 
 
 def _wrong(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str]]:
-    """What is wrong with a write address, the most telling first."""
+    """Yield what is wrong with a write address, the most telling reason first."""
     point, family = resolved.point, analysis.scope.family
     if not family.writes_elsewhere:
         yield f"is written where it is read: {family.name} devices know no other place", _LEAVE_OUT

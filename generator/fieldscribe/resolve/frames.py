@@ -9,6 +9,7 @@ from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.families import families
 from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.model import Bus, Frame, Named, Point
+from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import integer, number
@@ -35,8 +36,12 @@ class LocatedFrame:
 
     @property
     def about(self) -> Named:
-        """The frame as errata name it."""
+        """Return how errata name the frame."""
         return Named("frame", self.frame.name)
+
+    def printed(self, key: str, printed: Any, taken: Any, message: str, *, at: str = "bytes") -> PrintedFact:
+        """Return a fact of the frame that is printed otherwise; `at` is the key that has it."""
+        return PrintedFact(self.about, key, printed, taken, self.node.span(at), message)
 
 
 def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:

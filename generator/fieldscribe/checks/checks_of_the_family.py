@@ -1,0 +1,15 @@
+"""The device fulfils what its family checks itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.resolve.analysis import Analysis
+
+
+def check(analysis: Analysis) -> None:
+    """Run the checks of the family in their order."""
+    part = analysis.scope.family.part("checks")
+    for check_of_family in () if part is None else part.CHECKS:
+        check_of_family(analysis)
