@@ -24,8 +24,8 @@ Carries = Callable[["Point"], int | None]
 class Seen:
     """How the family read a frame.
 
-    `request` is the family's own form of the frame, for parsing its answers. `carries` is None if the bytes are no frame of
-    the device.
+    `request` is the family's own form of the frame, for parsing its answers. `carries` is None if the device has no
+    such frame.
     """
 
     frame: Frame
