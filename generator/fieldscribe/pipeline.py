@@ -141,7 +141,9 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
     for name in targets:
         try:
             loaded = target(name)
-            for path, text in _of_target(loaded, device if loaded.FOR_PEOPLE else (plain := plain or for_code(device))):
+            for path, text in _of_target(
+                loaded, device if loaded.SEES_TITLES else (plain := plain or for_code(device))
+            ):
                 yield name, path, text
         except Exception as error:
             raise TargetError(name) from error

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 DEVICES = TESTS / "devices"
-CODE = [name for name in TARGETS if not target(name).FOR_PEOPLE]
+CODE = [name for name in TARGETS if not target(name).SEES_TITLES]
 
 Step = tuple[str, Any]
 """A field, an index or a key on the way to a value."""

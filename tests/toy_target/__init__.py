@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
 
-FOR_PEOPLE = False
+SEES_TITLES = False
 NEEDS_FAMILY = False
-KEEPS_NAMES = False
+NAMES_CONTAIN_POINT = False
 
 _LONGEST = 8
 

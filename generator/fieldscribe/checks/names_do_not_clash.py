@@ -36,7 +36,7 @@ def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> N
     owners, device = IdentifierPlaces(analysis), analysis.code_device
     kinds = PointKinds(device)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
-        if language.KEEPS_NAMES and kinds.are_distinct(language.identifiers):
+        if language.NAMES_CONTAIN_POINT and kinds.are_distinct(language.identifiers):
             continue
         for clash in clashes(language.identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)

@@ -6,10 +6,12 @@ known of the points that a rule needs. A view asks it and writes the answer in i
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered.plans import Plan, plan_of
 from fieldscribe.lowered.rules import Operand, Rule, rule_of
+from fieldscribe.lowered.templates import TemplateKeys
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,6 +35,12 @@ class Lowered:
         if lowered is None:
             lowered = self._rules[linear] = rule_of(linear, self.points)
         return lowered
+
+    @cached_property
+    def template_keys(self) -> Mapping[int, int]:
+        """The template key of each generated point, by the point's id."""
+        key_of = TemplateKeys().of
+        return {id(point): key_of(point) for point in self.device.points if point.generated}
 
 
 _kept: list[Lowered] = []

@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.hints import quoted
 from fieldscribe.language.meant import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
-from fieldscribe.resolve.alike import Once
+from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.special_codes import SpecialCodes
 from fieldscribe.resolve.values import bit_range
 
@@ -42,11 +42,11 @@ class Encodings:
         self._scope = scope
         self._codes = SpecialCodes(scope)
         self._codes.check_types()
-        self._once: Once[Encoding] = Once(scope.report)
+        self._memo: Memo[Encoding] = Memo(scope.report)
 
     def of(self, facts: PointFacts, kind: int) -> Encoding:
         """Return the encoding of a point."""
-        return self._once.of(kind, facts, self._encoding, lambda _: True)
+        return self._memo.of(kind, facts, self._encoding, lambda _: True)
 
     def _encoding(self, facts: PointFacts) -> Encoding:
         space = _space_of(self._scope, facts)

@@ -10,10 +10,10 @@ from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Point, Terms
 from fieldscribe.resolve.addresses import Places
-from fieldscribe.resolve.alike import Kinds, Once, frozen
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.encodings import Encoding, Encodings
+from fieldscribe.resolve.memo import FactKeys, Memo, hashable
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, Sources, titles
@@ -45,7 +45,7 @@ def resolve_points(
     scope: Scope, expanded: list[PointFacts], index: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
     """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
-    kind_of, encoding_of = Kinds().of, Encodings(scope).of
+    kind_of, encoding_of = FactKeys().of, Encodings(scope).of
     kinds = {facts: kind_of(facts) for facts in expanded}
     encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
     scales = Scales(scope, index)
@@ -65,8 +65,8 @@ class _Points:
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
         self._sources = Sources(scope)
-        self._terms: Once[Terms] = Once(scope.report)
-        self._defaults: Once[tuple[Fraction | None, int | None]] = Once(scope.report)
+        self._terms: Memo[Terms] = Memo(scope.report)
+        self._defaults: Memo[tuple[Fraction | None, int | None]] = Memo(scope.report)
 
     def point(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Point:
         """Return the point that has these facts."""
@@ -100,7 +100,7 @@ class _Points:
         """The factory setting in the unit and as raw number."""
         if facts.layer("default") is None and facts.layer("default_in_units") is None:
             return None, None
-        said = kind, frozen(facts.get("default")), frozen(facts.get("default_in_units"))
+        said = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
         return self._defaults.of(said, facts, lambda _: _default_of(self._scope, facts, shape), lambda _: True)
 
     def _new_terms(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Terms:

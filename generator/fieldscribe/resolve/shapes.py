@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
-from fieldscribe.resolve.alike import Once, frozen
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
+from fieldscribe.resolve.memo import Memo, hashable
 from fieldscribe.resolve.scales import UnknownError
 from fieldscribe.resolve.scope import humanised
 from fieldscribe.resolve.special_codes import quantities
@@ -66,7 +66,7 @@ class Shapes:
     def __init__(self, scope: Scope, encodings: Mapping[PointFacts, Encoding], ranges: Ranges, places: Places) -> None:
         self._scope, self._encodings, self._ranges, self._places = scope, encodings, ranges, places
         self._interner = Interner()
-        self._once: Once[ShapeAndLimits] = Once(scope.report)
+        self._memo: Memo[ShapeAndLimits] = Memo(scope.report)
         self._free: dict[int, ShapeAndLimits] = {}
 
     def of(self, facts: PointFacts, kind: int) -> ShapeAndLimits:
@@ -74,8 +74,8 @@ class Shapes:
         limits, free = facts.get("range"), self._free.get(kind)
         if free is not None and (ends := _plain_ends(limits, self._encodings[facts].holds)) is not None:
             return free._replace(allowed=self._interner.interval(*ends))
-        whole = kind, frozen(limits), frozen(facts.get("range_in_units"))
-        found = self._once.of(whole, facts, self._shape_of, lambda new: new.is_general)
+        whole = kind, hashable(limits), hashable(facts.get("range_in_units"))
+        found = self._memo.of(whole, facts, self._shape_of, lambda new: new.is_general)
         if found.free and found.is_general:
             self._free.setdefault(kind, found)
         return self._with_own_enum(facts, found)

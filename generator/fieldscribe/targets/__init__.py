@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     class Target(Protocol):
         """What a target's module offers."""
 
-        FOR_PEOPLE: bool
+        SEES_TITLES: bool
         """Whether it also sees titles, notes and sources; the others see names only (code_view.py)."""
 
         NEEDS_FAMILY: bool
         """Whether it can say only devices whose family has a part for it."""
 
-        KEEPS_NAMES: bool
+        NAMES_CONTAIN_POINT: bool
         """Whether what it calls a thing of a point holds the point's name whole: checks need not list all of them."""
 
         def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -86,7 +86,7 @@ def files_of(device: Device, wish: Wish) -> Iterator[tuple[str, str]]:
     if not wish.frames:
         files = {path: text for path, text in files.items() if path not in _of_frames(named)}
     if wish.single_file:
-        from fieldscribe.targets.c.joining import joined
+        from fieldscribe.targets.c.header import joined
 
         files = {f"{named.id}.h": joined(files, named)}
     yield from files.items()

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.targets.c.reciprocals import Numbers, _met, reciprocal
+from fieldscribe.targets.c.scales import Numbers, _met, reciprocal
 from support.c_device import SANITIZERS, WARNINGS, write_headers
 from support.models import device_of, point, scaled
 from support.toolchains import compiled

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe.model import Limit
-from fieldscribe.targets.c.rules import limit
+from fieldscribe.targets.c.limits import limit
 from fieldscribe.targets.c.scope import scope_of
 from support.c_device import write_headers
 from support.models import allowed, device_of, linear, point, value_of

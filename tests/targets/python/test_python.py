@@ -20,7 +20,7 @@ from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
-from fieldscribe.targets.python.names import LIBRARIES
+from fieldscribe.targets.python.namespaces import LIBRARIES
 from support.models import HERTZ, STATUS_FLAGS, changed, entry, plain_points, point, sample_device, titles, trip_device
 from support.python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
 from support.python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package

@@ -17,10 +17,9 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import facts_text, left_out, wrapped
+from fieldscribe.targets.rust.documentation import PointDoc, left_out, wrapped
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.identity import KnownLimits, words_of
 from fieldscribe.targets.rust.layout import Item, assignment, binding, called, calls, chain, chained, comparison, filled
 from fieldscribe.targets.rust.literals import nearest_float
 from fieldscribe.targets.rust.subjects import scope_of
@@ -319,11 +318,12 @@ def test_numbers_of_several_bits_are_shown_by_name() -> None:
 
 
 def test_a_step_is_information() -> None:
-    subjects, limits = scope_of(kitchen_sink()).subjects, KnownLimits()
-    points = [one.point for one in subjects]
-    docs = {one.item: facts_text(one.point, words_of(one, limits.of(one))) for one in subjects}
+    points = [subject.point for subject in scope_of(kitchen_sink()).subjects]
+    docs = {one.item: PointDoc(one, ()).of(one.item, "", 0, "") for one in points}
     stepped = {one.item for one in points if one.steps}
-    assert stepped == {item for item, doc in docs.items() if "(for information, not checked)" in doc}
+    assert stepped == {
+        item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split("\n    /// "))
+    }
     assert stepped
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.targets.c.device import device_view, header
-from fieldscribe.targets.c.families import frames_of
-from fieldscribe.targets.c.fold import framed
+from fieldscribe.targets.c.frames import frames_of
+from fieldscribe.targets.c.header import device_view, header
 from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
-from fieldscribe.targets.c.kinds import placed_points
+from fieldscribe.targets.c.layout import framed
+from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.c.scope import scope_of
 
 if TYPE_CHECKING:
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
     from fieldscribe.targets.c.frames import Frames
-    from fieldscribe.targets.c.kinds import Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
 
-FOR_PEOPLE = False
+SEES_TITLES = False
 NEEDS_FAMILY = True
-KEEPS_NAMES = True
+NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -32,8 +32,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     made = _made(device)
     for name, text in _headers(made, render):
         yield f"c/{name}", text
-    suite = conformance_view(device, made.placed, made.scope)
-    adapters = {"adapters": adapters_text(made.placed, made.scope, made.sections.values(), render)}
+    suite = conformance_view(device, made.points, made.scope)
+    adapters = {"adapters": adapters_text(made.points, made.scope, made.sections.values(), render)}
     context = {**made.context, "suite": suite}
     program = framed(render, f"c/{device.family}_conformance.c.j2", context, adapters)
     yield f"c/conformance/{device.id}_conformance.c", program
@@ -61,23 +61,23 @@ class _Made(NamedTuple):
 
     device: Device
     scope: HeaderScope
-    placed: Sequence[Placed]
+    points: Sequence[GeneratedPoint]
     context: Mapping[str, Any]
     sections: Mapping[str, Frames]
 
 
 def _made(device: Device) -> _Made:
     scope = scope_of(device)
-    placed = placed_points(device, scope)
-    view = device_view(device, placed, scope)
+    points = generated_points(device, scope)
+    view = device_view(device, points, scope)
     frames = frames_of(device)
-    bus = frames.bus_view(device, placed, scope)
-    return _Made(device, scope, placed, {"device": view, "bus": bus}, frames.sections(bus))
+    bus = frames.bus_view(device, points, scope)
+    return _Made(device, scope, points, {"device": view, "bus": bus}, frames.sections(bus))
 
 
 def _headers(made: _Made, render: Render) -> Iterator[tuple[str, str]]:
     device, view = made.device, made.context["device"]
-    yield f"{device.id}.h", header(device, view, made.placed, made.scope, render)
+    yield f"{device.id}.h", header(device, view, made.points, made.scope, render)
     texts = {name: section.text(render) for name, section in made.sections.items()}
     yield f"{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", made.context, texts)
 
@@ -86,4 +86,4 @@ def _runtime(device: Device) -> tuple[str, str]:
     return "fieldscribe.h", f"fieldscribe_{device.family}.h"
 
 
-__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]

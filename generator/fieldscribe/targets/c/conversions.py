@@ -14,10 +14,10 @@ from fieldscribe.targets.c.literals import (
     sign_and_size,
     unsigned,
 )
-from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.views import Function
+from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +47,7 @@ class Writer:
     """Writes the functions of one point."""
 
     def __init__(self, point: Point, view: PointView, scope: HeaderScope) -> None:
-        self.point, self.words, self.special, self.scope = point, view.words, view.special, scope
+        self.point, self.fields, self.special, self.scope = point, view.fields, view.special, scope
         self.rule = view.rule
         self.name, self.macro = view.function, view.macro
         self.type, self.kind = view.raw_type, raw_kind(point)
@@ -57,7 +57,7 @@ class Writer:
     def check(self) -> Function:
         """The function that tells whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
-        status = codes_first(self.point, self.special, check(self.point, self.words, self.scope))
+        status = codes_first(self.point, self.special, check(self.point, self.fields, self.scope))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
@@ -118,7 +118,7 @@ class Writer:
         low, high = point.held if fixes(point) else encoded_limits(point)
         if not is_rechecked(point):
             ends = (
-                f"{unsigned(low)}, {unsigned(high)}" if kind == "uint64_t" else f"{self.words.low}, {self.words.high}"
+                f"{unsigned(low)}, {unsigned(high)}" if kind == "uint64_t" else f"{self.fields.low}, {self.fields.high}"
             )
             return f"return {known(point, f'fieldscribe_encode_{self.kind}(value, {ends}, raw)')};"
         self.scope.takes(point.arguments)
@@ -134,7 +134,7 @@ class Writer:
 
     def scaled(self) -> Iterator[Function]:
         """The functions of a point whose scale is known at compile time."""
-        point, scale, words = self.point, scaled(self.point, *encoded_limits(self.point)), self.words
+        point, scale, fields = self.point, scaled(self.point, *encoded_limits(self.point)), self.fields
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
         if point.writable:
@@ -142,9 +142,9 @@ class Writer:
         if point.writable and counts:
             self.scope.takes(point.arguments)
             if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == point.outer:
-                body = f"return fieldscribe_encode_{self.kind}(count, {words.low}, {words.high}, raw);"
+                body = f"return fieldscribe_encode_{self.kind}(count, {fields.low}, {fields.high}, raw);"
             else:
-                inside = f"{scale.inside}(count, {words.first}, {words.last})" if scale.inside else ""
+                inside = f"{scale.inside}(count, {fields.first}, {fields.last})" if scale.inside else ""
                 body = self._kept(inside, scale.raw_of_count, "FIELDSCRIBE_OUT_OF_RANGE")
             yield self._encode("encode_count", f"{scale.count_type} count", body)
         if point.readable and counts:
@@ -161,7 +161,7 @@ class Writer:
         if reach != self.point.outer:
             return ", ".join(map(bare, reach))
         named = is_rechecked(self.point)
-        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else f"{self.words.low}, {self.words.high}"
+        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else f"{self.fields.low}, {self.fields.high}"
 
     def _rounded(self, scale: Scaled) -> tuple[str, ...]:
         limits = self._outer()

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
+from fieldscribe.families import family
 from fieldscribe.names import upper
-from fieldscribe.targets.c.device import old_items
-from fieldscribe.targets.c.fold import folded
-from fieldscribe.targets.c.kinds import Texts
+from fieldscribe.targets.c.header import old_items
+from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.point_templates import TemplateTexts
 from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.kinds import Kind, Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint, PointTemplate
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
@@ -56,45 +57,64 @@ class Frame:
 class Frames:
     """The frames of points, made for the first point of each kind, in their order."""
 
-    def __init__(self, placed: Sequence[Placed], make: Callable[[Point, PointView], Frame | None]) -> None:
-        self._placed = placed
+    def __init__(self, points: Sequence[GeneratedPoint], make: Callable[[Point, PointView], Frame | None]) -> None:
+        self._points = points
         nothing = Frame((), ())
-        self._made = {kind: make(kind.point, kind.view) or nothing for kind in {kind: None for _, kind, _ in placed}}
+        templates = dict.fromkeys(each.template for each in points)
+        self._made = {template: make(template.point, template.view) or nothing for template in templates}
 
     @property
     def is_empty(self) -> bool:
         """Whether nothing reaches any of the points."""
         return not any(frame.descriptors for frame in self._made.values())
 
-    def cases(self, kind: Kind) -> tuple[str, ...]:
-        """The macros of the conformance program for the frames of a kind."""
-        return self._made[kind].cases if kind in self._made else ()
+    def cases(self, template: PointTemplate) -> tuple[str, ...]:
+        """Return the macros of the conformance program for the frames of a point."""
+        return self._made[template].cases if template in self._made else ()
 
     def text(self, render: Render) -> str:
         """The descriptors of all points."""
-        texts = Texts(lambda kind: folded("".join(self._constants(kind, render))))
-        return "".join([texts.of(kind).filled(words) for _, kind, words in self._placed])
+        texts = TemplateTexts(lambda template: folded("".join(self._constants(template, render))))
+        return "".join(map(texts.of, self._points))
 
     def names(self) -> Iterator[Named]:
         """The identifiers of the descriptors."""
-        names = Texts(lambda kind: " ".join(descriptor.name for descriptor in self._descriptors(kind)))
-        for _, kind, words in self._placed:
-            yield Owner("point", words[0]), names.of(kind).filled(words).split()
+        for point, template, _ in self._points:
+            yield Owner("point", point.item), [descriptor.name for descriptor in self._made[template].descriptors]
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
         """The descriptors of renamed points under their old names."""
-        for point, kind, _ in self._placed:
+        for point, template, _ in self._points:
             for old, item in old_items(point) if point.was else ():
-                for descriptor in self._descriptors(kind):
+                for descriptor in self._made[template].descriptors:
                     name = f"{scope.prefix}_{item}{descriptor.tail}"
                     yield AliasView(old, item, point.item, name, descriptor.name, "OBJECT")
 
-    def _constants(self, kind: Kind, render: Render) -> Iterator[str]:
-        for descriptor in self._descriptors(kind):
+    def _constants(self, template: PointTemplate, render: Render) -> Iterator[str]:
+        for descriptor in self._made[template].descriptors:
             yield render("c/constant.h.j2", {"one": descriptor})
 
-    def _descriptors(self, kind: Kind) -> tuple[Descriptor, ...]:
-        return self._made[kind].descriptors
+
+class OfFamily(Protocol):
+    """The part `targets.c` of a family. Its template and its runtime have the family's name."""
+
+    NAMED_CODES: tuple[str, ...]
+    """The kinds of codes for which a function gives the name."""
+
+    def bus_view(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> Any:
+        """The view of the header of frames, `<family>.h.j2`."""
+
+    def sections(self, bus: Any) -> Mapping[str, Frames]:
+        """The frames of points in that header, by the names of their texts in the template."""
+
+    def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
+        """Every identifier in that header, with its owner."""
+
+
+def frames_of(device: Device) -> OfFamily:
+    """The part `targets.c` of the device's family."""
+    offered: OfFamily = family(device.family).part("targets.c")
+    return offered
 
 
 def kind_of(point: Point) -> str:
@@ -138,13 +158,6 @@ class Layouts:
     def descriptors(self) -> tuple[Descriptor, ...]:
         """All layouts that points asked for."""
         return tuple(self._known.values())
-
-
-def places_of(point: Point) -> list[int]:
-    """The places of a point's words among its addresses, the high word's first."""
-    order = sorted(point.addresses)
-    whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
-    return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
 def names_of(layouts: Iterable[Descriptor], sections: Iterable[Frames]) -> Iterator[Named]:

@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.patterns import Pattern
-from fieldscribe.targets.c.defines import flag_defines
-from fieldscribe.targets.c.device import STATUSES, device_view, function_names, remark_defines
-from fieldscribe.targets.c.families import frames_of
-from fieldscribe.targets.c.frames import old_names_of
-from fieldscribe.targets.c.kinds import placed_points
+from fieldscribe.targets.c.declarations import flag_defines
+from fieldscribe.targets.c.frames import frames_of, old_names_of
+from fieldscribe.targets.c.header import STATUSES, device_view, function_names, remark_defines
 from fieldscribe.targets.c.limits import ranges_table
+from fieldscribe.targets.c.point_templates import fields_of, generated_points
 from fieldscribe.targets.c.points import named_numbers, names_of
 from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
-from fieldscribe.targets.c.words import words_of
 from fieldscribe.targets.identifiers import Names, Owner
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Point, Special
-    from fieldscribe.targets.c.kinds import Kind, Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
@@ -52,42 +49,32 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 def _identifiers(device: Device) -> Iterator[Named]:
     scope = scope_of(device)
-    placed = placed_points(device, scope)
-    view = device_view(device, placed, scope)
+    points = generated_points(device, scope, share=False)
+    view = device_view(device, points, scope)
     yield _OWN, [f"{view.prefix}_{name}" for name in _TYPES]
     yield _OWN, [f"{view.upper}_{name}" for name in (*STATUSES, *_MACROS)]
     for telegram, named in zip(device.telegrams, view.telegrams, strict=True):
         yield Owner("telegram", telegram.name), (named.name, named.words_name)
-    yield from _of_points(device, placed, scope)
+    yield from _of_points(device, points, scope)
     yield from old_names_of(view.aliases)
     frames = frames_of(device)
-    yield from frames.identifiers(device, frames.bus_view(device, placed, scope), scope)
+    yield from frames.identifiers(device, frames.bus_view(device, points, scope), scope)
 
 
-def _of_points(device: Device, placed: Iterable[Placed], scope: HeaderScope) -> Iterator[Named]:
-    """The identifiers of points, worked out for the first of each kind."""
-    known: dict[Kind, list[tuple[Owner, Pattern]]] = {}
-    generated = iter(placed)
+def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope) -> Iterator[Named]:
+    generated = iter(points)
     for point in device.points:
-        if not point.generated:
-            yield Owner("point", point.item), [name for name, _ in remark_defines(point, words_of(point), scope)]
-            continue
-        _, kind, words = next(generated)
-        if kind not in known:
-            named = _of_point(kind.view, kind.point, scope)
-            known[kind] = [(owner, Pattern(" ".join(names))) for owner, names in named]
-        for owner, names in known[kind]:
-            yield _owner_of(owner, kind.view.words.item, words[0]), names.filled(words).split()
-
-
-def _owner_of(owner: Owner, blank: str, item: str) -> Owner:
-    """The owner with the point's name in place of the blank."""
-    of = None if owner.of is None else _owner_of(owner.of, blank, item)
-    return Owner(owner.kind, item if owner.name == blank else owner.name, of)
+        if point.generated:
+            yield from _of_point(next(generated).template.view, point, scope)
+        else:
+            yield (
+                Owner("point", point.item),
+                [name for name, _ in remark_defines(point, fields_of(point, scope), scope)],
+            )
 
 
 def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
-    owner = Owner("point", shown.words.item)
+    owner = Owner("point", shown.fields.item)
     names = [*(name for name, _ in shown.defines), *function_names(shown)]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
@@ -106,7 +93,7 @@ def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Na
             )
     enum = named_numbers(point)
     if shown.enum is not None and enum is not None:
-        whole = Owner("enum", names_of(point, shown.words)[0])
+        whole = Owner("enum", names_of(point, shown.fields)[0])
         yield whole, (shown.enum.function, shown.enum.table)
         for entry, (name, _, _) in zip(enum.entries, shown.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)

@@ -5,8 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered.templates import placeholders
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from fieldscribe.render import Render
 
 WIDTH = 120
 """No line is longer."""
@@ -14,6 +18,10 @@ WIDTH = 120
 _LAST = 100
 """Added to the depth of a break behind an opening bracket, so that it is the last choice."""
 
+
+_DEEPER = "    "
+_WHOLE = re.compile(r'"(?:[^"\\]|\\.)*"| ')
+"""A string, which must not be broken, or a space, where a line may be broken."""
 
 _SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
 """A string, a bracket, a comma or an operator."""
@@ -82,3 +90,39 @@ def _places(statement: str) -> Iterator[tuple[int, int]]:
             yield depth, match.end()
         elif sign[0] == " ":
             yield depth, match.start()
+
+
+def folded(text: str) -> str:
+    """The same C in lines of at most 120 characters; a macro goes on behind a backslash."""
+    lines = text.split("\n")
+    if max(map(len, lines)) <= WIDTH:
+        return text
+    return "\n".join([part for line in lines for part in (_parts(line) if len(line) > WIDTH else (line,))])
+
+
+def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
+    """The template, folded, around texts that are folded already."""
+    places = dict(zip(texts, placeholders(["_" if text else "" for text in texts.values()]), strict=True))
+    result = folded(render(template, {**context, **places}))
+    for name, text in texts.items():
+        result = text.join(result.split(places[name])) if text else result
+    return result
+
+
+def _parts(line: str) -> list[str]:
+    """One line broken into several; those after the first are indented."""
+    directive = line.startswith("#")
+    most = WIDTH - 2 if directive else WIDTH
+    inside = " " * (len(line) - len(line.lstrip())) + _DEEPER
+    parts: list[str] = []
+    while len(line) > WIDTH and (at := _break(line, most)):
+        parts.append(line[:at] + (" \\" if directive else ""))
+        line = inside + line[at + 1 :]
+    return [*parts, line]
+
+
+def _break(line: str, most: int) -> int:
+    """The last space up to `most` that is in no string and not in the line's indentation; 0 if there is none."""
+    start = len(line) - len(line.lstrip())
+    spaces = [match.start() for match in _WHOLE.finditer(line, start) if match[0] == " "]
+    return max((at for at in spaces if at <= most), default=0)

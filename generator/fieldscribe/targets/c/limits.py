@@ -1,18 +1,22 @@
-"""Which raw numbers may be written, as C tests."""
+"""Which raw numbers may be written, and scales and limits whose factors are read at run time, as C expressions."""
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Bound, Interval, Limit, Point
-from fieldscribe.targets.c.literals import bare, hexadecimal, unsigned
-from fieldscribe.targets.c.rules import limit
+from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
+from fieldscribe.targets.c.views import RuleView
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from fieldscribe.lowered import Operand, Rule
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.words import Words
+    from fieldscribe.targets.c.views import PointFields
 
 _TABLE = 3
 """From so many ranges on a table is used; fewer are tested one by one."""
@@ -29,9 +33,9 @@ def refused(point: Point) -> str:
     return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
 
 
-def check(point: Point, words: Words, scope: HeaderScope) -> str:
+def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     """The status of writing `raw`, an integer that is no special code."""
-    status = known(point, _status(point, words, scope))
+    status = known(point, _status(point, fields, scope))
     if point.fixed is None or point.bits is not None:
         return status
     bits = f"uint{max(32, point.info.bits)}_t"
@@ -39,15 +43,15 @@ def check(point: Point, words: Words, scope: HeaderScope) -> str:
     return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
 
 
-def _checked(point: Point, words: Words, low: int, high: int) -> str:
+def _checked(point: Point, fields: PointFields, low: int, high: int) -> str:
     """The status of `raw` between two limits."""
     if point.type == "u64":
         return f"fieldscribe_check_u64(raw, {unsigned(low)}, {unsigned(high)})"
     wide = "_wide" if point.info.bits > 16 else ""
-    return f"fieldscribe_check{wide}({'raw ? 1 : 0' if point.type == 'bit' else 'raw'}, {words.low}, {words.high})"
+    return f"fieldscribe_check{wide}({'raw ? 1 : 0' if point.type == 'bit' else 'raw'}, {fields.low}, {fields.high})"
 
 
-def _status(point: Point, words: Words, scope: HeaderScope) -> str:
+def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
         parts = [_between(interval, point, scope) for interval in intervals]
@@ -58,7 +62,7 @@ def _status(point: Point, words: Words, scope: HeaderScope) -> str:
     if len(intervals) == 1:
         low, high = point.allowed.fixed[0]
         least, greatest = _bounds_without_codes(point)
-        return "FIELDSCRIBE_OK" if low <= least and high >= greatest else _checked(point, words, low, high)
+        return "FIELDSCRIBE_OK" if low <= least and high >= greatest else _checked(point, fields, low, high)
     table = ranges_table(point, scope)
     if table:
         return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
@@ -92,7 +96,7 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
     """A test whether the number lies in an interval; its limits may depend on other points."""
     ends = [_end(end, scope, is_low=end is interval.low) for end in (interval.low, interval.high)]
-    return f"fieldscribe_between({_number(point)}, {', '.join(ends)})"
+    return f"fieldscribe_between({_signed_raw(point)}, {', '.join(ends)})"
 
 
 def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
@@ -101,7 +105,7 @@ def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
     return f"fieldscribe_whole_of({bare(bound)})"
 
 
-def _number(point: Point) -> str:
+def _signed_raw(point: Point) -> str:
     """The raw number in the signed type of limits; larger numbers become its greatest, which no limit exceeds."""
     return "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
@@ -126,3 +130,163 @@ def any_of(tests: list[str]) -> str:
 def bracketed(test: str) -> str:
     """A test in brackets if it needs them in front of a question mark."""
     return test if test.startswith("(") and " && " not in test and " || " not in test else f"({test})"
+
+
+def rule_view(point: Point, scope: HeaderScope) -> RuleView:
+    """The function that gives the rule of a point. Of a single other point it knows the type alone: many share it."""
+    names = point.scale_arguments
+    parameters = scope.parameters(point, names)
+    if len(names) == 1:
+        parameters, scope.spelling = [f"{raw_type(scope.points[names[0]])} other_raw"], "other_raw"
+    body = f"return {_rule_of(point, scope)};"
+    content = f"({', '.join(parameters)}) {body}"
+    name = scope.by_content("rule", content)
+    text = function("static inline fieldscribe_rule", name, parameters, body)
+    return RuleView(name, content, text if scope.is_first(point.item, name) else "")
+
+
+def _rule_of(point: Point, scope: HeaderScope) -> str:
+    """The expression for the rule of a point: its cases, by the raw numbers of other points."""
+    rules, depth = "", 0
+    for case in point.scale or ():
+        lowered = scope.lowered.rule(case.rule)
+        rule, codes = _steps(lowered, scope), _codes(lowered, scope)
+        if codes:
+            rule = f"{codes} ? fieldscribe_no_rule(FIELDSCRIBE_ZERO_FACTOR) : {rule}"
+        if case.point is None:
+            return f"{rules}{rule}{')' * depth}"
+        rule = f"({rule})" if codes else rule
+        rules += f"({scope.raw(case.point)} == {bare(case.raw or 0)}) ? {rule} : ("
+        depth += 1
+    return f"{rules}fieldscribe_no_rule(FIELDSCRIBE_NO_CASE){')' * depth}"
+
+
+def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
+    """A limit that depends on other points; while one of them holds a code that lifts it, the outer limit."""
+    start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
+    text = _bare_limit(rule, scope)
+    if not _fits(rule) or not _stays_inside(rule, start, is_low=is_low):
+        text = f"fieldscribe_no_{'less' if is_low else 'more'}({text}, {bare(start)})"
+    tests = [_is_no_code(point, *band, scope) for point, codes in bound.unless for band in codes]
+    if not tests:
+        return text
+    applies = tests[0] if len(tests) == 1 else f"({' && '.join(tests)})"
+    return f"{applies} ? {text} : fieldscribe_whole_of({bare(start)})"
+
+
+def _bare_limit(rule: Rule, scope: HeaderScope) -> str:
+    if not _fits(rule):
+        floats = any(operand.floating for operand in rule.operands)
+        return f"fieldscribe_limit{'_f32' if floats else ''}({_steps(rule, scope, of_limit=True)})"
+    top, bottom = _simple(rule, scope)
+    return f"fieldscribe_whole_of({top})" if bottom == "1" else f"fieldscribe_limit_ratio({top}, {bottom})"
+
+
+def _stays_inside(rule: Rule, outermost: int, *, is_low: bool) -> bool:
+    """Whether a computed limit can never lie beyond the outermost limit, so that no test is needed.
+
+    If nothing is negative, the limit is at least 0, and at most what the largest arguments give. Rounded, that does not
+    exceed the outermost limit if it lies less than a half above it. Divisors may be so small that no upper bound holds.
+    """
+    if min(rule.ratio, rule.offset) < 0 or any(operand.ends[0] < 0 for operand in rule.operands):
+        return False
+    if is_low:
+        return outermost <= 0
+    if any(operand.over for operand in rule.operands):
+        return False
+    return 2 * (rule.ratio * prod(operand.ends[1] for operand in rule.operands) + rule.offset) < 2 * outermost + 1
+
+
+def _is_no_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
+    (least, greatest), raw = scope.points[point].held, scope.raw(point)
+    if low == high:
+        return f"({raw} != {bare(low)})"
+    tests = [f"({raw} < {bare(low)})"] if low > least else []
+    tests += [f"({raw} > {bare(high)})"] if high < greatest else []
+    return f"({' || '.join(tests)})" if len(tests) > 1 else tests[0]
+
+
+def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
+    """The expression that builds a rule step by step. A scale refuses every zero factor, a limit only zero divisors."""
+    ratio, offset = rule.ratio, rule.offset
+    numbers = (ratio.numerator, ratio.denominator, offset.numerator, offset.denominator)
+    text = f"fieldscribe_rule_of({', '.join(map(bare, numbers))})"
+    for operand in rule.steps:
+        text = _step(text, operand, scope, of_limit=of_limit)
+    return text
+
+
+def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
+    """The rule with another factor."""
+    number, raw = _number(operand, scope), scope.raw(operand.point)
+    if operand.floating:
+        return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
+    if operand.exponents is None:
+        how = "over" if operand.over else "scaled" if of_limit else "times"
+        return f"fieldscribe_rule_{how}({rule}, {number})"
+    (low, high), (least, greatest) = operand.exponents, operand.held
+    if low > least or high < greatest:
+        rule = f"fieldscribe_rule_within({rule}, (int64_t){raw}, {bare(low)}, {bare(high)})"
+    return f"fieldscribe_rule_ten_to({rule}, {'-' if operand.over else ''}{number})"
+
+
+def _codes(rule: Rule, scope: HeaderScope) -> str:
+    """A test whether some factor's point holds a special code; empty if none can."""
+    tests = [_is_code(name, *band, scope) for name, band in rule.coded]
+    return f"({' || '.join(f'({test})' if ' && ' in test else test for test in tests)})" if tests else ""
+
+
+def _is_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
+    (least, greatest), raw = scope.points[point].held, scope.raw(point)
+    if low == high:
+        return f"({raw} == {bare(low)})"
+    tests = [f"({raw} >= {bare(low)})"] if low > least else []
+    return " && ".join(tests + ([f"({raw} <= {bare(high)})"] if high < greatest else []))
+
+
+def _fits(rule: Rule) -> bool:
+    """Whether a limit can be computed as a quotient of two integers that always fit 64 bits.
+
+    The limit is (num * tops * part + lift * den * bottoms) / (den * bottoms * part), of the ratio num / den and the
+    offset lift / part, where tops and bottoms are the products of the arguments that multiply and divide. The first sum
+    below is no less than either side in size: each argument counts with its largest size, at least 1, so that no
+    intermediate product is larger than the whole; and bottom * (lift + 1) covers the lift and the divisor with the half
+    that rounding adds. Rules with a divisor that may be negative, or with a power of ten, are not computed this way.
+    """
+    if any(operand.floating or operand.ten_to or (operand.over and operand.ends[0] < 0) for operand in rule.operands):
+        return False
+    part, lift = rule.offset.denominator, abs(rule.offset.numerator)
+    top = abs(rule.ratio.numerator) * part * prod(operand.largest for operand in rule.operands if not operand.over)
+    bottom = rule.ratio.denominator * part * prod(operand.largest for operand in rule.operands if operand.over)
+    return top + bottom * (lift + 1) <= INT64[1]
+
+
+def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
+    """The expressions for the numerator and the divisor of a limit."""
+    part = rule.offset.denominator
+    tops = [_number(operand, scope) for operand in rule.operands if not operand.over]
+    bottoms = [_number(operand, scope) for operand in rule.operands if operand.over]
+    top = _product(rule.ratio.numerator * part, tops)
+    bottom = _product(rule.ratio.denominator * part, bottoms)
+    if rule.offset:
+        lift = _product(rule.offset.numerator * rule.ratio.denominator, bottoms)
+        top = f"({top}) + ({lift})"
+    return top, bottom
+
+
+def _product(constant: int, names: list[str]) -> str:
+    """A product, without a constant of 1."""
+    parts = list(names)
+    if constant != 1 or not parts:
+        parts.append(bare(constant) if not parts else signed(constant))
+    return " * ".join(parts)
+
+
+def _number(operand: Operand, scope: HeaderScope) -> str:
+    """The expression raw * slope + intercept of a factor, in brackets unless it is just a name."""
+    text = f"(int64_t){scope.raw(operand.point)}"
+    if operand.slope != 1:
+        text = f"({text} * {signed(operand.slope)})"
+    if operand.intercept:
+        text = f"({text} {'-' if operand.intercept < 0 else '+'} {abs(operand.intercept)})"
+    return text

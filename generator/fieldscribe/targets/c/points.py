@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import INLINE, Writer, value_type
-from fieldscribe.targets.c.defines import defines
+from fieldscribe.targets.c.declarations import defines
 from fieldscribe.targets.c.layout import filled, function
-from fieldscribe.targets.c.limits import ranges_table
+from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
-from fieldscribe.targets.c.parts import digits_functions, text_functions
-from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
-from fieldscribe.targets.c.rules import rule_view
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import special_view
 from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
+from fieldscribe.targets.c.word_functions import (
+    bits_functions,
+    digits_functions,
+    has_words,
+    text_functions,
+    words_functions,
+)
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
@@ -23,24 +27,33 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Enum, Flag, Point
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.words import Words
+    from fieldscribe.targets.c.views import PointFields
 
 
-def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: bool, first_codes: bool) -> PointView:
-    """The view of a generated point; it may be the first that has the names of its numbers, or its special codes."""
-    name, macro = f"{scope.prefix}_{words.item}", f"{scope.upper}_{words.macro}"
+class Brings(NamedTuple):
+    """What a point brings into the header because no earlier point has it."""
+
+    names: bool
+    """The names of its numbers."""
+    codes: bool
+    """Special codes that it shares with others."""
+
+
+def point_view(point: Point, fields: PointFields, scope: HeaderScope, brings: Brings) -> PointView:
+    """Return the view of a generated point."""
+    name, macro = f"{scope.prefix}_{fields.item}", f"{scope.upper}_{fields.macro}"
     shape = shape_of(point)
     struct = scope.struct(point.arguments) if len(point.arguments) > 1 else ""
-    fields = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
+    members = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
     return PointView(
-        words=words,
+        fields=fields,
         function=name,
         macro=macro,
-        defines=tuple(defines(point, words, scope)),
-        enum=_enum_view(point, words, scope) if first_names else None,
+        defines=tuple(defines(point, fields, scope)),
+        enum=_enum_view(point, fields, scope) if brings.names else None,
         tables=tuple(_tables(point, name, scope)),
         struct=struct,
-        fields=tuple((raw_type(scope.points[field]), f"{field}_raw") for field in fields),
+        members=tuple((raw_type(scope.points[member]), f"{member}_raw") for member in members),
         rule=rule_view(point, scope) if shape == "ruled" else None,
         shape=shape,
         raw_type=raw_type(point),
@@ -48,7 +61,7 @@ def point_view(point: Point, words: Words, scope: HeaderScope, *, first_names: b
         encodes=point.encodes_values,
         readable=point.readable,
         writable=point.writable,
-        special=special_view(point, words, scope, is_first=first_codes),
+        special=special_view(point, fields, scope, brings=brings.codes),
         scale_arguments=point.scale_arguments,
         limit_arguments=point.limit_arguments,
         splits=has_words(point),
@@ -69,11 +82,11 @@ def named_numbers(point: Point) -> Enum | None:
     return point.digits.enum if point.digits is not None else point.enum
 
 
-def names_of(point: Point, words: Words) -> tuple[str, str]:
+def names_of(point: Point, fields: PointFields) -> tuple[str, str]:
     """The name of the point's enum, also in capitals; an enum of its own has the point's name."""
     enum = named_numbers(point)
     assert enum is not None
-    return (words.item, words.macro) if enum.name == point.item else (enum.name, upper(enum.name))
+    return (fields.item, fields.macro) if enum.name == point.item else (enum.name, upper(enum.name))
 
 
 def shape_of(point: Point) -> str:
@@ -113,9 +126,9 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
         yield TableView("fieldscribe_range", table, "", tuple(rows))
 
 
-def _enum_view(point: Point, words: Words, scope: HeaderScope) -> EnumView:
+def _enum_view(point: Point, fields: PointFields, scope: HeaderScope) -> EnumView:
     """The enumerators."""
-    enum, (prefix, macro) = named_numbers(point), names_of(point, words)
+    enum, (prefix, macro) = named_numbers(point), names_of(point, fields)
     assert enum is not None
     entries: list[tuple[str, str, str]] = []
     named: dict[int, tuple[str, str]] = {}

@@ -1,23 +1,20 @@
-"""Scales that are known at compile time, as C expressions whose integers are proven to fit."""
+"""Scales that are known at compile time, as C expressions whose integers are proven to fit.
+
+Counts become raw numbers and back without a division where a multiplication and a shift are proven exact for every
+number that can occur.
+"""
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import TYPE_CHECKING
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import INT32, INT64
 from fieldscribe.lowered import plan_of
-from fieldscribe.targets.c.counts import count_fits, count_of_raw, linear, raw_of_count
-from fieldscribe.targets.c.literals import (
-    bare,
-    cast,
-    raw_type,
-    real,
-    sign_and_size,
-    unsigned,
-)
+from fieldscribe.targets.c.literals import bare, cast, raw_type, real, sign_and_size, signed, unsigned
 
 if TYPE_CHECKING:
+    from fieldscribe.arithmetic.lines import Line
     from fieldscribe.lowered import Plan
     from fieldscribe.model import Linear, Point
 
@@ -117,3 +114,174 @@ def _long_quotient(plan: Plan, point: Point) -> str:
     above = "raw >= 0" if point.info.signed else "true"
     numbers = [unsigned(abs(factor)), "true" if add < 0 else "false", unsigned(abs(add)), unsigned(divisor)]
     return f"fieldscribe_quotient({above if factor < 0 else below}, {size}, {', '.join(numbers)})"
+
+
+def linear(name: str, factor: int, add: int, cast: str) -> str:
+    """`name * factor + add`, without a factor of 1 and an addend of 0."""
+    start = f"({cast}){name}" if cast else name
+    if factor == -1:
+        start = f"-{start}"
+    elif factor != 1:
+        start = f"{start} * {signed(factor)}"
+    if add == 0:
+        return start
+    start = f"({start})" if " * " in start else start
+    return f"{start} {'-' if add < 0 else '+'} {abs(add)}"
+
+
+def raw_of_count(plan: Plan) -> str:
+    """The raw number of a count that lies in the limits."""
+    factor, add, divisor = plan.to_raw
+    wider = "int64_t" if plan.encode_wide and not plan.count_wide else ""
+    line = linear("count", factor, add, wider)
+    if divisor == 1:
+        return line
+    if add == 0:
+        numbers = Numbers(*plan.counts, factor, divisor)
+        narrow, wide = ("(int32_t)count", "count") if plan.count_wide else ("count", "(int64_t)count")
+        quotient = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
+    else:
+        numbers = _numerators(plan.counts, plan.to_raw)
+        quotient = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
+        quotient = quotient or _quotient(line, numbers, wide=True)
+    return quotient or f"fieldscribe_divide({line}, {divisor})"
+
+
+def _numerators(ends: tuple[int, int], line: Line) -> Numbers:
+    """The numerators of the line's division, for the arguments between two ends."""
+    low, high = sorted(end * line.factor + line.add for end in ends)
+    return Numbers(low, high, 1, line.divisor)
+
+
+def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
+    """An expression for number * num / den, rounded, without a division; empty if none is proven exact."""
+    most = (INT64 if wide else INT32)[1]
+    if numbers.size > most:
+        return ""
+    if numbers.num < 0:
+        turned = Numbers(-numbers.high, -numbers.low, -numbers.num, numbers.den)
+        return _quotient(f"-{number}", turned, wide=wide)
+    tail, bits = "_wide" if wide else "", numbers.den.bit_length() - 1
+    if numbers.den == 1 << bits and numbers.size * numbers.num + numbers.den <= most:
+        return f"fieldscribe_halves{tail}({linear(number, numbers.num, 0, '')}, {bits}U)"
+    factors = reciprocal(numbers, most)
+    if factors is None:
+        return ""
+    much, little, fine, shift = factors
+    return f"fieldscribe_nearly{tail}({number}, {much}, {little}, {fine}U, {shift}U)"
+
+
+def count_fits(plan: Plan) -> str:
+    """A test whether the count of a raw number fits 64 bits; empty if all do. Numbers in the range always do."""
+    if plan.beyond is None:
+        return ""
+    low, high = plan.beyond
+    if max(plan.raws) > INT64[1]:
+        return f"fieldscribe_within_u64(raw, {unsigned(low)}, {unsigned(high)})"
+    return f"fieldscribe_within_wide(raw, {bare(low)}, {bare(high)})"
+
+
+def count_of_raw(plan: Plan) -> tuple[str, bool]:
+    """The expression for the count of a raw number, and whether its type has 64 bits."""
+    wide = plan.decode_wide
+    if plan.to_raw.does_nothing:
+        return "raw", wide
+    to_count = plan.to_raw.inverse
+    line = linear("raw", to_count.factor, to_count.add, "int64_t" if wide else "int32_t")
+    if to_count.divisor == 1:
+        return line, wide
+    numbers = _numerators(plan.beyond or plan.raws, to_count)
+    narrow = "" if wide else _quotient(line, numbers, wide=False)
+    if narrow:
+        return narrow, False
+    return _quotient(line, numbers, wide=True) or f"fieldscribe_divide({line}, {to_count.divisor})", True
+
+
+class Reciprocal(NamedTuple):
+    """Computes number * ratio, rounded to nearest, as number * (much + little / 2^fine) / 2^bits."""
+
+    much: int
+    little: int
+    fine: int
+    bits: int
+
+
+class Numbers(NamedTuple):
+    """The numbers from low to high, to be multiplied by num / den; num and den are positive."""
+
+    low: int
+    high: int
+    num: int
+    den: int
+
+    @property
+    def size(self) -> int:
+        """The greatest magnitude of the numbers."""
+        return max(abs(self.low), abs(self.high), 1)
+
+
+def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
+    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`.
+
+    What fails for some numbers fails for more: the first reciprocal for fewer numbers is the first here if it serves.
+    """
+    met = _met(numbers.num, numbers.den, most)
+    for factors, fewer in met.items():
+        if numbers.low <= fewer.low and fewer.high <= numbers.high and (not factors or _serves(factors, numbers, most)):
+            return factors
+    first = _fewest(numbers, most)
+    met[first] = numbers
+    return first
+
+
+@lru_cache(maxsize=4096)
+def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, Numbers]:
+    """The reciprocals of a ratio that were found, with the numbers for which they were."""
+    return {}
+
+
+def _serves(factors: Reciprocal, numbers: Numbers, most: int) -> bool:
+    """Whether a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
+    whole = numbers.size * (factors.much + 1) + (1 << factors.bits) <= most
+    return whole and numbers.size * factors.little <= most and _is_exact(factors, numbers)
+
+
+def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
+    for bits in range(1, most.bit_length()):
+        much = (numbers.num << bits) // numbers.den
+        if numbers.size * (much + 1) + (1 << bits) > most:
+            return None
+        finest = _finest(numbers, most, bits)
+        if finest is not None:
+            return finest
+    return None
+
+
+def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
+    """The exact reciprocal with that many bits and the fewest `fine` bits, if there is one."""
+    much, rest = divmod(numbers.num << bits, numbers.den)
+    for fine in range(most.bit_length()):
+        little = -(-(rest << fine) // numbers.den)
+        if numbers.size * little > most:
+            return None
+        candidate = Reciprocal(much, little, fine, bits)
+        if _is_exact(candidate, numbers):
+            return candidate
+    return None
+
+
+def _is_exact(reciprocal: Reciprocal, numbers: Numbers) -> bool:
+    """Whether every number gives the same integer as its exact quotient rounded.
+
+    The factor is too large by `error` / (den * 2^shift). The distance of a quotient from the next half is a multiple of
+    1 / (2 * den), or of 1 / den if den is even. So a positive number is right if its error is less than that distance,
+    a negative one if it is at most that. Exact halves occur only if den is even; negative ones need some error, because
+    they round away from zero.
+    """
+    shift, even = reciprocal.bits + reciprocal.fine, numbers.den % 2 == 0
+    error = ((reciprocal.much << reciprocal.fine) + reciprocal.little) * numbers.den - (numbers.num << shift)
+    if numbers.low < 0 and even and error == 0:
+        return False
+    parts = 1 if even else 2
+    above, below = (parts * max(end, 0) * error for end in (numbers.high, -numbers.low))
+    return above < 1 << shift and below <= 1 << shift

@@ -17,23 +17,22 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point, Special
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import Define
-    from fieldscribe.targets.c.words import Words
+    from fieldscribe.targets.c.views import Define, PointFields
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """The ends of the functions' names, behind the name of the point or of the shared codes."""
 
 
-def special_view(point: Point, words: Words, scope: HeaderScope, *, is_first: bool) -> SpecialView | None:
-    """What the functions of a point need for its special codes; None if it has none.
+def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, brings: bool) -> SpecialView | None:
+    """Return what the functions of a point need for its special codes; None if it has none.
 
-    `is_first` says that no earlier point has the same shared codes.
+    `brings` says that no earlier point has the same shared codes.
     """
     if not point.specials:
         return None
-    own_prefix, name = f"{scope.prefix}_{words.item}", f"{scope.prefix}_{owner(point, words)}"
+    own_prefix, name = f"{scope.prefix}_{fields.item}", f"{scope.prefix}_{owner(point, fields)}"
     return SpecialView(
-        codes=_codes(point, name, scope) if is_first or not point.shared_codes else None,
+        codes=_codes(point, name, scope) if brings or not point.shared_codes else None,
         test=f"{name}_is_special",
         written=any(special.writable for special in point.specials),
         aliases=tuple((own_prefix + tail, name + tail) for tail in FUNCTIONS) if own_prefix != name else (),
@@ -56,9 +55,9 @@ def no_code(special: SpecialView | None) -> str:
     return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
 
 
-def owner(point: Point, words: Words) -> str:
+def owner(point: Point, fields: PointFields) -> str:
     """The name that prefixes the codes of a point: its own, or that of the shared codes."""
-    return point.shared_codes or words.item
+    return point.shared_codes or fields.item
 
 
 def code_defines(point: Point, macro: str) -> Iterator[Define]:

@@ -3,14 +3,44 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from fieldscribe.model import Version
-    from fieldscribe.targets.c.words import Words
 
 Define = tuple[str, str]
 """A macro's name and its literal."""
+
+
+class PointFields(NamedTuple):
+    """The words that only one point has, finished for C, or placeholders for them; what a point lacks is empty.
+
+    `comment` is all of the comment above the point. `macro` is the item in capitals. `low` and `high` bound raw
+    numbers, `first` and `last` counts. `address` is the lowest one, and `number` the same in decimal; `start` and `end`
+    are the first and the last. `references` are literals.
+    """
+
+    comment: str
+    item: str
+    macro: str
+    low: str
+    high: str
+    low_signed: str
+    high_signed: str
+    first: str
+    last: str
+    address: str
+    start: str
+    end: str
+    number: str
+    code: str
+    references: tuple[str, ...]
+
+    @classmethod
+    def of(cls, fields: tuple[str, ...]) -> PointFields:
+        """Return the fields by name, from all of them in a row."""
+        single = len(cls._fields) - 1
+        return cls._make((*fields[:single], fields[single:]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,20 +109,20 @@ class RuleView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """A generated point, or blanks in place of the words of all points of a kind.
+    """A generated point; in a template, its fields are placeholders.
 
-    `struct` has the raw numbers of other points, if functions need several, and `fields` are its fields if no earlier
+    `struct` holds the raw numbers of other points, if functions need several; `members` are its members if no earlier
     point has it. `splits` says that functions split the raw number into words and join them.
     """
 
-    words: Words
+    fields: PointFields
     function: str
     macro: str
     defines: tuple[Define, ...]
     enum: EnumView | None
     tables: tuple[TableView, ...]
     struct: str
-    fields: tuple[tuple[str, str], ...]
+    members: tuple[tuple[str, str], ...]
     rule: RuleView | None
     shape: str
     raw_type: str

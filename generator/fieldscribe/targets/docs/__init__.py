@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from fieldscribe.targets.docs.tables import Table
     from fieldscribe.targets.identifiers import Names
 
-FOR_PEOPLE = True
+SEES_TITLES = True
 
 NEEDS_FAMILY = False
-KEEPS_NAMES = True
+NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.patterns import Pattern, blanks
+from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
     anchor,
@@ -99,7 +99,7 @@ class _Rows:
     def __init__(self, scope: Scope) -> None:
         self.scope = scope
         self._kins: dict[int, _Kin] = {}
-        self._remarks: dict[tuple[int, tuple[bool, ...]], Pattern] = {}
+        self._remarks: dict[tuple[int, tuple[bool, ...]], TextTemplate] = {}
 
     def table(self, subjects: Sequence[Subject], lists: Lists, *, with_space: bool) -> str:
         """The table of a group."""
@@ -139,9 +139,9 @@ class _Rows:
         form = form_of(own)
         pattern = self._remarks.get((kin, form))
         if pattern is None:
-            text = remarks_text(self.scope, point, OwnRemarks(*blanks(own)))
-            pattern = self._remarks[kin, form] = Pattern(text)
-        return pattern.filled(own)
+            text = remarks_text(self.scope, point, OwnRemarks(*placeholders(own)))
+            pattern = self._remarks[kin, form] = TextTemplate(text)
+        return pattern.fill(own)
 
 
 def _with_default(point: Point, allowed: str) -> str:

@@ -9,7 +9,7 @@ from fieldscribe.resources import runtime_files
 from fieldscribe.targets.heads import command
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
-from fieldscribe.targets.python.names import device_name_taken, identifiers
+from fieldscribe.targets.python.namespaces import device_name_taken, identifiers
 from fieldscribe.text import python_doc, python_string, toml_string
 
 if TYPE_CHECKING:
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
-FOR_PEOPLE = False
+SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
 
 NEEDS_FAMILY = True
-KEEPS_NAMES = True
+NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -87,4 +87,4 @@ def _head(device: Device) -> Mapping[str, object]:
     }
 
 
-__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]

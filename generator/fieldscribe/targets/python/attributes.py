@@ -1,31 +1,63 @@
-"""The attributes of the class of points: laid out once for all points that are alike, and filled with their words."""
+"""The attributes of the class of points: laid out once for all points with the same template, and filled."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.patterns import Pattern
-from fieldscribe.targets.python.existence import only_for, uncertain
+from fieldscribe.conditions import absent
+from fieldscribe.lowered.templates import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python.families import in_python
-from fieldscribe.targets.python.forms import NUMBERED, addresses_of, allowed, form, place
+from fieldscribe.targets.python.forms import NUMBERED, addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.targets.python.identifiers import attribute
-from fieldscribe.targets.python.kinds import Kinds
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
-from fieldscribe.targets.python.words import blanked, likeness, words_of
 from fieldscribe.text import python_doc, python_string
+from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Device, Point, Variant
     from fieldscribe.render import Render
-    from fieldscribe.targets.python.kinds import Limits
-    from fieldscribe.targets.python.scope import PackageScope
-    from fieldscribe.targets.python.words import Words
+    from fieldscribe.targets.python.identifiers import PackageScope
 
 BODY = 8
 """The indentation of an attribute's arguments."""
+
+_MOST_ENDS = 16
+"""The ends of at most so many intervals are fields."""
+
+_WITH_RANGE = ("scaled", "float", "integer")
+"""The forms whose docstring says the range."""
+
+
+class AttributeFields(NamedTuple):
+    """The words that only one point has, or placeholders for them; what it lacks is empty.
+
+    `numbers` is the class of its numbers or flags. `ends` are the bounds of its intervals.
+    """
+
+    name: str
+    docstring: str
+    group: str
+    code: str
+    default: str
+    numbers: str
+    addresses: tuple[str, ...]
+    references: tuple[str, ...]
+    ends: tuple[str, ...]
+
+
+_FREE = AttributeFields._fields.index("numbers")
+"""The fields before this one have a line of their own: no line break depends on their width."""
+_SINGLE = AttributeFields._fields.index("addresses")
+
+
+class LimitFields(NamedTuple):
+    """The limits of a point for its docstring, and their ends in code."""
+
+    text: str
+    ends: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,25 +72,32 @@ class AttributeView:
 
 
 class Attributes:
-    """The texts of a device's attributes."""
+    """Makes the texts of a device's attributes."""
 
     def __init__(self, device: Device, scope: PackageScope, render: Render) -> None:
         self._family = in_python(device)
         self._scope = scope
         self._render = render
-        self._kinds = Kinds(scope)
-        self._patterns: dict[object, Pattern] = {}
+        self._keys = scope.lowered.template_keys
+        self._templates: dict[tuple[int, tuple[int, ...]], TextTemplate] = {}
+        self._limits: dict[tuple[int, int], LimitFields] = {}
+        self._remarks: dict[int, tuple[str, list[str]]] = {}
 
     def of_point(self, point: Point) -> str:
-        """The attribute of a point."""
-        kind = self._kinds.of(point)
-        limits = kind.limits_of(point, self._scope)
-        words = words_of(point, kind, limits, self._scope)
-        alike = likeness(point, kind, limits, words)
-        pattern = self._patterns.get(alike)
-        if pattern is None:
-            pattern = self._patterns[alike] = Pattern(self.text(self._view(point, limits, blanked(words, point))))
-        return pattern.filled(words)
+        """Return the attribute of a point."""
+        key = self._keys[id(point)]
+        limits = self._limits.get((key, id(point.allowed)))
+        if limits is None:
+            limits = self._limits[key, id(point.allowed)] = _limits_of(point, self._scope)
+        fields = self._fields(point, key, limits)
+        if len(fields) > MOST_FIELDS:
+            return self.text(self._view(point, _named(fields, point)))
+        whole = key, tuple(map(len, fields[_FREE:]))
+        template = self._templates.get(whole)
+        if template is None:
+            view = self._view(point, _named(placeholders(fields), point))
+            template = self._templates[whole] = TextTemplate(self.text(view))
+        return template.fill(fields)
 
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
         """The attribute of points that have one name in different variants."""
@@ -78,12 +117,73 @@ class Attributes:
             self._scope.used.add("renamed")
         return self._render("python/attribute.py.j2", {"attribute": view})
 
-    def _view(self, point: Point, limits: Limits, words: Words) -> AttributeView:
+    def _fields(self, point: Point, key: int, limits: LimitFields) -> tuple[str, ...]:
+        """Return the fields in the order of `AttributeFields`."""
+        remarks = self._remarks.get(key)
+        if remarks is None:
+            remarks = self._remarks[key] = _remarks(point, self._scope), _errata(point, self._scope)
+        names, shape, code = self._scope.names, point.shape, point.code
+        return (
+            attribute(point.name if point.variant is None else point.item),
+            _docstring(point.title["en"], limits.text, *remarks),
+            python_string(point.terms.group),
+            python_string(code) if code else "",
+            "" if point.default is None else number(point.default),
+            names.word_class(point) if shape.form == "flags" else names.numbers_class(shape),
+            *addresses_of(point.place.addresses, numbered=point.terms.space in NUMBERED),
+            *[
+                python_string(printed) if isinstance(printed, str) else str(printed)
+                for printed in point.place.references.values()
+            ],
+            *limits.ends,
+        )
+
+    def _view(self, point: Point, fields: AttributeFields) -> AttributeView:
         maker = self._family.maker(point)
         self._scope.used.add(maker)
         old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
-        arguments = tuple([laid_out(argument, BODY) for argument in _arguments(point, limits, words, self._scope)])
-        return AttributeView(words.name, maker, arguments, words.docstring, old_names)
+        arguments = tuple([laid_out(argument, BODY) for argument in _arguments(point, fields, self._scope)])
+        return AttributeView(fields.name, maker, arguments, fields.docstring, old_names)
+
+
+def _named(fields: tuple[str, ...], point: Point) -> AttributeFields:
+    """Return fields by name."""
+    addresses = _SINGLE + len(point.place.addresses)
+    references = addresses + len(point.place.references)
+    return AttributeFields._make(
+        (*fields[:_SINGLE], fields[_SINGLE:addresses], fields[addresses:references], fields[references:])
+    )
+
+
+def _limits_of(point: Point, scope: PackageScope) -> LimitFields:
+    limits = point.allowed
+    text = range_text(point, scope.lowered.points) if point.writable and point.form in _WITH_RANGE else ""
+    if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
+        return LimitFields(text, ())
+    return LimitFields(text, tuple([str(end) for interval in limits.fixed for end in interval]))
+
+
+def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
+    """Return the lines of a docstring: title, limits, remarks, and the errata that change facts."""
+    text = f"{title}: {limits}" if limits else title
+    lines = wrapped(python_doc(f"{text}{'' if text.endswith('.') else '.'}{remarks}"))
+    return "\n".join(docstring(lines + errata))
+
+
+def _remarks(point: Point, scope: PackageScope) -> str:
+    remarks = ""
+    if point.when is not None:
+        remarks += f" Exists only when {condition_text(point.when, scope.lowered.points)}."
+    if point.conditions and point.writable:
+        remarks += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
+    if point.specials:
+        remarks += f" {codes_text(point)}."
+    return remarks
+
+
+def _errata(point: Point, scope: PackageScope) -> list[str]:
+    changing = [erratum for erratum in point.errata if erratum in scope.errata]
+    return ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
 
 
 def places(point: Point, addresses: tuple[str, ...], index: str, scope: PackageScope) -> Iterator[Node]:
@@ -94,17 +194,17 @@ def places(point: Point, addresses: tuple[str, ...], index: str, scope: PackageS
         yield place("write_at", point, written, index, scope)
 
 
-def _arguments(point: Point, limits: Limits, words: Words, scope: PackageScope) -> Iterator[Node]:
-    yield form(point, words.named, scope)
-    yield from _identity(point, words, scope)
+def _arguments(point: Point, fields: AttributeFields, scope: PackageScope) -> Iterator[Node]:
+    yield form(point, fields.numbers, scope)
+    yield from _identity(point, fields, scope)
     if point.unit.symbol:
         yield f"unit={python_string(point.unit.symbol)}"
     if point.display is not None:
         yield f"display={point.display}"
-    if limits.form is not None and point.form != "float":
-        yield allowed(point, words.ends, scope)
-    if words.default:
-        yield f"default={words.default}"
+    if is_limited(point):
+        yield allowed(point, fields.ends, scope)
+    if fields.default:
+        yield f"default={fields.default}"
     if point.fixed is not None:
         yield f"fixed=(0x{point.fixed.mask:04X}, 0x{point.fixed.bits:04X})"
     if point.changes in ("never", "rarely"):
@@ -116,16 +216,16 @@ def _arguments(point: Point, limits: Limits, words: Words, scope: PackageScope) 
     yield from _existence(point, scope)
 
 
-def _identity(point: Point, words: Words, scope: PackageScope) -> Iterator[Node]:
+def _identity(point: Point, fields: AttributeFields, scope: PackageScope) -> Iterator[Node]:
     """The places of the point on the wire, and how the manual calls it."""
-    yield from places(point, words.addresses, words.array_index, scope)
+    yield from places(point, fields.addresses, "" if point.index is None else str(point.index), scope)
     if point.bits is not None:
         yield f"bits=({point.bits[0]}, {point.bits[1]})"
-    yield f"group={words.group}"
-    if words.code:
-        yield f"code={words.code}"
-    if words.references:
-        numbers = zip(point.references, words.references, strict=True)
+    yield f"group={fields.group}"
+    if fields.code:
+        yield f"code={fields.code}"
+    if fields.references:
+        numbers = zip(point.references, fields.references, strict=True)
         yield Group("references={", tuple([f'"{key}": {number}' for key, number in numbers]), "}")
 
 
@@ -134,7 +234,24 @@ def _existence(point: Point, scope: PackageScope) -> Iterator[Node]:
     if point.variant is not None:
         yield Group("variant=(", (python_string(point.variant.axis), python_string(point.variant.value)))
         yield f"name={python_string(point.name)}"
-    if choice := only_for(point, scope.variants):
+    if choice := _only_for(point, scope.variants):
         yield Group("only_for=(", (python_string(choice[0]), Group("(", tuple(map(python_string, choice[1])))))
-    if uncertain(point, scope.variants):
+    if _is_uncertain(point, scope.variants):
         yield "uncertain=True"
+
+
+def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
+    """The first axis on which the point's condition depends, and the values for which the point can exist."""
+    for axis in () if point.when is None else point.when.names:
+        values = variants.get(axis, ())
+        left = tuple([value for value in values if not absent(point.when, {**variants, axis: (value,)})])
+        if left != values:
+            return axis, left
+    return None
+
+
+def _is_uncertain(point: Point, variants: Mapping[str, tuple[str, ...]]) -> bool:
+    """Whether the existence of the point depends on more than one axis: on others, on points or on the firmware."""
+    narrowed = _only_for(point, variants)
+    others = set() if point.when is None else {*point.when.names} - ({narrowed[0]} if narrowed else set())
+    return bool(others) or point.since is not None or point.until is not None

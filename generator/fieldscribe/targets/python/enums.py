@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.names import upper
-from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.python.identifiers import word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc
@@ -92,7 +92,7 @@ class _Classes:
         self.composes = False
         self._names = names
         self._render = render
-        self._patterns: dict[object, Pattern] = {}
+        self._patterns: dict[object, TextTemplate] = {}
 
     def add_enum(self, name: str, title: Titles, entries: tuple[Entry, ...]) -> None:
         """The class of named numbers."""
@@ -116,13 +116,13 @@ class _Classes:
     def _add(self, alike: object, words: tuple[str, str], view: Callable[[], EnumClass]) -> None:
         pattern = self._patterns.get(alike)
         if pattern is None:
-            pattern = self._patterns[alike] = Pattern(self._render("python/enum.py.j2", {"class": view()}))
-        self.texts.append(pattern.filled(words))
+            pattern = self._patterns[alike] = TextTemplate(self._render("python/enum.py.j2", {"class": view()}))
+        self.texts.append(pattern.fill(words))
 
 
 def _blanked(words: tuple[str, str]) -> tuple[str, str]:
     """Blanks for the name of a class and for its sentence, whose width decides nothing."""
-    name, sentence = blanks(words)
+    name, sentence = placeholders(words)
     return name, sentence
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from fieldscribe.model import Device, Point, Telegram
-    from fieldscribe.targets.python.scope import PackageScope
+    from fieldscribe.targets.python.identifiers import PackageScope
 
 RUNTIME = "fieldscribe_runtime"
 """The package that all generated devices share."""

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.lowered import Operand
     from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special
-    from fieldscribe.targets.python.scope import PackageScope
+    from fieldscribe.targets.python.identifiers import PackageScope
 
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+    from fieldscribe.lowered import Lowered
     from fieldscribe.model import Command, Device, Point, Shape
+    from fieldscribe.targets.python.layout import Node
 
 _RESERVED = frozenset(
     {"False", "None", "True", "and", "as", "assert", "async", "await", "break", "case", "class", "continue"}
@@ -188,3 +191,18 @@ class Identifiers:
             wanted += kind
         self._taken.add(wanted)
         return wanted
+
+
+@dataclass(frozen=True, slots=True)
+class PackageScope:
+    """Final names, points by name, variants and the errata that change facts.
+
+    It collects the used names of the runtime and the shared codes.
+    """
+
+    names: Identifiers
+    lowered: Lowered
+    variants: Mapping[str, tuple[str, ...]]
+    errata: Collection[str]
+    used: set[str] = field(default_factory=set)
+    codes: dict[str, Node] = field(default_factory=dict)

@@ -7,19 +7,23 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
-from fieldscribe.targets.python.attributes import Attributes, places
-from fieldscribe.targets.python.commands import commands, variants
+from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.forms import NUMBERED, addresses_of
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, laid_out
-from fieldscribe.targets.python.scope import PackageScope
+from fieldscribe.targets.python.forms import NUMBERED, addresses_of, place_of_command
+from fieldscribe.targets.python.identifiers import (
+    Identifiers,
+    PackageScope,
+    attribute,
+    command_attributes,
+    sorted_imports,
+)
+from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.model import Device, Point, Variant
+    from fieldscribe.model import Command, Device, Point, Variant
     from fieldscribe.render import Render
 
 
@@ -74,7 +78,7 @@ def points_view(device: Device, names: Identifiers, render: Render) -> PointsVie
             by_name.setdefault(point.name, {})[point.variant] = point
     for same in by_name.values():
         groups[next(iter(same.values())).group].attributes.append(attributes.by_variant(same))
-    command_texts = "".join([attributes.text(command) for command in commands(device, scope)])
+    command_texts = "".join([attributes.text(command) for command in _commands(device, scope)])
     documented = tuple(_documented(point, scope) for point in device.points if not point.terms.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
@@ -83,7 +87,7 @@ def points_view(device: Device, names: Identifiers, render: Render) -> PointsVie
         uses_enums="enums" in scope.used,
         profile=laid_out(profile, 4),
         blocks="" if blocks is None else laid_out(blocks, 4),
-        variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
+        variants=laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         groups=[group for group in groups.values() if group.attributes],
         commands=command_texts,
@@ -130,3 +134,29 @@ def _open_points(device: Device) -> Iterable[str]:
 def _indented(text: str) -> list[str]:
     """The lines of an item of a list; those after the first are indented."""
     return textwrap.wrap(text, DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+
+
+def _variants(device: Device) -> Group:
+    """The values of each variant axis."""
+    entries = [
+        Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))
+        for axis, values in device.variants.items()
+    ]
+    return Group("{", tuple(entries), "}")
+
+
+def _commands(device: Device, scope: PackageScope) -> Iterable[AttributeView]:
+    """The attributes of the commands."""
+    for command, name in command_attributes(device):
+        scope.used.add("Command")
+        where = place_of_command(command, scope)
+        value = () if command.value is None else (f"value={command.value}",)
+        doc = "\n".join(docstring((_command_doc(command),)))
+        yield AttributeView(name, "Command", (laid_out(where, BODY), *value), doc)
+
+
+def _command_doc(command: Command) -> str:
+    text = command.title["en"].rstrip(".") + "."
+    if command.wears:
+        text += f" The memory stands {command.wears} of them."
+    return python_doc(text)

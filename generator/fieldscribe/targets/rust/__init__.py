@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
     from fieldscribe.targets.rust.subjects import CrateScope
 
-FOR_PEOPLE = False
+SEES_TITLES = False
 
 _SOURCES = ("points", "enums", "flags", "with")
 _RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
 
 NEEDS_FAMILY = True
-KEEPS_NAMES = True
+NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -75,4 +75,4 @@ def _crate(
         yield f"{device.id}/src/{name}.rs", render(f"rust/{name}.rs.j2", {**context, **texts})
 
 
-__all__ = ["FOR_PEOPLE", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.families import family
-from fieldscribe.patterns import Pattern, blanks, widths
+from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
@@ -44,10 +44,6 @@ _SOMETIMES = (
 _CHAIN = 60
 """A chain of calls on one line has at most so many characters."""
 
-_STEP = 12
-"""Names are laid out as if they were as wide as the next multiple: if their rows fit then, they fit with all."""
-
-
 Rows = dict["Spot", list[str]]
 
 
@@ -67,63 +63,36 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
 
 
 def _rows(scope: CrateScope) -> Rows:
-    """All rows of all points where they belong."""
+    """Return all rows of all points, each in its table."""
     rows: Rows = {}
-    plans: dict[object, _Plan] = {}
-    kinds: dict[int, object] = {}
+    plans: dict[object, _RowTemplates] = {}
     for subject in scope.subjects:
         enum = subject.shape.enum
-        words = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
-        wide = max(map(len, words)) // _STEP * _STEP + _STEP
-        kind = kinds.get(subject.kin) or kinds.setdefault(subject.kin, _kind(subject))
-        key = (kind, wide)
-        plan = plans.get(key)
+        fields = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
+        whole = subject.key, *map(len, fields)
+        plan = plans.get(whole)
         if plan is None:
-            plan = plans[key] = _laid_out(subject, [wide * bool(word) for word in words], scope, rows)
-        if not plan.fits:
-            exact = (kind, *widths(words))
-            plan = plans.get(exact) or plans.setdefault(exact, _laid_out(subject, widths(words), scope, rows))
-        for appends, text in zip(plan.appends, plan.pattern.filled(words).split(END), strict=True):
+            plan = plans[whole] = _laid_out(subject, fields, scope, rows)
+        for appends, text in zip(plan.appends, plan.template.fill(fields).split(END), strict=True):
             for append in appends:
                 append(text)
     return rows
 
 
-class _Plan(NamedTuple):
-    """The different rows of points, where each is appended, and whether each fits in one line."""
+class _RowTemplates(NamedTuple):
+    """The different rows of points, and where each is appended."""
 
     appends: list[list[Callable[[str], None]]]
-    pattern: Pattern
-    fits: bool
+    template: TextTemplate
 
 
-def _kind(subject: CratePoint) -> tuple[object, ...]:
-    """All that decides which rows a kin has, and what is in them beside names."""
-    point = subject.point
-    return (
-        subject.shape.alike,
-        subject.arguments,
-        point.unit.symbol == "",
-        point.bits is None,
-        point.telegram,
-        point.index is None,
-        tuple(point.place.references),
-        point.write_place is None,
-        point.keeps,
-        subject.name if subject.name.endswith("_") else None,
-    )
-
-
-def _laid_out(subject: CratePoint, wide: Iterable[int], scope: CrateScope, rows: Rows) -> _Plan:
-    """The rows with blanks in place of names; a name that would clash stays as it is."""
-    item, name, enum = blanks(" " * width for width in wide)
-    name = subject.name if subject.name.endswith("_") else name
-    spots: dict[Tokens, list[Spot]] = {}
-    for spot, row in rows_of(subject._replace(item=item, name=name), enum, scope):
-        spots.setdefault(row, []).append(spot)
-    texts = [row_text(row) for row in spots]
-    appends = [[rows.setdefault(spot, []).append for spot in alike] for alike in spots.values()]
-    return _Plan(appends, Pattern(END.join(texts)), all("\n" not in text for text in texts))
+def _laid_out(subject: CratePoint, fields: Iterable[str], scope: CrateScope, rows: Rows) -> _RowTemplates:
+    item, name, enum = placeholders(fields)
+    tables: dict[Tokens, list[Spot]] = {}
+    for spot, row in rows_of(subject.renamed(item, name), enum, scope):
+        tables.setdefault(row, []).append(spot)
+    appends = [[rows.setdefault(spot, []).append for spot in spots] for spots in tables.values()]
+    return _RowTemplates(appends, TextTemplate(END.join(map(row_text, tables))))
 
 
 def _protocol(device: Device) -> Iterator[Table]:

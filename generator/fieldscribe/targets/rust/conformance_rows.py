@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.targets.rust.enums import getter_name
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import value_name
-from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:

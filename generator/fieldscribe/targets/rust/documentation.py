@@ -25,11 +25,10 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.rust.identity import Words
 
 _WIDTH = 104
-_BEGINS = re.compile(r"[`(\[\ufdd0-\ufdef]|[^\W\d]|\d+(?![\d.)])")
-"""What a line may begin with; also a blank, since all words of a point that are blanked may."""
+_BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
+"""What a line may begin with."""
 
 
 def sentence(name: str) -> str:
@@ -37,21 +36,40 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-def facts_text(point: Point, words: Words) -> str:
-    """The paragraph with the facts of a point."""
-    return f"{', '.join(_facts(point, words))}."
+class PointDoc:
+    """The doc comment of points with the same template: all but the name, code, address and range follow from it.
+
+    `errata` are those that may be named.
+    """
+
+    def __init__(self, point: Point, errata: Collection[str]) -> None:
+        self._before, self._behind = _around_address(point)
+        self._type, self._facts = f"`{point.type}`", tuple(_facts(point))
+        self._size = _size(point)
+        self._tail = "".join(f"    ///\n{_comment(paragraph)}" for paragraph in _paragraphs(point, errata))
+
+    def of(self, item: str, code: str, address: int, limits: str) -> str:
+        """Return the lines of a point's doc comment; `code` and `limits` are ready for Markdown."""
+        place = f"{self._before} {address_text(address)}{self._behind}"
+        size = self._size or (limits and f"raw {limits}")
+        start = f"{code} at {place}" if code else f"At {place}"
+        facts = ", ".join((start, self._type, size, *self._facts) if size else (start, self._type, *self._facts))
+        return f"{_comment(sentence(item))}    ///\n{_comment(f'{facts}.')}{self._tail}"[:-1]
 
 
-def point_doc(point: Point, title: str, facts: str, errata: Collection[str]) -> tuple[str, ...]:
-    """The lines of a point's doc comment, without `///`; an empty line separates paragraphs. `errata` may be named."""
-    paragraphs = [title, facts]
+def _comment(paragraph: str) -> str:
+    if not is_long(paragraph):
+        return f"    /// {paragraph}\n"
+    return "".join(f"    /// {line}\n" for line in wrapped(paragraph))
+
+
+def _paragraphs(point: Point, errata: Collection[str]) -> Iterator[str]:
+    """The special codes of a point, and its errata."""
     if point.specials:
-        paragraphs.append(f"{codes_text(point, '`')}.")
+        yield f"{codes_text(point, '`')}."
     named = [f"`{name}`" for name in point.errata if name in errata]
     if named:
-        paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
-    lines = [line for paragraph in paragraphs for line in ("", *(f" {text}" for text in wrapped(paragraph)))]
-    return tuple(lines[1:])
+        yield f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}."
 
 
 def is_long(text: str) -> bool:
@@ -87,27 +105,33 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.code:
         yield rust_code(point.code)
     if point.addresses:
-        yield _place(point, address_text(min(point.addresses)), "" if point.index is None else str(point.index))
+        yield _place(point, address_text(min(point.addresses)))
 
 
-def _place(point: Point, address: str, index: str) -> str:
+def _place(point: Point, address: str) -> str:
+    before, behind = _around_address(point)
+    return f"{before} {address}{behind}"
+
+
+def _around_address(point: Point) -> tuple[str, str]:
+    """Return what stands before the address of a point and behind it."""
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
-    where = f"{space} {address}"
-    where += "" if point.write_place is None else f" (written at {address_text(min(point.write_place.addresses))})"
-    where += f" index {index}" if index else ""
-    return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
+    written = point.write_place
+    behind = "" if written is None else f" (written at {address_text(min(written.addresses))})"
+    behind += "" if point.index is None else f" index {point.index}"
+    return space, behind + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
 
-def _facts(point: Point, words: Words) -> Iterator[str]:
-    where = _place(point, f"{words.hexadecimal} {words.decimal}", words.element)
-    yield f"{words.code_shown} at {where}" if words.code else f"At {where}"
-    yield f"`{point.type}`"
+def _size(point: Point) -> str:
+    """Return how much a text or a word of digits holds; empty for numbers."""
     if point.form == "text" and point.text is not None:
-        yield f"{point.text.characters} characters of {rust_code(point.text.encoding)}"
-    elif point.form == "digits" and point.digits is not None:
-        yield f"{point.digits.count} decimal digits"
-    elif words.span:
-        yield f"raw {words.span}"
+        return f"{point.text.characters} characters of {rust_code(point.text.encoding)}"
+    if point.form == "digits" and point.digits is not None:
+        return f"{point.digits.count} decimal digits"
+    return ""
+
+
+def _facts(point: Point) -> Iterator[str]:
     yield from _resolution(point)
     if point.display is not None:
         yield display_text(point)

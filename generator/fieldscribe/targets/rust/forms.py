@@ -1,44 +1,51 @@
-"""The result of decoding a point: its type, its form in the runtime, and the facts of that form."""
+"""The result of decoding a point: its type, its form in the runtime, and rules that need the values of other points."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.lines import count_line
 from fieldscribe.arithmetic.words import fits
-from fieldscribe.targets.rust.literals import integer, type_range
-from fieldscribe.targets.rust.rules import rule_lines
+from fieldscribe.targets.rust.documentation import wrapped
+from fieldscribe.targets.rust.enums import old_names_text
+from fieldscribe.targets.rust.layout import Lines, chained, fields_of, filled
+from fieldscribe.targets.rust.literals import integer, raw_type, type_range, value_name
+from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Linear
-    from fieldscribe.targets.rust.identity import Words
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.lowered import Lowered, Operand, Rule
+    from fieldscribe.model import Limit, Linear, Point
+    from fieldscribe.render import Render
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 """The count types of points whose raw number is the value, wider than the raw type; `i32` for all others."""
 
 
-def form_lines(subject: CratePoint, words: Words, scope: CrateScope) -> tuple[str, ...]:
+def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, ...]:
     """The fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
     if subject.form == "scaled" and subject.shape.rule is None:
         return _ruled(subject, scope, kind)
     form, facts = _form(subject)
     kind += "_or_error" if form == "wide" else ""
-    return (f"=> {kind} {_value_type(subject, words)} as {form}({facts});",)
+    return (f"=> {kind} {_value_type(subject, enum)} as {form}({facts});",)
 
 
-def _value_type(subject: CratePoint, words: Words) -> str:
+def _value_type(subject: CratePoint, enum: str) -> str:
     """The type of a value that is no special code."""
     if subject.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
         return f"runtime::Text<{subject.point.text.characters}>"
-    if words.enum and subject.point.digits is not None:
-        return f"[enums::{words.enum}; {subject.point.digits.count}]"
-    if words.enum:
-        return f"enums::{words.enum}"
+    if enum and subject.point.digits is not None:
+        return f"[enums::{enum}; {subject.point.digits.count}]"
+    if enum:
+        return f"enums::{enum}"
     return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
 
 
@@ -97,3 +104,144 @@ def _width(rule: Linear, decimals: int, raw: str) -> int:
     line = count_line(rule, decimals).inverse
     numbers = (*line, *line.meets(type_range(raw)))
     return next((bits for bits in (32, 64) if fits(numbers, bits)), 128)
+
+
+def rule_lines(point: Point, lowered: Lowered) -> Lines:
+    """The lines that choose the case in force: in order, up to one that always holds."""
+    otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
+    cases: list[tuple[str, list[str], Lines]] = []
+    for case in point.scale or ():
+        result = rule_of(lowered.rule(case.rule))
+        if case.point is None:
+            otherwise = result
+            break
+        raw, code = f"runtime::Raw::to_i64({_raw_of(case.point)})", integer(case.raw or 0)
+        if cases and (cases[-1][0], cases[-1][2]) == (raw, result):
+            cases[-1][1].append(code)
+        else:
+            cases.append((raw, [code], result))
+    if not cases:
+        return chained(otherwise)
+    arms = (line for case in cases for line in _arm(*case))
+    return "match () {", *arms, f"    () => {'?'.join(otherwise)},", "}"
+
+
+def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
+    """An arm for raw numbers that are one of these codes."""
+    yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
+    yield from (f"        {line}" for line in chained(result))
+    yield "    }"
+
+
+def rule_of(rule: Rule) -> Lines:
+    """The lines that compute a scale with its factors; special codes of factors are refused first."""
+    codes = [code for operand in rule.steps for code in _codes(operand)]
+    steps = [f".unless({' || '.join(codes)})"] if codes else []
+    steps += [_step(operand, limit=False) for operand in rule.steps]
+    return (f"{_start(rule)}{steps[0]}", *steps[1:]) if steps else (f"Ok({_start(rule)})",)
+
+
+def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
+    """The lines that compute a limit within its outermost bound; the bound itself if a special code lifts the limit."""
+    rule = lowered.rule(limit.rule)
+    factors = (_step(operand, limit=True) for operand in rule.steps)
+    bound = integer(limit.outermost(low=lower))
+    first, *steps = (*factors, ".limit()", f".{'max' if lower else 'min'}({bound})")
+    terms = (f"{_start(rule)}{first}", *steps)
+    aside = [
+        f"matches!(runtime::Raw::to_i64({_raw_of(name)}), {' | '.join(interval(*band) for band in codes)})"
+        for name, codes in limit.unless
+        if codes
+    ]
+    if not aside:
+        return chained(terms)
+    head = filled("if ", " || ", aside, " {")
+    return *head, f"    {bound}", "} else {", *(f"    {line}" for line in chained(terms)), "}"
+
+
+def interval(low: int, high: int) -> str:
+    """A pattern for the numbers from `low` to `high`."""
+    return integer(low) if low == high else f"{integer(low)}..={integer(high)}"
+
+
+def _start(rule: Rule) -> str:
+    ratio, offset = rule.ratio, rule.offset
+    start = f"runtime::Rule::new({integer(ratio.numerator)}, {integer(ratio.denominator)})"
+    return f"{start}.plus({integer(offset.numerator)}, {integer(offset.denominator)})" if offset else start
+
+
+def _codes(operand: Operand) -> Iterator[str]:
+    """The condition that the factor's point holds a special code."""
+    if operand.codes:
+        bands = (interval(*band) for band in sorted(operand.codes))
+        yield f"matches!({_raw_of(operand.point)}, {' | '.join(bands)})"
+
+
+def _step(operand: Operand, *, limit: bool) -> str:
+    """The call that puts a factor into a rule."""
+    raw, times = _raw_of(operand.point), "limited_by" if limit and not operand.ten_to else "times"
+    if operand.floating:
+        return f".{'over' if operand.over else times}_f32({raw})"
+    if operand.exponents is not None:
+        low, high = operand.exponents
+        raw = f"runtime::arithmetic::exponent({rust_string(operand.point)}, {raw}, {integer(low)}, {integer(high)})?"
+    if (operand.slope, operand.intercept) != (1, 0):
+        raw = f"runtime::arithmetic::line({raw}, {integer(operand.slope)}, {integer(operand.intercept)})?"
+    return f".{'over' if operand.over else times}{'_ten_to' if operand.ten_to else ''}({raw})"
+
+
+def _raw_of(name: str) -> str:
+    return f"with.{value_name(name)}"
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentsView:
+    """A struct of the raw numbers that a point needs; `old_names` is the text of what it was called."""
+
+    doc: str
+    name: str
+    fields: tuple[tuple[tuple[str, ...], str, str], ...]
+    part: str
+    part_literal: tuple[str, ...]
+    old_names: str
+
+
+def arguments_views(scope: CrateScope, render: Render) -> Iterator[ArgumentsView]:
+    """The structs of raw numbers that points need."""
+    needy = [subject for subject in scope.subjects if subject.arguments]
+    links = _links(scope) if needy else {}
+    for subject in needy:
+        item = subject.item
+        parted = bool(subject.factors) and subject.factors != subject.arguments
+        part = subject.factors_name if parted else ""
+        if parted:
+            doc = f"Raw numbers that the scale of `{item}` needs."
+            old_names = old_names_text(part, [f"{old}_factors" for old in subject.point.old_items], render)
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", (), old_names)
+        literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
+        doc = f"Raw numbers that `{item}` needs."
+        old_names = old_names_text(subject.name, subject.point.old_items, render)
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal, old_names)
+
+
+def _fields(
+    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
+) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple(
+        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
+        for name in names
+    )
+
+
+def _source(name: str, links: Mapping[str, list[str]]) -> str:
+    """The points whose raw number an argument is: several if variants of the device differ."""
+    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
+
+
+def _links(scope: CrateScope) -> dict[str, list[str]]:
+    """Links to the points of each name and item."""
+    links: dict[str, list[str]] = {}
+    for subject in scope.subjects:
+        for name in {subject.item, subject.point.name}:
+            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
+    return links

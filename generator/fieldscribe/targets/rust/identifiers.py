@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.identifiers import Names, Owner
+from fieldscribe.targets.rust.enums import UNKNOWN, constant_name, getter_name
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
 from fieldscribe.targets.rust.subjects import CratePoint, scope_of
-from fieldscribe.targets.rust.words import UNKNOWN, constant_name, getter_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,117 +1,150 @@
-"""The text of each point, as facts for the runtime's macro: laid out once for all points that are alike."""
+"""The text of each point, as facts for the runtime's macro: laid out once for all points with the same template."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.patterns import Pattern
-from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import facts_text, is_long, point_doc
-from fieldscribe.targets.rust.families import in_rust
-from fieldscribe.targets.rust.families.spaces import space_variant
+from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.targets.rust.documentation import PointDoc
+from fieldscribe.targets.rust.enums import old_names_text
+from fieldscribe.targets.rust.families import in_rust, space_variant
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.identity import (
-    KnownLimits,
-    blanked,
-    broken,
-    is_alias,
-    layout_of,
-    width_of,
-    widths_of,
-    words_of,
-)
-from fieldscribe.targets.rust.literals import mask
-from fieldscribe.targets.rust.special_codes import code_lines
-from fieldscribe.targets.rust.views import PointView
-from fieldscribe.targets.rust.words import old_names_text
-from fieldscribe.text import rust_string
+from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
+from fieldscribe.targets.rust.point_facts import code_lines, read_lines, write_lines
+from fieldscribe.text import rust_code, rust_string
+from fieldscribe.wording import raw_range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.rust.identity import Words
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
+_UNLIMITED = ("float", "text", "digits")
+"""The forms of points whose limits are no raw numbers."""
 
-_STEP = 8
-"""Doc comments are laid out as if they were as wide as the widest of so many: if they fit then, all fit."""
+_ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
+
+
+@dataclass(frozen=True, slots=True)
+class PointView:
+    """One point: its doc comment, the manual's code to search for (or empty), and its facts."""
+
+    doc: str
+    alias: str
+    name: str
+    facts: tuple[str, ...]
+
+
+class MacroFields(NamedTuple):
+    """The words that only one point has, or placeholders for them; what it lacks is empty.
+
+    `doc` is the whole doc comment. `alias` is the manual's code if people may search for it. `low` and `high` bound the
+    raw numbers. `addresses` and `references` are facts of several lines. No line break depends on the width of a field.
+    """
+
+    doc: str
+    item: str
+    name: str
+    enum: str
+    code: str
+    alias: str
+    address: str
+    low: str
+    high: str
+    addresses: str
+    references: str
+
+
+class LimitFields(NamedTuple):
+    """The limits of a point for its doc comment, and their ends in code."""
+
+    text: str
+    low: str
+    high: str
 
 
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
-    """The texts of all points, and whether one of them names items of the runtime."""
-    known_limits, layouts, texts = KnownLimits(), _Layouts(scope, render), []
-    traits = in_rust(scope.family).traits
-    for subject in scope.subjects:
-        limits = known_limits.of(subject)
-        words, own = words_of(subject, limits), tuple(traits(subject, scope))
-        kind = (subject.kin, limits.form, own, layout_of(subject, words))
-        texts.append(layouts.pattern(subject, words, kind, own).filled(words))
-    return "".join(texts), layouts.names_runtime
+    """Return the texts of all points, and whether one of them names items of the runtime."""
+    templates = _PointTemplates(scope, render)
+    texts = [templates.text(subject) for subject in scope.subjects]
+    return "".join(texts), templates.names_runtime
 
 
-class _Layouts:
-    """The texts of points, laid out once for all that are of one kind and have words of one width.
-
-    If the facts of the doc comment fit in one line, the width of all words together is enough, and rounded up.
-    """
+class _PointTemplates:
+    """Lays out the text of points once for each template."""
 
     def __init__(self, scope: CrateScope, render: Render) -> None:
         self._scope, self._render = scope, render
-        self._patterns: dict[object, Pattern | None] = {}
+        self._traits = in_rust(scope.family).traits
+        self._templates: dict[object, TextTemplate] = {}
+        self._limits: dict[tuple[int, int], LimitFields] = {}
+        self._docs: dict[int, PointDoc] = {}
         self.names_runtime = False
 
-    def pattern(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
-        """The text with blanks for the words."""
-        steps, rest = divmod(width_of(words), _STEP)
-        key: object = (kind, steps)
-        if key not in self._patterns:
-            self.names_runtime |= bool(traits) or _names_runtime(subject)
-            wide = blanked(words, wider=_STEP - 1 - rest)
-            facts = facts_text(subject.point, wide)
-            self._patterns[key] = None if is_long(facts) else self._laid_out(subject, wide, facts, traits)
-        return self._patterns[key] or self._exact(subject, words, kind, traits)
+    def text(self, subject: CratePoint) -> str:
+        """Return the text of a point."""
+        fields, traits = self._fields(subject), tuple(self._traits(subject, self._scope))
+        whole = subject.key, traits, fields.alias == "", fields.low == ""
+        template = self._templates.get(whole)
+        if template is None:
+            template = self._templates[whole] = self._laid_out(subject, MacroFields._make(placeholders(fields)), traits)
+        return template.fill(fields)
 
-    def _exact(self, subject: CratePoint, words: Words, kind: object, traits: tuple[str, ...]) -> Pattern:
-        key = (kind, widths_of(words))
-        pattern = self._patterns.get(key)
-        if pattern is None:
-            shown = blanked(words, kept=broken(words))
-            pattern = self._laid_out(subject, shown, facts_text(subject.point, shown), traits)
-            self._patterns[key] = pattern
-        return pattern
-
-    def _laid_out(self, subject: CratePoint, words: Words, facts: str, traits: tuple[str, ...]) -> Pattern:
-        """The text with these words; `facts` are those of the doc comment."""
-        point = subject.point
-        view = PointView(
-            doc=point_doc(point, words.sentence, facts, self._scope.errata),
-            alias=words.code if is_alias(point.code or "", subject.name) else "",
-            name=words.name,
-            facts=(*_facts(subject._replace(name=words.name), words, self._scope), *traits),
+    def _fields(self, subject: CratePoint) -> MacroFields:
+        point, item, name, shape, _, key = subject
+        doc = self._docs.get(key)
+        if doc is None:
+            doc = self._docs[key] = PointDoc(point, self._scope.errata)
+        limits = self._limits.get((key, id(point.allowed)))
+        if limits is None:
+            limits = self._limits[key, id(point.allowed)] = _limits_of(subject)
+        addresses, code = point.place.addresses, point.code or ""
+        address = addresses[0] if len(addresses) == 1 else min(addresses)
+        literal = code and rust_string(code)
+        return MacroFields(
+            doc.of(item, code and rust_code(code), address, limits.text),
+            item,
+            name,
+            "" if shape.enum is None else type_name(shape.enum.name),
+            literal,
+            literal if code != name and _ALIAS.fullmatch(code) else "",
+            f"0x{address:04X}",
+            limits.low,
+            limits.high,
+            "" if len(addresses) == 1 else _addresses(addresses),
+            _references(point.place.references),
         )
-        old_names = old_names_text(words.name, point.old_items, self._render)
-        return Pattern(self._render("rust/point.rs.j2", {"point": view}) + old_names)
+
+    def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...]) -> TextTemplate:
+        self.names_runtime |= bool(traits) or _names_runtime(subject)
+        facts = (*_facts(subject.renamed(fields.item, fields.name), fields, self._scope), *traits)
+        view = PointView(fields.doc, fields.alias, fields.name, facts)
+        old_names = old_names_text(fields.name, subject.point.old_items, self._render)
+        return TextTemplate(self._render("rust/point.rs.j2", {"point": view}) + old_names)
 
 
-def _facts(subject: CratePoint, words: Words, scope: CrateScope) -> Iterator[str]:
+def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
     """The facts in the order of the macro."""
     point = subject.point
-    yield f'{words.name}: {subject.raw} = "{words.item}"{words.code and ", "}{words.code};'
-    yield from _whereabouts(point, words)
-    if words.references:
-        yield words.references
+    yield f'{fields.name}: {subject.raw} = "{fields.item}"{fields.code and ", "}{fields.code};'
+    yield from _whereabouts(point, fields)
+    if fields.references:
+        yield fields.references
     if point.unit.symbol:
         yield f"unit {rust_string(point.unit.symbol)};"
     if subject.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
-    if words.low:
-        yield f"raw {words.low}..={words.high};"
-    yield from form_lines(subject, words, scope)
+    if fields.low:
+        yield f"raw {fields.low}..={fields.high};"
+    yield from form_lines(subject, fields.enum, scope)
     yield from code_lines(subject)
     if point.readable:
         yield from read_lines(subject)
@@ -126,17 +159,17 @@ def _names_runtime(subject: CratePoint) -> bool:
     return point.text is not None or bool(subject.factors) or (point.writable and checked)
 
 
-def _whereabouts(point: Point, words: Words) -> Iterator[str]:
+def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
     """The facts about addresses, index, telegram and constant bits."""
-    yield f"at {space_variant(point.space)} {words.address};"
-    if words.addresses:
-        yield words.addresses
+    yield f"at {space_variant(point.space)} {fields.address};"
+    if fields.addresses:
+        yield fields.addresses
     if point.words != 1:
         yield f"words {point.words};"
     if point.write_place is not None:
         yield f"write_at 0x{min(point.write_place.addresses):04X};"
-    if words.element:
-        yield f"index {words.element};"
+    if point.index is not None:
+        yield f"index {point.index};"
     if point.telegram is not None:
         yield f"telegram {rust_string(point.telegram)};"
     if point.bits is not None:
@@ -144,3 +177,28 @@ def _whereabouts(point: Point, words: Words) -> Iterator[str]:
     if point.fixed is not None:
         width = "u16" if point.words == 1 else "u32"
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
+
+
+def _limits_of(subject: CratePoint) -> LimitFields:
+    """Return the limits of a point; more than one range is not written by its ends."""
+    point, raw = subject.point, subject.raw
+    ends, span = point.outer, raw_range_text(point)
+    unwritten = subject.form in _UNLIMITED or ends == type_range(raw)
+    low, high = ("", "") if unwritten else (raw_literal(ends[0], raw), raw_literal(ends[1], raw))
+    return LimitFields(span and rust_code(span), low, high)
+
+
+def _addresses(addresses: tuple[int, ...]) -> str:
+    return "\n    ".join(filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];"))
+
+
+def _references(references: Mapping[str, int | str]) -> str:
+    """The manual's other numberings of the point."""
+    return "\n    ".join([f"const {key.upper()}: {_typed(number)};" for key, number in references.items()])
+
+
+def _typed(number: int | str) -> str:
+    """The type of a numbering and the number in it."""
+    if isinstance(number, str):
+        return f"&'static str = {rust_string(number)}"
+    return f"{'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.lowered import lower
@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 class CrateShape:
     """What Rust knows of all points of a shape; `rule` is their scale if that depends on no other point.
 
-    `enum` is that of their values or digits. `alike` is the number of all shapes that differ from this one only in the
-    names of an enum: code about points names the enum, never its entries.
+    `enum` is that of their values or digits.
     """
 
     form: str
@@ -30,7 +29,6 @@ class CrateShape:
     enum: Enum | None
     carried: str
     """The raw type of its enum, which is wider than its own if points of several types share the enum."""
-    alike: int
 
     @property
     def closed(self) -> bool:
@@ -41,8 +39,7 @@ class CrateShape:
 class CratePoint(NamedTuple):
     """A generated point: its name in the description and in Rust, and what Rust knows of its shape.
 
-    `arguments` are the points whose raw numbers writing needs. `kin` is the number of all points that differ in nothing
-    but the words of their identity and limits.
+    `arguments` are the points whose raw numbers writing needs, `key` is its template key.
     """
 
     point: Point
@@ -50,7 +47,11 @@ class CratePoint(NamedTuple):
     name: str
     shape: CrateShape
     arguments: tuple[str, ...]
-    kin: int
+    key: int
+
+    def renamed(self, item: str, name: str) -> CratePoint:
+        """Return the point with placeholders for its names; the structs of a scale follow from its name as it is."""
+        return self if self.factors else self._replace(item=item, name=name)
 
     @property
     def form(self) -> str:
@@ -111,53 +112,25 @@ def scope_of(device: Device) -> CrateScope:
     shapes = {id(point.shape): point.shape for point in generated}
     enums = _enum_types(shapes.values())
     messages = {message.name: message for message in device.messages}
+    lowered, crate_shapes = lower(device), {key: _shape(shape, enums) for key, shape in shapes.items()}
     return CrateScope(
-        lower(device),
+        lowered,
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple(_subjects(generated, _shapes(shapes, enums))),
+        tuple(_subjects(generated, crate_shapes, lowered.template_keys)),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
         frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
 
 
-def _subjects(points: Iterable[Point], shapes: Mapping[int, CrateShape]) -> Iterator[CratePoint]:
-    kins: dict[object, int] = {}
+def _subjects(
+    points: Iterable[Point], shapes: Mapping[int, CrateShape], keys: Mapping[int, int]
+) -> Iterator[CratePoint]:
     for point in points:
         shape, item = shapes[id(point.shape)], point.item
-        name = type_name(item)
         arguments = point.arguments if shape.factors or point.allowed.arguments else ()
-        kin = _kin(point, shape, name, arguments)
-        yield CratePoint(point, item, name, shape, arguments, kins.setdefault(kin, len(kins)))
-
-
-def _kin(point: Point, shape: CrateShape, name: str, arguments: tuple[str, ...]) -> tuple[object, ...]:
-    """All that decides about the text of a point beside its words and limits; a name that would clash has no kin."""
-    return (
-        shape.alike,
-        arguments,
-        point.space,
-        point.unit.symbol,
-        point.bits,
-        point.steps,
-        point.telegram,
-        point.index is None,
-        tuple(point.place.references),
-        point.write_place and point.write_place.addresses,
-        point.variant,
-        point.when,
-        point.errata,
-        point.keeps,
-        point.was,
-        name if name.endswith("_") else None,
-    )
-
-
-def _shapes(shapes: Mapping[int, Shape], enums: Mapping[str, str]) -> dict[int, CrateShape]:
-    """What Rust knows of shapes, by the same keys."""
-    numbers: dict[object, int] = {}
-    return {key: _shape(shape, enums, numbers) for key, shape in shapes.items()}
+        yield CratePoint(point, item, type_name(item), shape, arguments, keys[id(point)])
 
 
 def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
@@ -173,13 +146,10 @@ def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
     return enums
 
 
-def _shape(shape: Shape, enums: Mapping[str, str], numbers: dict[object, int]) -> CrateShape:
+def _shape(shape: Shape, enums: Mapping[str, str]) -> CrateShape:
     enum, raw = _enum(shape), raw_type(shape)
     carried = raw if enum is None else enums[enum.name]
-    named = shape.enum if shape.form == "enum" else None
-    unnamed = shape if named is None else (replace(shape, enum=None), named.closed)
-    alike = numbers.setdefault((unnamed, carried), len(numbers))
-    return CrateShape(shape.form, raw, shape.scale_arguments, shape.fixed_scale, enum, carried, alike)
+    return CrateShape(shape.form, raw, shape.scale_arguments, shape.fixed_scale, enum, carried)
 
 
 def _enum(shape: Shape) -> Enum | None:

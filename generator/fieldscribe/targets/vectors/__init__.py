@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
     from fieldscribe.targets.identifiers import Names
 
-FOR_PEOPLE = False
+SEES_TITLES = False
 NEEDS_FAMILY = False
-KEEPS_NAMES = True
+NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.model import item_of
-from fieldscribe.patterns import Pattern, blanks
 from fieldscribe.targets.vectors.kinds import Written, text, word
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
@@ -52,7 +52,7 @@ class Identities:
 
     def __init__(self, lines: Lines, variants: Mapping[str, tuple[str, ...]]) -> None:
         self._lines, self._variants = lines, variants
-        self._parts: dict[tuple[object, ...], tuple[Lines, Pattern]] = {}
+        self._parts: dict[tuple[object, ...], tuple[Lines, TextTemplate]] = {}
         self._shared: dict[tuple[int, int], tuple[tuple[object, ...], str]] = {}
 
     def add(self, point: Point) -> None:
@@ -66,10 +66,10 @@ class Identities:
         known = self._parts.get(form)
         if known is None:
             part = self._lines.apart()
-            _write(part, Form._make(form), blanks(word and "?" for word in words))
-            known = self._parts[form] = part, Pattern(part.joined)
+            _write(part, Form._make(form), placeholders(word and "?" for word in words))
+            known = self._parts[form] = part, TextTemplate(part.joined)
         part, pattern = known
-        self._lines.include(part, pattern.filled(words))
+        self._lines.include(part, pattern.fill(words))
 
     def _in_common(self, shape: Shape, terms: Terms) -> tuple[object, ...]:
         """The first half of a form."""

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Point, Role, Telegram
-    from fieldscribe.targets.c.kinds import Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, PointView
     from fieldscribe.targets.identifiers import Named
@@ -95,7 +95,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
     """Return the view of `<device>_can.h`."""
     messages = {message.name: message for message in device.messages}
     carriers = {
@@ -198,7 +198,7 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, arrays: Sequence
     if not read and not write:
         return None
     text = point.text is not None
-    place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{view.words.start}}}"
+    place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{view.fields.start}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
     ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     name = f"{view.function}_frame"
@@ -217,7 +217,7 @@ def _cyclic(point: Point, view: PointView, layouts: Layouts) -> Frame:
     if point.text is not None:
         parts, case = [f"{{{view.function}_addresses, {point.words}U}}"], f"RECEIVED_TEXT({name}, {view.macro})"
     else:
-        parts = [layouts.of(point, range(point.words)), f"{{{view.words.start}, {view.words.end}}}"]
+        parts = [layouts.of(point, range(point.words)), f"{{{view.fields.start}, {view.fields.end}}}"]
         case = f"RECEIVED({name}, {kind_of(point)}, {view.raw_type})"
     return _frame(point, view, "h", parts, [case])
 

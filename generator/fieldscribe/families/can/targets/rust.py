@@ -11,9 +11,7 @@ from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.example import Snippet
-from fieldscribe.targets.rust.families import OfFamily, Table, row_text
-from fieldscribe.targets.rust.families.numbers import code_names, constants
+from fieldscribe.targets.rust.families import OfFamily, Snippet, Table, code_names, constants, row_text
 from fieldscribe.targets.rust.layout import Item, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.text import rust_string

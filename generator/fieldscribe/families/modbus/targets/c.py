@@ -18,10 +18,10 @@ from fieldscribe.targets.c.frames import (
     names_of,
     names_of_exceptions,
     old_names_of,
-    places_of,
     shares,
 )
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.modbus import Profile
     from fieldscribe.model import Block, Command, Device, Point
-    from fieldscribe.targets.c.kinds import Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, Define, PointView
     from fieldscribe.targets.identifiers import Named
@@ -76,7 +76,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
     """Return the view of `<device>_modbus.h`."""
     profile = profile_of(device.bus)
     layouts = Layouts(scope)
@@ -143,7 +143,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     if not read and not write:
         return None
     name, text = f"{view.function}_frame", point.text is not None
-    address = view.words.address
+    address = view.fields.address
     to = address if point.write_place is None else hexadecimal(min(point.write_place.addresses))
     text_place = f"{{{view.function}_addresses, {address}, {point.words}U}}"
     parts = [text_place if text else layouts.of(point, places_of(point))]

@@ -11,7 +11,7 @@ from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
-    from fieldscribe.targets.python.scope import PackageScope
+    from fieldscribe.targets.python.identifiers import PackageScope
 
 
 def _profile(device: Device, scope: PackageScope) -> Node:

@@ -6,9 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of, of_bus, profile_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import OfFamily
-from fieldscribe.targets.rust.families.numbers import code_names
-from fieldscribe.targets.rust.families.spaces import space_variant
+from fieldscribe.targets.rust.families import OfFamily, code_names, space_variant
 from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
 

@@ -17,10 +17,10 @@ from fieldscribe.targets.c.frames import (
     lies,
     names_of,
     old_names_of,
-    places_of,
     shares,
 )
 from fieldscribe.targets.c.literals import hexadecimal
+from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.families import Codes
     from fieldscribe.model import Code, Device, Point
-    from fieldscribe.targets.c.kinds import Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import AliasView, PointView
     from fieldscribe.targets.identifiers import Named
@@ -64,7 +64,7 @@ class BusView:
     aliases: tuple[AliasView, ...]
 
 
-def bus_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> BusView:
+def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
     """Return the view of `<device>_uss.h`."""
     bus = device.bus
     telegrams = {telegram.name for telegram in device.telegrams}
@@ -138,7 +138,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     layout = layouts.of(point, range(width))
 
     def descriptor(tail: str, ways: list[tuple[int, str]]) -> Descriptor:
-        places = [f"{{{task}U, {view.words.number}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
+        places = [f"{{{task}U, {view.fields.number}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
         kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
         return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", tail)
 
@@ -160,7 +160,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
 def _word(point: Point, view: PointView, layouts: Layouts, scope: HeaderScope) -> Frame:
     """Return the place of a point in the words of process data."""
     name, what = f"{view.function}_frame", f"{kind_of(point)}, {view.raw_type}"
-    position = f"{{{view.words.number}U, {point.words}U}}"
+    position = f"{{{view.fields.number}U, {point.words}U}}"
     ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
     value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     words = f"{view.macro}, {scope.upper}_TELEGRAM_{upper(point.telegram or '')}_WORDS"

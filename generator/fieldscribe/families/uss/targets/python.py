@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.python.scope import PackageScope
+    from fieldscribe.targets.python.identifiers import PackageScope
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 

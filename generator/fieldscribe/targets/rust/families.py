@@ -6,13 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.rust.example import Snippet
-from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.layout import Item, Lines, arm, binding, filled
+from fieldscribe.targets.rust.literals import integer
+from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from fieldscribe.model import Device
+    from fieldscribe.model import Code, Device
     from fieldscribe.targets.identifiers import Names
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
@@ -28,6 +30,17 @@ Way = tuple[str, str, Needs]
 
 END = ";\n"
 """What stands between the rows of a table, and nowhere in them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Snippet:
+    """Lines of an example, and the items of the crate that they name beside those that every example names."""
+
+    lines: Lines = ()
+    names: frozenset[str] = frozenset()
+
+    def __add__(self, other: Snippet) -> Snippet:
+        return Snippet(self.lines + other.lines, self.names | other.names)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,3 +112,46 @@ def in_rust(name: str) -> OfFamily:
     """The part `targets.rust` of the family of that name."""
     part: OfFamily = family(name).part("targets.rust").IN_RUST
     return part
+
+
+_SPACES = {
+    "coil": "Coil",
+    "discrete": "Discrete",
+    "input": "Input",
+    "holding": "Holding",
+    "parameter": "Parameter",
+    "telegram": "Telegram",
+}
+
+
+def space_variant(name: str) -> str:
+    """A space as a variant of the runtime's enum."""
+    known = _SPACES.get(name)
+    return known or f"Other({rust_string(name)})"
+
+
+def space(name: str) -> str:
+    """The same with the enum, as a value."""
+    return f"runtime::Space::{space_variant(name)}"
+
+
+Constant = tuple[str, tuple[str, ...]]
+"""The doc comment of a constant, and its lines."""
+
+
+def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Constant, ...]:
+    """A constant of that type for each code; `what` is the word for its number in the doc comment."""
+    return tuple(
+        (
+            f"{sentence(code.name).rstrip('.')}: {what} {code.number}." if what else sentence(code.name),
+            binding(4, Item(f"pub const {code.name.upper()}", type_), integer(code.number)),
+        )
+        for code in codes
+    )
+
+
+def code_names(codes: Iterable[Code]) -> tuple[str, ...]:
+    """The match arms from codes to their names, each code once."""
+    named = {code.number: code.name for code in reversed(tuple(codes))}
+    arms = (arm(12, name.upper(), f"Some({rust_string(name)})") for _, name in sorted(named.items()))
+    return tuple(line for lines in arms for line in lines)

@@ -1,4 +1,4 @@
-"""Points that are alike are resolved once, and mean what each would mean alone; a fact that is forgotten shows."""
+"""Points with equal facts are resolved once, and mean what each would mean if it were resolved by itself."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.resolve import alike
+from fieldscribe.resolve import memo
 from fieldscribe.resources import descriptions_dir
 from support.described import DEVICES, compiled, described, loaded_in
 from support.expectations import findings_of
@@ -33,42 +33,42 @@ ROWS = """
 - {name: small, at: 8, line: 8, type: u64, range: 0..1000, scale: "value = raw * 0.1"}
 - {name: large, at: 12, line: 9, type: u64, range: 0..90000000000000000, scale: "value = raw * 0.1"}
 """
-"""Rows that are nearly alike: limits outside the type, names of numbers, limits that decide about the shape."""
+"""Rows that differ in little: limits outside the type, names of numbers, limits that decide about the shape."""
 
 
-class Alone(alike.Kinds):
-    """No point is like another."""
+class Unshared(memo.FactKeys):
+    """Gives every point a key of its own."""
 
     def __init__(self) -> None:
         super().__init__()
         self._numbers = count()
 
-    def of(self, draft: PointFacts) -> int:
+    def of(self, point: PointFacts) -> int:
         return next(self._numbers)
 
 
 @cache
-def meant() -> list[object]:
-    """What the devices mean."""
+def models() -> list[object]:
+    """Return the models of the good descriptions."""
     return [compiled(file) for file in GOOD]
 
 
 @pytest.mark.parametrize("file", GOOD, ids=lambda file: file.parent.name)
-def test_points_that_are_alike_mean_the_same_alone(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sharing_facts_changes_no_model(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     together = compiled(file)
-    monkeypatch.setattr("fieldscribe.resolve.points.Kinds", Alone)
+    monkeypatch.setattr("fieldscribe.resolve.points.FactKeys", Unshared)
     assert compiled(file) == together
 
 
 @pytest.mark.full(seconds=12)
 @pytest.mark.parametrize("case", BAD, ids=lambda case: case.stem)
-def test_findings_are_those_of_each_point_alone(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sharing_facts_changes_no_finding(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     together = findings_of(case)
-    monkeypatch.setattr("fieldscribe.resolve.points.Kinds", Alone)
+    monkeypatch.setattr("fieldscribe.resolve.points.FactKeys", Unshared)
     assert findings_of(case) == together
 
 
-def test_what_limits_decide_is_decided_for_each_point(tmp_path: Path) -> None:
+def test_limits_decide_for_each_point(tmp_path: Path) -> None:
     text = described(ROWS.replace("-1..40", "1..40"))
     points = {point.name: point for point in loaded_in(tmp_path, text).points}
     assert points["first"].shape is points["second"].shape is points["third"].shape
@@ -81,7 +81,7 @@ def test_what_limits_decide_is_decided_for_each_point(tmp_path: Path) -> None:
     assert (points["small"].encodes_values, points["large"].encodes_values) == (True, False)
 
 
-def test_a_wrong_fact_is_told_of_every_point(tmp_path: Path) -> None:
+def test_a_wrong_fact_is_reported_at_every_point(tmp_path: Path) -> None:
     points = "".join(
         f"- {{name: p_{at}, at: {at}, line: 1, type: s16, range: 0..40000, unit: Hz}}\n" for at in range(3)
     )
@@ -96,9 +96,9 @@ def test_a_wrong_fact_is_told_of_every_point(tmp_path: Path) -> None:
 @pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("key", ["scale", "unit", "access", "type", "enum", "keeps", "special"])
 def test_a_fact_that_is_forgotten_is_noticed(key: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If points that differ in one fact count as alike, some device means something else, or is refused."""
-    right = meant()
-    monkeypatch.setattr(alike, "_IDENTITY", alike._IDENTITY | {key})
+    """If points that differ in one fact share a key, some device means something else, or is refused."""
+    right = models()
+    monkeypatch.setattr(memo, "_IDENTITY", memo._IDENTITY | {key})
     assert [compiled(file) for file in GOOD] != right
 
 
@@ -109,5 +109,5 @@ def test_limits_count_where_the_shape_depends_on_them(monkeypatch: pytest.Monkey
     def forgetful(_: object) -> Hashable:
         return 0
 
-    monkeypatch.setattr("fieldscribe.resolve.shapes.frozen", forgetful)
+    monkeypatch.setattr("fieldscribe.resolve.shapes.hashable", forgetful)
     assert loaded_in(tmp_path, text) != right

@@ -1,4 +1,4 @@
-"""The functions between a raw number and the words on the wire."""
+"""Functions between raw numbers and the words on the wire, and those of texts and of digits in one word."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.special_codes import codes_first
 from fieldscribe.targets.c.views import Function
 
 if TYPE_CHECKING:
@@ -14,6 +15,48 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import SpecialView
+
+STATUS = "FIELDSCRIBE_STATUS"
+
+
+def text_functions(point: Point, name: str) -> Iterator[Function]:
+    """The conversions of a text."""
+    assert point.text is not None
+    words = f"uint16_t words[{point.words}]"
+    latin = "true" if point.text.encoding == "latin-1" else "false"
+    if point.writable:
+        body = f"return fieldscribe_words_of_text(text, length, {latin}, words, {point.words}U);"
+        yield Function(function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body))
+    if point.readable:
+        body = f"return fieldscribe_text_of_words(words, {point.words}U, text);"
+        parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
+        yield Function(function("static inline size_t", f"{name}_decode", parameters, body))
+
+
+def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
+    """The conversions of digits."""
+    assert point.digits is not None
+    count = point.digits.count
+    names = f"{scope.prefix}_{point.digits.enum.name}_names"
+    known = f"{count}U, {names}, FIELDSCRIBE_COUNT({names})"
+    digits = f"uint16_t digits[{count}]"
+    if point.writable:
+        check = codes_first(point, special, f"fieldscribe_check_digits(raw, {known})")
+        yield Function(function(STATUS, f"{name}_check", ("uint16_t raw",), f"return {check};"))
+        whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"
+        status = "whole.status"
+        if special is not None:
+            refused = f"{special.test}((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
+            status = f"fieldscribe_both(whole.status, {refused})"
+        store = f"return fieldscribe_keep_u16({status}, (uint16_t)whole.number, raw);"
+        yield Function(function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store))
+    if point.readable and special is None:
+        body = f"fieldscribe_digits_of(raw, digits, {count}U);"
+        yield Function(function("static inline void", f"{name}_decode", ("uint16_t raw", digits), body))
+    elif point.readable and special is not None:
+        body = f"return fieldscribe_quantity_digits({special.test}(raw), raw, digits, {count}U);"
+        yield Function(function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body))
 
 
 def has_words(point: Point) -> bool:
@@ -31,7 +74,7 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         split = "words[0] = (uint16_t)raw;"
         joined = f"({kind})fieldscribe_signed({mask}, {sign})"
     else:
-        places = _high_first(point)
+        places = places_of(point)
         into = ", ".join(f"&words[{place}]" for place in places)
         split = f"fieldscribe_split{info.bits}((uint{info.bits}_t)raw, {into});"
         joined = f"fieldscribe_join{info.bits}({', '.join(f'words[{place}]' for place in places)})"
@@ -41,8 +84,8 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
     yield Function(function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};"))
 
 
-def _high_first(point: Point) -> list[int]:
-    """The places of the words among the addresses, that of the high word first."""
+def places_of(point: Point) -> list[int]:
+    """Return the positions of a point's words among its addresses, the high word first."""
     order = sorted(point.addresses)
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
     return [order.index(address) for address in point.addresses] if whole else list(range(point.words))

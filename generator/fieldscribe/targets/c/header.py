@@ -1,7 +1,8 @@
-"""The header of a device: its view, and the text of its points."""
+"""The header of a device: its view, the text of its points, and several headers joined in one file."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from itertools import islice, product
 from typing import TYPE_CHECKING
@@ -9,25 +10,25 @@ from typing import TYPE_CHECKING
 from fieldscribe import __version__
 from fieldscribe.model import Version
 from fieldscribe.names import upper
-from fieldscribe.targets.c.comments import comment_text, laid_out
-from fieldscribe.targets.c.defines import defines, place_defines
-from fieldscribe.targets.c.fold import folded, framed
-from fieldscribe.targets.c.kinds import Texts
+from fieldscribe.targets.c.declarations import defines, place_defines
+from fieldscribe.targets.c.layout import folded, framed
+from fieldscribe.targets.c.point_templates import TemplateTexts, fields_of
 from fieldscribe.targets.c.points import computes_in_double, functions_of, named_numbers
 from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.c.views import AliasView, DeviceView, TelegramView
-from fieldscribe.targets.c.words import Words, words_of
 from fieldscribe.targets.heads import command
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.kinds import Kind, Placed
+    from fieldscribe.targets.c.point_templates import GeneratedPoint, PointTemplate
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import Define, PointView
+    from fieldscribe.targets.c.views import Define, PointFields, PointView
+
+_INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 
 _MOST_OLD_NAMES = 64
 """A struct has no more old names: those of its points multiply."""
@@ -36,7 +37,7 @@ STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR"
 """What conversions answer."""
 
 
-def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) -> DeviceView:
+def device_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> DeviceView:
     """The header's view, but for the points."""
     return DeviceView(
         head=head_lines(device),
@@ -56,53 +57,48 @@ def device_view(device: Device, placed: Sequence[Placed], scope: HeaderScope) ->
         aliases=(
             *(
                 alias
-                for point, kind, _ in placed
+                for point, template, _ in points
                 if point.was
                 for old, item in old_items(point)
-                for alias in _aliases(point, kind.view, AliasView(old, item, point.item), scope)
+                for alias in _aliases(point, template.view, AliasView(old, item, point.item), scope)
             ),
-            *_aliases_of_structs(placed, scope),
+            *_aliases_of_structs(points, scope),
         ),
         statuses=STATUSES,
-        double=any(computes_in_double(kind.point) for kind in {kind: None for _, kind, _ in placed}),
+        double=any(computes_in_double(template.point) for template in dict.fromkeys(each.template for each in points)),
     )
 
 
-def header(device: Device, view: DeviceView, placed: Iterable[Placed], scope: HeaderScope, render: Render) -> str:
+def header(
+    device: Device, view: DeviceView, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
+) -> str:
     """The text of `<device>.h`."""
     texts: list[str] = []
-    for name, of_points in _points_by_group(device, placed, scope, render).items():
+    for name, of_points in _points_by_group(device, points, scope, render).items():
         if of_points:
             texts += [folded(render("c/group.h.j2", {"title": _title(name, scope)})), *of_points]
     return framed(render, "c/device.h.j2", {"device": view}, {"points": "".join(texts)})
 
 
 def _points_by_group(
-    device: Device, placed: Iterable[Placed], scope: HeaderScope, render: Render
+    device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
 ) -> dict[str, list[str]]:
     """The texts of each group's points."""
-    comments = Texts(lambda kind: comment_text(kind.point, kind.view.words, scope))
-    headers = Texts(lambda kind: _point_text(kind, scope, render))
+    texts = TemplateTexts(lambda template: _point_text(template, scope, render))
     by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
-    generated = iter(placed)
+    generated = iter(points)
     for point in device.points:
         terms = point.terms
-        if terms.generated:
-            _, kind, words = next(generated)
-            comment = laid_out(comments.of(kind).filled(words))
-            text = headers.of(kind).filled((*words, comment))
-        else:
-            text = folded(_remark(point, scope, render))
+        text = texts.of(next(generated)) if terms.generated else folded(_remark(point, scope, render))
         by_group.setdefault(terms.group, []).append(text)
     return by_group
 
 
-def _point_text(kind: Kind, scope: HeaderScope, render: Render) -> str:
+def _point_text(template: PointTemplate, scope: HeaderScope, render: Render) -> str:
     """The part of the header that is one point."""
-    functions = list(functions_of(kind.point, kind.view, scope))
+    functions = list(functions_of(template.point, template.view, scope))
     context = {
-        "p": kind.view,
-        "comment": kind.comment,
+        "p": template.view,
         "functions": [function.text for function in functions if not function.floating],
         "floats": [function.text for function in functions if function.floating],
     }
@@ -157,9 +153,9 @@ def _function_tails(view: PointView) -> list[str]:
 
 def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """The old names of everything that a renamed point has in the header."""
-    words = view.words._replace(item=old.old_item, macro=upper(old.old_item))
-    function = f"{scope.prefix}_{words.item}"
-    for (name, _), (new, _) in zip(defines(point, words, scope), view.defines, strict=True):
+    fields = view.fields._replace(item=old.old_item, macro=upper(old.old_item))
+    function = f"{scope.prefix}_{fields.item}"
+    for (name, _), (new, _) in zip(defines(point, fields, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
     for tail in _function_tails(view):
         floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
@@ -173,12 +169,12 @@ def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) 
             yield replace(old, old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
-def _aliases_of_structs(placed: Iterable[Placed], scope: HeaderScope) -> Iterator[AliasView]:
+def _aliases_of_structs(points: Iterable[GeneratedPoint], scope: HeaderScope) -> Iterator[AliasView]:
     """The old names of structs, whose points may have been renamed alone or together.
 
     Fields are in the order of their names: a struct has no old name under which it would have another order.
     """
-    structs = {kind.view.struct: sorted(kind.point.arguments) for _, kind, _ in placed if kind.view.struct}
+    structs = {each.template.view.struct: sorted(each.point.arguments) for each in points if each.template.view.struct}
     for struct, names in structs.items():
         for chosen in islice(product(*[_names_of(name, scope) for name in names]), 1, _MOST_OLD_NAMES):
             renamed, old = next(name for name in chosen if name.was), [name.old_item for name in chosen]
@@ -196,13 +192,35 @@ def _names_of(name: str, scope: HeaderScope) -> Iterator[AliasView]:
 
 def _remark(point: Point, scope: HeaderScope, render: Render) -> str:
     """What the header says of a point that is not generated: why, and its address if it can be read or written raw."""
-    words = words_of(point)
-    comment = laid_out(comment_text(point, words, scope, f"not generated: {point.reason or 'documented only'}"))
-    return render("c/remark.h.j2", {"comment": comment, "defines": remark_defines(point, words, scope)})
+    fields = fields_of(point, scope, f"not generated: {point.reason or 'documented only'}")
+    return render("c/remark.h.j2", {"comment": fields.comment, "defines": remark_defines(point, fields, scope)})
 
 
-def remark_defines(point: Point, words: Words, scope: HeaderScope) -> tuple[Define, ...]:
+def remark_defines(point: Point, fields: PointFields, scope: HeaderScope) -> tuple[Define, ...]:
     """The macros of a point that is not generated."""
     if not point.raw_only:
         return ()
-    return *place_defines(point, words, scope), (f"{scope.upper}_{words.macro}_WORDS", f"{point.words}U")
+    return *place_defines(point, fields, scope), (f"{scope.upper}_{fields.macro}_WORDS", f"{point.words}U")
+
+
+def joined(files: Mapping[str, str], device: Device) -> str:
+    """Return one text of a device's headers: each after those that it includes, below a head of its own."""
+    order: dict[str, None] = {}
+
+    def place(name: str) -> None:
+        for included in _INCLUDE.findall(files[name]):
+            if included in files and included not in order:
+                place(included)
+        order[name] = None
+
+    for name in files:
+        if name not in order:
+            place(name)
+    head = "".join(f" * {line}\n" for line in (*head_lines(device), "", f"All in one file: {', '.join(order)}."))
+    texts = "".join(f"\n{_without_includes(files[name], files)}" for name in order)
+    return f"/*\n{head} */\n".replace(" * \n", " *\n") + texts
+
+
+def _without_includes(text: str, files: Mapping[str, str]) -> str:
+    """Return a header without the `#include` of what stands above it."""
+    return _INCLUDE.sub(lambda match: "" if match[1] in files else match[0], text)

@@ -1,18 +1,18 @@
-"""Enums, words of flags, and the structs of raw numbers that points need."""
+"""Enums, and words of flags."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.patterns import Pattern, blanks
-from fieldscribe.targets.rust.documentation import sentence, wrapped
-from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, fields_of, signature
-from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name, variant_name
-from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
+from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, signature
+from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Device, Entry, Enum, Flag
     from fieldscribe.render import Render
@@ -24,9 +24,72 @@ UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
+@dataclass(frozen=True, slots=True)
+class EntryView:
+    """A variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
+
+    doc: str
+    name: str
+    literal: str
+    named: tuple[str, ...]
+    numbered: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class EnumView:
+    """An enum; `unknown` is the variant that carries a number without a name."""
+
+    doc: str
+    name: str
+    raw: str
+    entries: tuple[EntryView, ...]
+    unknown: str
+
+
+@dataclass(frozen=True, slots=True)
+class FlagView:
+    """A flag: its mask, its getter and setter, its named numbers (doc, constant).
+
+    `active` says that a single bit is 1 while the flag is true; `meaning` is what its name alone does not say.
+    """
+
+    name: str
+    doc: str
+    meaning: str
+    active: bool
+    constant: str
+    constant_lines: tuple[str, ...]
+    getter: str
+    setter: tuple[str, ...]
+    mask: str
+    single: bool
+    read: tuple[str, ...]
+    full: bool
+    placed: str
+    when_true: str
+    when_false: str
+    values: tuple[tuple[str, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FlagsView:
+    """A word whose bits have names; the bits are held in the unsigned type of the raw number's width.
+
+    `false` is the word in which no flag is true, `shown` the lines that print the word.
+    """
+
+    doc: str
+    name: str
+    raw: str
+    bits: str
+    false: str
+    flags: tuple[FlagView, ...]
+    shown: tuple[str, ...]
+
+
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
     """The enums that generated points use, in the device's order, and whether one of them has many names."""
-    patterns: dict[object, tuple[Pattern, bool]] = {}
+    patterns: dict[object, tuple[TextTemplate, bool]] = {}
     texts, long = [], False
     for enum in device.enums:
         raw = scope.enums.get(enum.name)
@@ -36,9 +99,9 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, 
         key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
         known = patterns.get(key)
         if known is None:
-            view = _enum(enum, raw, *blanks(words))
-            known = patterns[key] = Pattern(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
-        texts.append(known[0].filled(words) + old_names_text(words[0], enum.was, render))
+            view = _enum(enum, raw, *placeholders(words))
+            known = patterns[key] = TextTemplate(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
+        texts.append(known[0].fill(words) + old_names_text(words[0], enum.was, render))
         long |= known[1]
     return "".join(texts), long
 
@@ -94,16 +157,16 @@ def constant_name(flag: Flag) -> str:
 
 def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """The words with named bits."""
-    patterns: dict[object, Pattern] = {}
+    patterns: dict[object, TextTemplate] = {}
     for subject in scope.subjects:
         if subject.form == "flags":
             words = (subject.name, sentence(subject.item))
-            key = (subject.kin, len(subject.name))
+            key = (subject.key, len(subject.name))
             pattern = patterns.get(key)
             if pattern is None:
-                view = _word(subject, *blanks(words))
-                pattern = patterns[key] = Pattern(render("rust/word.rs.j2", {"word": view}))
-            yield pattern.filled(words) + old_names_text(subject.name, subject.point.old_items, render)
+                view = _word(subject, *placeholders(words))
+                pattern = patterns[key] = TextTemplate(render("rust/word.rs.j2", {"word": view}))
+            yield pattern.fill(words) + old_names_text(subject.name, subject.point.old_items, render)
 
 
 def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
@@ -141,47 +204,6 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     """The constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
     return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
-
-
-def arguments_views(scope: CrateScope, render: Render) -> Iterator[ArgumentsView]:
-    """The structs of raw numbers that points need."""
-    needy = [subject for subject in scope.subjects if subject.arguments]
-    links = _links(scope) if needy else {}
-    for subject in needy:
-        item = subject.item
-        parted = bool(subject.factors) and subject.factors != subject.arguments
-        part = subject.factors_name if parted else ""
-        if parted:
-            doc = f"Raw numbers that the scale of `{item}` needs."
-            old_names = old_names_text(part, [f"{old}_factors" for old in subject.point.old_items], render)
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", (), old_names)
-        literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
-        doc = f"Raw numbers that `{item}` needs."
-        old_names = old_names_text(subject.name, subject.point.old_items, render)
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal, old_names)
-
-
-def _fields(
-    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
-) -> tuple[tuple[tuple[str, ...], str, str], ...]:
-    return tuple(
-        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
-        for name in names
-    )
-
-
-def _source(name: str, links: Mapping[str, list[str]]) -> str:
-    """The points whose raw number an argument is: several if variants of the device differ."""
-    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
-
-
-def _links(scope: CrateScope) -> dict[str, list[str]]:
-    """Links to the points of each name and item."""
-    links: dict[str, list[str]] = {}
-    for subject in scope.subjects:
-        for name in {subject.item, subject.point.name}:
-            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
-    return links
 
 
 def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumView:

@@ -1,0 +1,185 @@
+"""What stands above the functions of a point: its comment, and the macros of its place, its limits and its masks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.names import upper
+from fieldscribe.targets.c.layout import WIDTH, filled, folded
+from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.c.special_codes import code_defines
+from fieldscribe.text import c_comment
+from fieldscribe.wording import (
+    codes_text,
+    condition_text,
+    default_text,
+    display_text,
+    range_text,
+    raw_range_text,
+    resolution_text,
+    width_texts,
+    with_unit,
+)
+from fieldscribe.wording.exact import exact
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Flag, Point
+    from fieldscribe.targets.c.scope import HeaderScope
+    from fieldscribe.targets.c.views import Define, PointFields
+
+
+class PointComment:
+    """The comment above points: what users of the code must know, in names and numbers, without titles and notes.
+
+    It gives the code, name, range, unit, step, access, space and default of a point, then rare facts, and the errata
+    that changed one of these. All but code, name, range, references and default follow from the template key.
+    """
+
+    def __init__(self, point: Point, scope: HeaderScope, remark: str = "") -> None:
+        self._steps = tuple(map(c_comment, _steps(point))) if point.untyped is None else ()
+        self._typed = point.untyped is None
+        self._access = point.access if scope.spaces.get(point.group) is not None else f"{point.access}, {point.space}"
+        self._display = () if point.display is None else (display_text(point),)
+        self._rest = (*map(c_comment, _rare_facts(point, scope)), *((c_comment(remark),) if remark else ()))
+
+    def of(self, point: Point, limits: str) -> str:
+        """Return the lines of the comment above a point; `limits` is its range."""
+        name = point.item.replace("_", " ")
+        head = name if point.code is None else f"{c_comment(point.code)} {name}"
+        references = point.place.references
+        place = ", ".join([self._access, *[f"{key} {_printed(number)}" for key, number in references.items()]])
+        facts = [*((limits,) if limits and self._typed else ()), *self._steps, place, *self._display]
+        if point.default is not None or point.default_raw is not None:
+            facts.append(f"default {c_comment(default_text(point))}")
+        text = f"/* {head}: {'; '.join([*facts, *self._rest])} */"
+        return text if len(text) <= WIDTH else _in_lines(text[3:-3])
+
+
+def _printed(reference: int | str) -> str:
+    return c_comment(reference) if isinstance(reference, str) else str(reference)
+
+
+def _in_lines(text: str) -> str:
+    return folded("\n".join(("/*", *filled(text.split(" "), " ", " * "), " */")))
+
+
+def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
+    if point.when is not None:
+        yield f"exists only when {condition_text(point.when, scope.points)}"
+    yield from width_texts(point)
+    if point.specials:
+        yield codes_text(point)
+    if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
+        yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
+    errata = [erratum for erratum in point.errata if erratum in scope.errata]
+    if errata:
+        yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
+
+
+def range_words(point: Point) -> str:
+    """The range in the unit, or in raw numbers where values cannot be given."""
+    if point.text is not None:
+        return f"{point.text.characters} characters, {point.text.encoding}"
+    if point.digits is not None:
+        return f"{point.digits.count} digits, the highest first"
+    units = range_text(point)
+    raws = "" if units else raw_range_text(point)
+    return units or (f"raw {raws}" if raws else "")
+
+
+def _steps(point: Point) -> Iterator[str]:
+    """The unit of one count, and the steps of the device where they are coarser."""
+    if point.form != "scaled":
+        return
+    count = "" if point.decimals is None else with_unit(exact(1, 10**point.decimals), point)
+    step = resolution_text(point)
+    if step and step != count:
+        yield f"in steps of {step}"
+    if count:
+        yield f"{count} a count"
+
+
+def defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
+    """The macros of a generated point and their literals."""
+    macro = f"{scope.upper}_{fields.macro}"
+    yield from place_defines(point, fields, scope)
+    if point.words > 1 or point.text is not None:
+        yield f"{macro}_WORDS", f"{point.words}U"
+    yield from _raw_number(point, fields, macro)
+    yield from _bits(point, macro)
+    if not point.shared_codes:
+        yield from code_defines(point, macro)
+    active_low = sum(1 << flag.low for flag in point.flags if _active_low(flag))
+    if active_low:
+        yield f"{macro}_ACTIVE_LOW_MASK", hexadecimal(active_low, point.info.bits // 4)
+    for flag in point.flags:
+        yield from flag_defines(flag, point, macro)
+    if shares_values(point):
+        wide = next(flag for flag in point.flags if flag.width > 1)
+        yield from ((f"{macro}_{upper(entry.name)}", f"{entry.raw}U") for entry in wide.values)
+
+
+def shares_values(point: Point) -> bool:
+    """Whether several flags have the same named numbers: their macros are then named after the point."""
+    wide = [tuple((entry.name, entry.raw) for entry in flag.values) for flag in point.flags if flag.width > 1]
+    return len(wide) > 1 and len(set(wide)) == 1
+
+
+def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
+    """The macros that say where a point is."""
+    macro = f"{scope.upper}_{fields.macro}"
+    if not point.addresses:
+        return
+    yield f"{macro}_ADDRESS", fields.address
+    if point.index is not None:
+        yield f"{macro}_INDEX", unsigned(point.index)
+    if point.telegram is not None:
+        yield f"{macro}_TELEGRAM", f"{scope.upper}_TELEGRAM_{upper(point.telegram)}"
+    if point.write_place is not None:
+        yield f"{macro}_WRITE_ADDRESS", hexadecimal(min(point.write_place.addresses))
+
+
+def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Define]:
+    """The macros of the contents: the number of characters or digits, or the limits of the raw number."""
+    if point.text is not None:
+        yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
+    elif point.digits is not None:
+        yield f"{macro}_DIGITS", unsigned(point.digits.count)
+    elif point.writable and not point.info.floating:
+        yield f"{macro}_RAW_MIN", fields.low_signed
+        yield f"{macro}_RAW_MAX", fields.high_signed
+    if point.form == "scaled" and point.decimals is not None:
+        yield f"{macro}_DECIMALS", f"{point.decimals}"
+    if point.display is not None:
+        yield f"{macro}_DISPLAY_DECIMALS", f"{point.display}"
+
+
+def _bits(point: Point, macro: str) -> Iterator[Define]:
+    """The macros of a bit group's place in its word, and of the constant bits of the word."""
+    if point.fixed is not None:
+        digits = 4 * point.words
+        yield f"{macro}_FIXED_MASK", hexadecimal(point.fixed.mask, digits)
+        yield f"{macro}_FIXED_BITS", hexadecimal(point.fixed.bits, digits)
+    if point.bits is not None:
+        yield f"{macro}_SHIFT", f"{point.bits[1]}U"
+        yield f"{macro}_MASK", hexadecimal(group_mask(point))
+
+
+def _active_low(flag: Flag) -> bool:
+    """Whether the bit is 0 while its name is true."""
+    return flag.width == 1 and flag.active == 0
+
+
+def flag_defines(flag: Flag, point: Point, macro: str) -> list[Define]:
+    """The macros of a flag, and of its named numbers unless they are named after the point."""
+    name, ones = f"{macro}_{upper(flag.name)}", (1 << flag.width) - 1
+    remark = " /* true while 0 */" if _active_low(flag) else ""  # setting the bit of OFF2 ends OFF2
+    defines = [(f"{name}_MASK", hexadecimal(ones << flag.low, point.info.bits // 4) + remark)]
+    if flag.width > 1:
+        defines.append((f"{name}_SHIFT", f"{flag.low}U"))
+        values = () if shares_values(point) else flag.values
+        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in values]
+    return defines

@@ -1,0 +1,201 @@
+"""The facts of a point for the runtime's macro: reading and writing it, its limits, its special codes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Limit
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.forms import count_type, interval, limit_lines
+from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled
+from fieldscribe.targets.rust.literals import (
+    FLOAT_GREATEST,
+    float_literal,
+    integer,
+    mask,
+    nearest_float,
+    raw_literal,
+    type_name,
+)
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bound, Point, Special
+    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
+
+_WRITES = {"coil": (5, 15), "holding": (6, 16)}
+_BLOCK_WIDTH = 112
+_WIDTH = 100
+
+
+def read_lines(subject: CratePoint) -> tuple[str, ...]:
+    """The facts of reading."""
+    count, factors = count_type(subject), subject.factors_type
+    facts = [f"count {count};"] if count else []
+    facts += [f"with {factors};"] if factors != "()" else []
+    return _block("read", [(fact,) for fact in facts])
+
+
+def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
+    """The facts of writing."""
+    count = count_type(subject)
+    facts = [f"count {count};"] if count else []
+    facts += [f"with {subject.with_type};"] if subject.arguments else []
+    facts += ["closed true;"] if subject.shape.closed else []
+    tail = () if subject.point.encodes_values else ("values none;",)
+    allowed = _allowed(subject, scope)
+    others = (*_write_place(subject.point, scope), *tail)
+    return _block("write", [*((fact,) for fact in facts), *allowed, *((fact,) for fact in others)])
+
+
+def _block(name: str, facts: list[Lines]) -> Lines:
+    """Facts in one line if they fit, else each in lines of its own."""
+    lines = [line for fact in facts for line in fact]
+    whole = f"{name} {{ {' '.join(lines)} }}" if facts else f"{name} {{}}"
+    if len(whole) <= _BLOCK_WIDTH and len(lines) == len(facts):
+        return (whole,)
+    return (f"{name} {{", *(f"    {line}" for line in lines), "}")
+
+
+def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
+    """The facts about allowed numbers, unless the outer limits say it all."""
+    point = subject.point
+    if point.limit_arguments:
+        yield tuple(_limits(point, scope))
+    elif subject.form == "float":
+        yield from ((ranges,) for ranges in _float_ranges(point))
+    elif subject.form == "text" and point.text is not None and point.text.encoding == "ascii":
+        yield ("check runtime::form::text::ascii::<Self>;",)
+    elif subject.form == "digits" and point.digits is not None:
+        yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
+    elif subject.form != "text" and len(ranges := point.allowed.fixed) > 1:
+        yield filled("in [", " | ", [interval(*limits) for limits in ranges], "];")
+
+
+def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
+    """The fact with a pair of ends for each range; some ends depend on other points."""
+    yield "limits |with| ["
+    for allowed in point.allowed.intervals:
+        low, high = _end(allowed.low, scope, lower=True), _end(allowed.high, scope, lower=False)
+        line = f"    ({low[0]}, {high[0]}),"
+        if len(low) + len(high) == 2 and len(line) <= _BLOCK_WIDTH:
+            yield line
+        else:
+            yield "    ("
+            for end in (low, high):
+                yield from (f"        {line}" for line in (*end[:-1], f"{end[-1]},"))
+            yield "    ),"
+    yield "];"
+
+
+def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
+    return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
+
+
+def _float_ranges(point: Point) -> Iterator[str]:
+    """The limits as numbers of the type; empty if they are the type's own limits."""
+    greatest = FLOAT_GREATEST[point.width]
+    ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
+    if ends and ends != [[-greatest, greatest]]:
+        pairs = ", ".join(f"({float_literal(low)}, {float_literal(high)})" for low, high in ends)
+        yield f"ranges [{pairs}];"
+
+
+def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
+    """The function and the address for writing, unless they are the usual ones."""
+    single, many = _WRITES.get(point.space, (0, 0))
+    usual = single if point.words == 1 else many
+    if usual not in scope.functions and many in scope.functions:
+        yield f"function {many};"
+
+
+@dataclass(frozen=True, slots=True)
+class ConstantView:
+    """A constant of special codes that points share."""
+
+    doc: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SharedView:
+    """Codes that several points share: a type with a constant for each code and a table of all."""
+
+    name: str
+    of: str
+    constants: tuple[ConstantView, ...]
+    table: tuple[str, ...]
+
+
+def shared_views(scope: CrateScope) -> Iterator[SharedView]:
+    """The shared codes, in the order of their first point."""
+    first: dict[str, CratePoint] = {}
+    for subject in scope.subjects:
+        if subject.point.shared_codes:
+            first.setdefault(subject.point.shared_codes, subject)
+    for of, subject in first.items():
+        item = Item("pub const CODES", f"&'static [runtime::Code<{subject.raw}>]")
+        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, item))
+
+
+def code_lines(subject: CratePoint) -> Iterator[str]:
+    """The fact about the codes of a point, its own or shared ones."""
+    shared = subject.point.shared_codes
+    if shared:
+        yield f"codes (special::{type_name(shared)}::CODES);"
+    elif subject.point.specials:
+        yield "codes {"
+        for special in subject.point.specials:
+            name, band = special.name.upper(), special.low != special.high
+            ends = "..=".join(
+                _literal(end, special, subject.raw) for end in ((special.low, special.high) if band else (special.low,))
+            )
+            last = f" {name}_LAST" if band else ""
+            yield f"    /// {sentence(f'{special.name}, the first of a band' if band else special.name)}"
+            yield f"    {name}{last} = {_kind(special)}({rust_string(special.name)}, {ends});"
+        yield "};"
+
+
+def _kind(special: Special) -> str:
+    """The runtime's constructor for the kind of code."""
+    words = (word for word, holds in (("writable", special.writable), ("no_value", special.no_value)) if holds)
+    return "_".join(words) or "new"
+
+
+def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
+    """A constant for each code; of a band, its first code and the last raw number."""
+    for special in subject.point.specials:
+        item = Item(f"pub const {special.name.upper()}", f"runtime::Special<{subject.raw}>")
+        call = f"{_kind(special)}({rust_string(special.name)}, {_literal(special.low, special, subject.raw)})"
+        lines = _constant(item, f"runtime::Special::{call}")
+        if special.low != special.high:
+            last_item = Item(f"pub const {special.name.upper()}_LAST", subject.raw)
+            last = binding(4, last_item, _literal(special.high, special, subject.raw))
+            yield ConstantView(sentence(f"{special.name}, the first of a band"), lines)
+            yield ConstantView(sentence(f"the last raw number of {special.name}"), last)
+        else:
+            yield ConstantView(sentence(special.name), lines)
+
+
+def _table(subject: CratePoint, item: Item) -> Lines:
+    items: list[tuple[str, Lines]] = []
+    for special in subject.point.specials:
+        name = f"Self::{special.name.upper()}"
+        band = ("runtime::Code::band", (name, f"{name}_LAST"))
+        items.append(("runtime::Code::one", (name,)) if special.low == special.high else band)
+    return calls(4, item, items)
+
+
+def _constant(item: Item, call: str) -> Lines:
+    """The lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
+    lines = binding(4, item, call)
+    if all(4 + len(line) <= _WIDTH for line in (*lines, f"{item} =")):
+        return lines
+    return "#[rustfmt::skip] // its name is longer than a line", f"{item} = {call};"
+
+
+def _literal(raw: int, special: Special, rust_type: str) -> str:
+    return mask(raw, rust_type) if special.hexadecimal and raw >= 0 else raw_literal(raw, rust_type)
