@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 Severity = Literal["error", "warning"]
 
@@ -81,16 +81,21 @@ class Diagnostic(NamedTuple):
 
 
 MOST_FINDINGS = 1000
-"""Findings that one report keeps: nobody reads more, and hostile input must not cost more."""
+"""The errors, and the warnings, that one report keeps; of the others it keeps the number."""
 
 
 class Report:
-    """All findings of a run. Stages add to it, drop what is broken and go on."""
+    """All findings of a device or of a run. Stages add to it, drop what is broken and go on."""
 
-    __slots__ = ("_findings",)
+    __slots__ = ("_added", "_findings", "_left_out", "_stopped")
 
     def __init__(self) -> None:
         self._findings: dict[Diagnostic, None] = {}
+        self._added: dict[Severity, int] = {"error": 0, "warning": 0}
+        self._left_out: dict[tuple[Severity, int], Span] = {}
+        """The places of findings beyond the limit, by level and hash."""
+        self._stopped: Span | None = None
+        """The last error within the limit, if there were so many: then checks may have stopped there."""
 
     def error(
         self, rule: str, message: str, span: Span, hint: str | None = None, related: Iterable[tuple[Span, str]] = ()
@@ -103,50 +108,83 @@ class Report:
         self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), (), "warning"))
 
     def extend(self, other: Report) -> None:
-        """Add everything that another report found."""
+        """Add everything that another report holds; the limit is for each report, not for their sum."""
         self._findings.update(other._findings)
+        self._left_out.update(other._left_out)
+        self._stopped = self._stopped or other._stopped
 
     def also(self, span: Span, text: str) -> Report:
-        """The same findings, each with a further place that matters, unless that is its own place."""
-        result = Report()
-        for finding in self._findings:
+        """Return the same findings, each with a further place, unless that is its own place."""
+
+        def with_place(finding: Diagnostic) -> Diagnostic:
             elsewhere = (finding.span.file, finding.span.at) != (span.file, span.at)
-            result._add(finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding)
-        return result
+            return finding._replace(related=(*finding.related, (span, text))) if elsewhere else finding
+
+        return self._mapped(with_place)
 
     def in_files(self, name_of: Callable[[str], str]) -> Report:
-        """The same findings with other names of their files."""
-        result = Report()
-        for finding in self._findings:
+        """Return the same findings with other names of their files."""
+
+        def renamed(finding: Diagnostic) -> Diagnostic:
             related = tuple((span.in_file(name_of(span.file)), text) for span, text in finding.related)
-            result._add(finding._replace(span=finding.span.in_file(name_of(finding.span.file)), related=related))
-        return result
+            return finding._replace(span=finding.span.in_file(name_of(finding.span.file)), related=related)
+
+        return self._mapped(renamed)
 
     @property
     def findings(self) -> tuple[Diagnostic, ...]:
-        """All findings by file and place, errors before warnings of the same place."""
-        return tuple(
-            sorted(self._findings, key=lambda finding: (finding.span, finding.severity, finding.rule, finding.message))
-        )
+        """All findings by file and place, errors before warnings of the same place; last how many are left out."""
+        ordered = sorted(self._findings, key=lambda each: (each.span, each.severity, each.rule, each.message))
+        return (*ordered, *self._more())
 
     @property
     def count(self) -> int:
-        """How many findings there are."""
-        return len(self._findings)
+        """How many findings there are, with those that are left out."""
+        return len(self._findings) + len(self._left_out)
+
+    def count_of(self, severity: Severity) -> int:
+        """Return how many errors or warnings there are, with those that are left out."""
+        kept = sum(finding.severity == severity for finding in self._findings)
+        return kept + sum(level == severity for level, _ in self._left_out)
 
     @property
     def has_errors(self) -> bool:
-        """Whether one of the findings is an error, so that nothing may be compiled."""
+        """True if one of the findings is an error, so that nothing may be compiled."""
         return any(finding.severity == "error" for finding in self._findings)
 
     @property
     def full(self) -> bool:
-        """Whether there are so many findings that no more are kept, so that checks may stop."""
-        return len(self._findings) >= MOST_FINDINGS
+        """True if there are so many errors that checks may stop."""
+        return self._added["error"] >= MOST_FINDINGS
 
     def _add(self, finding: Diagnostic) -> None:
-        if not self.full:
-            self._findings.setdefault(finding)
+        if finding in self._findings:
+            return
+        if self._added[finding.severity] < MOST_FINDINGS:
+            self._added[finding.severity] += 1
+            self._findings[finding] = None
+            if self.full:
+                self._stopped = self._stopped or finding.span
+        else:
+            self._left_out.setdefault((finding.severity, hash(finding)), finding.span)
+
+    def _mapped(self, change: Callable[[Diagnostic], Diagnostic]) -> Report:
+        result = Report()
+        result._findings = dict.fromkeys(map(change, self._findings))
+        result._left_out, result._stopped = dict(self._left_out), self._stopped
+        return result
+
+    def _more(self) -> Iterator[Diagnostic]:
+        """Yield a finding for each level of which some are left out."""
+        levels: tuple[Severity, ...] = ("error", "warning")
+        for level in levels:
+            spans = [span for (severity, _), span in self._left_out.items() if severity == level]
+            if spans:
+                message = f"{len(spans)} more {level}{'s are' if len(spans) > 1 else ' is'} not shown"
+                yield Diagnostic("more-findings", message, spans[0], "correct those above first", (), level)
+            elif level == "error" and self._stopped is not None:
+                message = f"checking stopped at {MOST_FINDINGS} errors: there may be more"
+                yield Diagnostic("more-findings", message, self._stopped, "correct those above first")
 
 
 def _clean(text: str) -> str:

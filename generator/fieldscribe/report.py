@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Diagnostic, Span
+    from fieldscribe.diagnostics import Diagnostic, Report, Span
 
 Line = list[tuple[str, str]]
 """One line as (style, text); styles are error, warning, strong, place, frame, hint, and empty."""
@@ -57,13 +57,12 @@ def as_data(findings: Iterable[Diagnostic]) -> list[dict[str, object]]:
     ]
 
 
-def summary(findings: Sequence[Diagnostic]) -> str:
-    """One line: `3 errors in 2 files; 1 warning`; empty when there are none."""
-    errors = [finding for finding in findings if finding.severity == "error"]
-    rest = len(findings) - len(errors)
-    files = {finding.span.file for finding in errors}
-    parts = [f"{_count(len(errors), 'error')} in {_count(len(files), 'file')}"] if errors else []
-    return "; ".join(parts + ([_count(rest, "warning")] if rest else []))
+def summary(report: Report) -> str:
+    """Return one line such as `3 errors in 2 files; 1 warning`; empty when there are none."""
+    errors, warnings = report.count_of("error"), report.count_of("warning")
+    files = {finding.span.file for finding in report.findings if finding.severity == "error"}
+    parts = [f"{_count(errors, 'error')} in {_count(len(files), 'file')}"] if errors else []
+    return "; ".join(parts + ([_count(warnings, "warning")] if warnings else []))
 
 
 def split_lines(text: str) -> list[str]:

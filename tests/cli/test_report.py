@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe import pipeline
+from fieldscribe.cli import main
 from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
+from fieldscribe.pipeline import TargetError
 from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
+from support.described import described, write
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from fieldscribe.model import Device
 
 FILES = {
     "a.yaml": ["fieldscribe: 1", "points:", "- {name: x, at: 1028h}", "- {name: y, at: 1028h}"],
@@ -112,12 +119,16 @@ def test_visible_keeps_what_is_seen() -> None:
 
 
 def test_summary() -> None:
-    wrong = [Diagnostic("x", "m", Span(name, 1, 1)) for name in ("a", "b", "b")]
-    odd = Diagnostic("x", "m", Span("a", 1, 1), severity="warning")
-    assert summary([*wrong, odd]) == "3 errors in 2 files; 1 warning"
-    assert summary(wrong[:1]) == "1 error in 1 file"
-    assert summary([odd, odd]) == "2 warnings"
-    assert summary([]) == ""
+    report = Report()
+    assert summary(report) == ""
+    report.warning("x", "m", Span("a", 1, 1))
+    report.warning("x", "n", Span("a", 1, 1))
+    assert summary(report) == "2 warnings"
+    report.error("x", "m", Span("a", 1, 1))
+    assert summary(report) == "1 error in 1 file; 2 warnings"
+    report.error("x", "m", Span("b", 1, 1))
+    report.error("x", "n", Span("b", 1, 1))
+    assert summary(report) == "3 errors in 2 files; 2 warnings"
 
 
 def test_data() -> None:
@@ -154,12 +165,63 @@ def test_a_report_keeps_findings_in_order_and_each_once() -> None:
     assert [finding.hint for finding in warned.findings] == ["what now"]
 
 
-def test_a_report_takes_no_more_than_people_read() -> None:
+def test_errors_beyond_the_limit_are_counted_and_checks_may_stop() -> None:
     report = Report()
-    for number in range(MOST_FINDINGS + 2):
-        assert report.full == (number >= 1000)
+    for number in range(MOST_FINDINGS):
+        assert not report.full
         report.error("a", f"{number}", Span("a", 1, 1))
-    assert report.count == 1000
+    assert report.full
+    assert report.findings[-1].message == "checking stopped at 1000 errors: there may be more"
+    for number in (1, MOST_FINDINGS, MOST_FINDINGS, MOST_FINDINGS + 1):
+        report.error("a", f"{number}", Span("a", 2 if number >= MOST_FINDINGS else 1, 1))
+    assert (report.findings[-1].message, report.findings[-1].span.line) == ("2 more errors are not shown", 2)
+    assert summary(report) == "1002 errors in 1 file"
+
+
+def test_warnings_never_drop_an_error() -> None:
+    """Each level has its own limit, and each report: what is added to a run of many devices is never lost."""
+    device, run = Report(), Report()
+    for number in range(MOST_FINDINGS + 1):
+        device.warning("a", f"{number}", Span("a", 1, 1))
+    assert not device.full
+    run.extend(device)
+    run.error("b", "wrong", Span("b", 1, 1))
+    run.warning("b", "odd", Span("b", 1, 1))
+    assert run.has_errors
+    assert [finding.message for finding in run.findings[-3:]] == ["wrong", "odd", "1 more warning is not shown"]
+    assert (run.count, summary(run)) == (MOST_FINDINGS + 3, "1 error in 1 file; 1002 warnings")
+    renamed = run.in_files(lambda name: f"x/{name}")
+    assert (renamed.count, renamed.has_errors) == (run.count, True)
+
+
+@pytest.mark.parametrize("fails", ["description", "target"])
+@pytest.mark.parametrize("form", ["text", "json"])
+def test_a_failing_device_is_told_behind_a_thousand_warnings(
+    fails: str, form: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit code 0 means that every device asked for was written."""
+    rows = [f"- {{name: p{at}, at: {at}, scale: value = raw * 0.00610352}}\n" for at in range(MOST_FINDINGS + 100)]
+    write(tmp_path / "a_many", described("".join(rows), device="a_many"))
+    write(tmp_path / "b_fails", described("- {name: p, at: 0}\n", device="b_fails"))
+    if fails == "description":
+        with (tmp_path / "b_fails" / "device.yaml").open("a") as file:
+            file.write("- {name: q, at: 0, range: 5..1}\n")
+    else:
+        original = pipeline.outputs
+
+        def outputs(device: Device, *arguments: Any) -> Iterator[tuple[str, str, str]]:
+            if device.id == "b_fails":
+                raise TargetError("c") from ValueError("broken")
+            return original(device, *arguments)
+
+        monkeypatch.setattr(pipeline, "outputs", outputs)
+    out = tmp_path / "out"
+    code = main(["generate", str(tmp_path), "--target", "c", "--out", str(out), "--format", form])
+    said = "".join(capsys.readouterr())
+    assert code == 1
+    assert "range-reversed" in said if fails == "description" else "internal-error" in said
+    assert "100 more warnings are not shown" in said
+    assert not list(out.rglob("b_fails*"))
 
 
 def test_a_further_place_is_told_but_not_to_whom_it_happened() -> None:

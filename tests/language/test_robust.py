@@ -221,7 +221,7 @@ def test_many_errors_stay_quick(tmp_path: Path) -> None:
     """A hundred thousand unknown keys cost no more than the thousand that are told."""
     text = "\n".join(f"unknown_key_{number}: 1" for number in range(100_000))
     started = time.process_time()
-    assert 1 <= len(load_text(tmp_path, text).findings) <= 1000
+    assert len(load_text(tmp_path, text).findings) == 1001  # the last one says that there are more
     assert time.process_time() - started < 5
 
 

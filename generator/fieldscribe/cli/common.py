@@ -226,7 +226,7 @@ def report_findings(report: Report, form: str, stream: TextIO | None = None) -> 
     if findings:
         stream = stream or sys.stderr
         print_lines(as_lines(findings, _line_reader()), stream)
-        print_lines([[("strong", summary(findings))]], stream)
+        print_lines([[("strong", summary(report))]], stream)
 
 
 def print_json(data: object) -> None:

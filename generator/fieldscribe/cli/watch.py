@@ -107,7 +107,7 @@ def _said(outcome: Outcome, out: Path) -> str:
     )
     if outcome.report.has_errors:
         rest = f"; {written}" if result.wanted else "; the output stays as it was"
-        return "; ".join([*gone, f"{names}: {summary(outcome.report.findings)}{rest}"])
+        return "; ".join([*gone, f"{names}: {summary(outcome.report)}{rest}"])
     return "; ".join([*gone, f"{names}: {written}"])
 
 
