@@ -1,29 +1,27 @@
-"""The one Jinja environment. Templates place text; everything is decided before."""
+"""The one Jinja environment. Templates only place text: what they need is worked out before."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache
+from functools import cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from jinja2 import Environment
 
 Render = Callable[[str, Mapping[str, object]], str]
-"""Template name and context to text."""
+"""A function that fills the template of a name from a context."""
 
 
-@lru_cache(maxsize=1)
-def _environment(folder: Path) -> Environment:
-    """Templates are compiled once a run and never stored: all code that runs comes from the package."""
+@cache
+def _environment() -> Environment:
+    """Return the environment. Templates are compiled once a run and never stored: no code comes from a cache."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    environment = Environment(
-        loader=FileSystemLoader(folder),
+    return Environment(
+        loader=FileSystemLoader(templates_dir()),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -31,11 +29,8 @@ def _environment(folder: Path) -> Environment:
         auto_reload=False,
         autoescape=False,  # noqa: S701 - no HTML: views hold finished text, encoded by text.py
     )
-    # views are objects without items: to look for items behind attributes took a tenth of a large compile
-    vars(environment)["getattr"] = getattr
-    return environment
 
 
 def render(template: str, context: Mapping[str, object]) -> str:
-    """The template of that name (relative to the templates folder), filled from `context`."""
-    return _environment(templates_dir()).get_template(template).render(context)
+    """Return the template of that path below the templates' folder, filled from `context`."""
+    return _environment().get_template(template).render(context)
