@@ -70,7 +70,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (their scripts call `words`)"
     )
     parser.add_argument(
-        "typed", nargs="*", metavar="WORD", help="with `words`: the words typed so far, the last one in part"
+        "typed",
+        nargs="*",
+        default=[],
+        metavar="WORD",
+        help="with `words`: what is typed, the last word in part",
     )
 
 

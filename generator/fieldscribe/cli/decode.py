@@ -145,7 +145,7 @@ class _Output:
 
     def end(self) -> int:
         """Print what follows the last frame and return the exit code."""
-        self._printer.end()
+        self._printer.end("no frame" if self._unit is None else "no frame of that unit")
         if self._unread > _MOST_MESSAGES:
             usage_error(f"{self._unread - _MOST_MESSAGES} more lines are no frames")
         return USAGE if self._unread else FINDINGS if self._wrong else FINE

@@ -28,8 +28,8 @@ class FramePrinter(Protocol):
     def frame(self, result: FrameResult) -> None:
         """Print the next frame."""
 
-    def end(self) -> None:
-        """Print what follows the last frame."""
+    def end(self, nothing: str) -> None:
+        """Print what follows the last frame; `nothing` says in words that there was no frame."""
 
 
 def frame_printer(form: str, device: Device) -> FramePrinter:
@@ -60,9 +60,9 @@ class _TextPrinter:
             sys.stdout.write(f"{self._separator}{heading}{''.join(lines)}\n")
         self._separator = "\n"
 
-    def end(self) -> None:
+    def end(self, nothing: str) -> None:
         if not self._separator:
-            sys.stdout.write("no frame of that unit\n")
+            sys.stdout.write(f"{nothing}\n")
 
 
 def _rows(result: FrameResult) -> list[tuple[str, str]]:
@@ -86,7 +86,7 @@ class _JsonLinesPrinter:
     def frame(self, result: FrameResult) -> None:
         sys.stdout.write(f"{json.dumps({'device': self._device, **result.as_data()})}\n")
 
-    def end(self) -> None:
+    def end(self, nothing: str) -> None:
         """Print nothing: each line is whole."""
 
 
@@ -103,7 +103,8 @@ class _JsonPrinter:
         sys.stdout.write(f"{begin}\n    {frame}")
         self._separator = ","
 
-    def end(self) -> None:
+    def end(self, nothing: str) -> None:
+        del nothing  # the list of frames is empty then
         if self._separator:
             sys.stdout.write("\n  ]\n}\n")
         else:

@@ -57,6 +57,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Print all explanations of WHAT; return the exit code."""
     device, what = open_device(arguments), arguments.what
+    if not what.strip():
+        raise StopError("there is nothing to explain", "give a code, a name or an address")
     found = _points(device, find(device, what), as_documented=arguments.as_documented)
     found += explain_other_items(device, what)
     if not found:

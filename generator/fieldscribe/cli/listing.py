@@ -14,6 +14,7 @@ from fieldscribe.cli.common import (
     open_device,
     print_json,
     searched_devices,
+    usage_error,
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import points_by_name, present
@@ -154,4 +155,6 @@ def _print(form: str, head: Sequence[str], rows: Sequence[Sequence[str]], data: 
         for number, row in enumerate((head, *rows)):
             cells = "  ".join(f"{visible(cell):<{width}}" for cell, width in zip(row, widths, strict=True))
             print_lines([[("" if number else "strong", cells.rstrip())]])
+    else:
+        usage_error("nothing matches", "the list without options shows how its values are written")
     return FINE if rows else FINDINGS

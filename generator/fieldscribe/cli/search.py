@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
+from argparse import ArgumentTypeError, Namespace
 from typing import TYPE_CHECKING
 
-from fieldscribe.cli.common import add_descriptions, add_format, device_file, print_json, searched_devices, usage_error
+from fieldscribe.cli.common import (
+    StopError,
+    add_descriptions,
+    add_format,
+    device_file,
+    print_json,
+    searched_devices,
+    usage_error,
+)
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
@@ -47,16 +55,24 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add_descriptions(parser)
     parser.add_argument(
-        "--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
+        "--most", type=_count, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
     )
     add_format(parser)
 
 
+def _count(text: str) -> int:
+    if not text.isdecimal():
+        raise ArgumentTypeError(f"`{quoted(text.strip())}` is no count: give a number from 0 on")
+    return int(text)
+
+
 def run(arguments: Namespace) -> int:
     """Search and print the hits; return the exit code."""
-    entries = _entries(arguments)
     words = [word for text in arguments.words for word in text.split()]
-    hits = search(entries, words) if words else []
+    if not words:
+        raise StopError("there is no word to search", "give a word, a code or a section")
+    entries = _entries(arguments)
+    hits = search(entries, words)
     near = [] if hits else near_words(entries, words)
     if arguments.format == "json":
         print_json({"words": words, "hits": [_as_data(hit) for hit in hits], "near": near})

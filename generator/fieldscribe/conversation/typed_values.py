@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Flag, Point
 
-_MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")
+_MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*(?![eE][+-]?[0-9])([^\s0-9.,].{0,30})")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
 _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
 _MOST_NAMES = 30
