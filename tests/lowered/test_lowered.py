@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.lines import Line, count_line
 from fieldscribe.arithmetic.rounding import half_away
 from fieldscribe.lowered import lower, plan_of
 from fieldscribe.model import Limit, Special, Variant
-from fieldscribe.targets.rust.forms import limit_lines
+from fieldscribe.targets.rust.value_forms import limit_lines
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from support.models import allowed, linear, point, sample_device, scaled, titles, value_of

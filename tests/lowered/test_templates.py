@@ -19,7 +19,7 @@ from fieldscribe.targets import c, python, rust
 from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.python import attributes
 from fieldscribe.targets.python import enums as python_enums
-from fieldscribe.targets.rust import conformance, points
+from fieldscribe.targets.rust import conformance, point_macros
 from fieldscribe.targets.rust import enums as rust_enums
 from fieldscribe.text import c_comment, line
 from support.described import made, shipped
@@ -86,7 +86,7 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust)
-FILLED = (attributes, python_enums, conformance, points, rust_enums)
+FILLED = (attributes, python_enums, conformance, point_macros, rust_enums)
 """The modules of Python and Rust that fill templates; C has an argument for it."""
 
 DEVICES: dict[str, Callable[[], Device]] = {

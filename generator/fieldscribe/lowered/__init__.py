@@ -30,7 +30,7 @@ class Lowered:
         self._rules: dict[Linear, Rule] = {}
 
     def rule(self, linear: Linear) -> Rule:
-        """The lowered rule, shared by all points that have the same."""
+        """Return the lowered rule, shared by all points that have the same."""
         lowered = self._rules.get(linear)
         if lowered is None:
             lowered = self._rules[linear] = rule_of(linear, self.points)
@@ -48,7 +48,7 @@ _kept: list[Lowered] = []
 
 
 def lower(device: Device) -> Lowered:
-    """The lowered model of a device, made once for all targets that ask for the same one in a row."""
+    """Return the lowered model of a device, made once for all targets that ask for the same one in a row."""
     if not _kept or _kept[0].device is not device:
         _kept[:] = [Lowered(device)]
     return _kept[0]

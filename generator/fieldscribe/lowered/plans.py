@@ -38,7 +38,7 @@ class Plan(NamedTuple):
 
 
 def plan_of(point: Point, low: int, high: int) -> Plan:
-    """The plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
+    """Return the plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
     assert point.fixed_scale is not None
     return _plan(point.fixed_scale, point.decimals or 0, point.held, low, high)
 
@@ -99,13 +99,13 @@ def _unlimited(rule: Linear, decimals: int, raws: tuple[int, int]) -> _Unlimited
 
 
 def _usable(to_raw: Line, counts: tuple[int, int], limits: tuple[int, int]) -> tuple[int, int]:
-    """The counts that fit their type and whose numerators fit 64 bits; only special codes lie beyond."""
+    """Return the counts that fit their type and whose numerators fit 64 bits; only special codes lie beyond."""
     most = (INT64[1] - abs(to_raw.add)) // abs(to_raw.factor)
     return max(counts[0], limits[0], -most), min(counts[1], limits[1], most)
 
 
 def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
-    """The raw numbers whose counts are computed in 64 bits; None if those are all of the type.
+    """Return the raw numbers whose counts are computed in 64 bits; None if those are all of the type.
 
     A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: both sides of
     `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is computed, the smallest number of 64
@@ -119,7 +119,7 @@ def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
 
 
 def _counts(to_raw: Line, low: int, high: int) -> tuple[int, int]:
-    """The least and the greatest count whose rounded raw number lies in low..high.
+    """Return the least and the greatest count whose rounded raw number lies in low..high.
 
     A raw number is kept if the exact quotient lies less than a half outside its limit, or just a half on the side from
     which rounding goes towards the limit: a half rounds away from zero, so it belongs to a limit above zero from below,

@@ -67,7 +67,7 @@ class Rule:
 
 
 def rule_of(linear: Linear, points: Mapping[str, Point]) -> Rule:
-    """A rule with its operands."""
+    """Return a rule with its operands."""
     known = {id(factor): _operand(factor, points[factor.point]) for factor in linear.factors}
     return Rule(
         linear.ratio,

@@ -19,31 +19,31 @@ if TYPE_CHECKING:
         """What a target's module offers."""
 
         SEES_TITLES: bool
-        """Whether it also sees titles, notes and sources; the others see names only (code_view.py)."""
+        """True if it gets titles, notes and sources too; the other targets get names only (code_view.py)."""
 
         NEEDS_FAMILY: bool
-        """Whether it can say only devices whose family has a part for it."""
+        """True if it is for devices only whose family has a part for it."""
 
         NAMES_CONTAIN_POINT: bool
-        """Whether what it calls a thing of a point holds the point's name whole: checks need not list all of them."""
+        """True if every identifier contains the full name of its point, so that checks need not compare all of them."""
 
         def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
-            """The files of a device: path relative to the output folder, and text."""
+            """Return the files of a device: path relative to the output folder, and text."""
 
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
-            """Real source that goes beside them: path below the output folder, and path below the templates folder."""
+            """Return the source files beside them: path below the output folder, and path below the templates."""
 
         def vendored(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
-            """What a project needs to use the device, without tests: path below the project's folder, and text."""
+            """Return the files that a project needs to use the device: path below the project's folder, and text."""
 
         def vendored_runtime(self, device: Device) -> Iterable[tuple[str, str]]:
-            """Real source that goes beside it: path below the project's folder, and path below the templates."""
+            """Return the source files beside them: path below the project's folder, and path below the templates."""
 
         def identifiers(self, device: Device) -> Iterable[Names]:
-            """Every name that the device gets in generated code; none where names cannot meet."""
+            """Return every name of the device in generated code; none if names cannot clash."""
 
         def device_name_taken(self, name: str) -> str:
-            """Why no device may have that name, as a sentence goes on behind it; empty where it may."""
+            """Return why no device may have that name, as the rest of a sentence; empty if it may."""
 
 
 TARGETS = (
@@ -57,12 +57,12 @@ TARGETS = (
 
 
 def target(name: str) -> Target:
-    """The target of that name; its module is imported when first asked for."""
+    """Return the target of that name; its module is imported when first asked for."""
     module: Any = import_module(f"fieldscribe.targets.{name}")
     target_module: Target = module
     return target_module
 
 
 def knows(name: str, device: Device) -> bool:
-    """Whether a target can be generated for a device: whether its family has the part that the target needs."""
+    """Return True if the family of a device has the part that a target needs."""
     return not target(name).NEEDS_FAMILY or family(device.family).part(f"targets.{name}") is not None

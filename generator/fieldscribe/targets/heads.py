@@ -1,4 +1,4 @@
-"""What the head of every output says alike."""
+"""The command line in the head of every generated file."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 LEFT_OUT = "..."
-"""Stands for a word that is too long for a head, or that would not come out of it again."""
+"""Replaces a word that is too long for a head, or that a comment would change."""
 
 
 def command(device: Device, target: str, encode: Callable[[str], str] = line) -> str:
-    """The command line that makes the output anew, as a shell takes it and a comment of the language holds it."""
+    """Return the shell command that makes the output again, encoded for a comment of the language."""
     words = map(quote, device.asked or ("fieldscribe", "generate", device.id, "--target", target))
     return " ".join(word if encode(word) == word else LEFT_OUT for word in words)

@@ -45,7 +45,7 @@ class Clash(NamedTuple):
 
 
 def clashes(listed: Iterable[Names]) -> Iterator[Clash]:
-    """Each name that two things would both get in one namespace."""
+    """Yield each name that two things would both get in one namespace."""
     spaces: dict[str, dict[str, Owner]] = {}
     for namespace, owner, names in listed:
         owners = spaces.setdefault(namespace, {})

@@ -26,7 +26,7 @@ NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The generated files: path relative to the output folder, and text."""
+    """Yield the generated files: path relative to the output folder, and text."""
     from fieldscribe.targets.c.conformance import adapters_text, conformance_view
 
     made = _made(device)
@@ -40,18 +40,18 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
-    """The real source files beside the output: output path, and path under the templates."""
+    """Yield the real source files beside the output: output path, and path under the templates."""
     for name in (*_runtime(device), "fieldscribe_conformance.h", f"fieldscribe_conformance_{device.family}.h"):
         yield f"c/{name}", f"c/runtime/{name}"
 
 
 def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The headers of the points and of the frames, as they lie in a project: name and text."""
+    """Return the headers of the points and of the frames, as they lie in a project: name and text."""
     return _headers(_made(device), render)
 
 
 def vendored_runtime(device: Device) -> Iterator[tuple[str, str]]:
-    """What these headers include: name, and path under the templates."""
+    """Yield what these headers include: name, and path under the templates."""
     for name in _runtime(device):
         yield name, f"c/runtime/{name}"
 

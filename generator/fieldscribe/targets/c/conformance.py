@@ -13,7 +13,7 @@ from fieldscribe.targets.c.frames import frames_of
 from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.point_templates import TemplateTexts
-from fieldscribe.targets.c.points import named_numbers, names_of
+from fieldscribe.targets.c.point_views import named_numbers, names_of
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import encoded_limits, special_defines
 
@@ -65,7 +65,7 @@ _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor
 
 
 def conformance_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> SuiteView:
-    """The view of `<device>_conformance.c`."""
+    """Return the view of `<device>_conformance.c`."""
     named = frames_of(device).NAMED_CODES
     groups = ((group, f"{scope.prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks)
     dependent = (point for point, template, _ in points if template.view.takes_others)
@@ -97,7 +97,7 @@ def conformance_view(device: Device, points: Sequence[GeneratedPoint], scope: He
 def adapters_text(
     points: Iterable[GeneratedPoint], scope: HeaderScope, sections: Collection[Frames], render: Render
 ) -> str:
-    """The functions of points that answer vectors."""
+    """Return the functions of points that answer vectors."""
     adapters = TemplateTexts(lambda template: _adapter(template, scope, sections, render))
     return "".join(map(adapters.of, points))
 
@@ -116,14 +116,14 @@ def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
 
 
 def _codes(device: Device, scope: HeaderScope) -> Iterator[tuple[str, str, str]]:
-    """The kind, name and enumerator of each number of the protocol that has one."""
+    """Yield the kind, name and enumerator of each number of the protocol that has one."""
     for kind, codes in _code_kinds(device):
         for code in codes:
             yield kind, code.name, f"{scope.upper}_{upper(kind)}_{upper(code.name)}"
 
 
 def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
-    """The macros for the point as a whole."""
+    """Return the macros for the point as a whole."""
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro}, {_address_answers(point, view)})"] if point.address is not None else []
     if view.writable and view.shape != "text":
@@ -149,7 +149,7 @@ def _all_cases(point: Point, view: PointView, scope: HeaderScope) -> list[str]:
 
 
 def _address_answers(point: Point, view: PointView) -> str:
-    """The answers with the facts beside the address: space, limits, decimals, code, references."""
+    """Return the answers with the facts beside the address: space, limits, decimals, code, references."""
     calls = [
         f'SPACE("{point.space}")',
         f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
@@ -202,7 +202,7 @@ def _is_double(point: Point, scale: Scaled | None) -> bool:
 
 
 def _text_or_digits_cases(point: Point, view: PointView) -> list[str]:
-    """The macros for the conversions of a text, or of digits."""
+    """Return the macros for the conversions of a text, or of digits."""
     cases = []
     if point.text is not None:
         if view.readable:
@@ -220,7 +220,7 @@ def _text_or_digits_cases(point: Point, view: PointView) -> list[str]:
 
 
 def _place_cases(point: Point, view: PointView) -> list[str]:
-    """The macros for its places and the constant bits of its word."""
+    """Return the macros for its places and the constant bits of its word."""
     cases = []
     if point.write_place is not None:
         cases.append(f"WRITE_ADDRESS({view.macro})")
@@ -238,14 +238,14 @@ def _place_cases(point: Point, view: PointView) -> list[str]:
 
 
 def _index_and_telegram(point: Point, view: PointView) -> str:
-    """The answers with the index and the telegram, as far as the point has them."""
+    """Return the answers with the index and the telegram, as far as the point has them."""
     calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
     calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
     return " ".join(calls)
 
 
 def _flag_cases(point: Point, view: PointView) -> Iterator[str]:
-    """The macros for flags, and for the named numbers of flags of several bits."""
+    """Yield the macros for flags, and for the named numbers of flags of several bits."""
     for flag in point.flags:
         number = _flag_number(view, flag.name, flag.width)
         if flag.width == 1:
@@ -259,7 +259,7 @@ def _flag_cases(point: Point, view: PointView) -> Iterator[str]:
 
 
 def _truth_test(point: Point, view: PointView, name: str) -> str:
-    """A test whether a flag is true, made of the macros that users of the header have."""
+    """Return a test whether a flag is true, made of the macros that users of the header have."""
     low = any(flag.width == 1 and not flag.active for flag in point.flags)
     turned = f" ^ {view.macro}_ACTIVE_LOW_MASK" if low else ""
     raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
@@ -274,7 +274,7 @@ def _flag_number(view: PointView, name: str, width: int) -> str:
 
 
 def _special_code_cases(point: Point, view: PointView, scope: HeaderScope) -> Iterator[str]:
-    """The macros for special codes."""
+    """Yield the macros for special codes."""
     for special in point.specials:
         (first, _), (last, _) = special_defines(
             special, f"{scope.upper}_{upper(point.shared_codes) or view.fields.macro}", point
@@ -285,7 +285,7 @@ def _special_code_cases(point: Point, view: PointView, scope: HeaderScope) -> It
 
 
 def structs_of(point: Point, scope: HeaderScope) -> Iterator[StructView]:
-    """A function for each set of several raw numbers that some function of the point needs."""
+    """Yield a function for each set of several raw numbers that some function of the point needs."""
     counts = point.decimals is not None
     integer = [point.limit_arguments] if point.writable else []
     integer += [point.arguments] if point.writable and counts else []

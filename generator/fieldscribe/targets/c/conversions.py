@@ -32,14 +32,14 @@ INLINE = "static inline"
 
 
 def value_type(point: Point) -> str:
-    """The C type in which an integer value is passed: wider than the point, so that it can be out of range."""
+    """Return the C type in which an integer value is passed: wider than the point, so that it can be out of range."""
     if point.info.bits <= 16:
         return "int32_t"
     return "uint64_t" if point.type == "u64" else "int64_t"
 
 
 def is_rechecked(point: Point) -> bool:
-    """Whether a number between the outer limits may still be refused."""
+    """Return True if a number between the outer limits may still be refused."""
     return len(point.allowed.intervals) > 1 or point.allowed.moves or fixes(point) or bool(point.specials)
 
 
@@ -55,14 +55,14 @@ class Writer:
     # ---- for points of every form
 
     def check(self) -> Function:
-        """The function that tells whether a raw number may be written."""
+        """Return the function that tells whether a raw number may be written."""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.fields, self.scope))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
     def _checked(self, number: str) -> str:
-        """The status of writing a raw number that was computed from a value, which never means a special code."""
+        """Return the status of writing a raw number computed from a value; a value never means a special code."""
         status = called(f"{self.name}_check", number, *self.scope.passed(self.point.limit_arguments))
         if self.special is None or not self.special.written:
             return status
@@ -73,13 +73,13 @@ class Writer:
         return Function(function(STATUS, f"{self.name}_{tail}", parameters, *body), floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
-        """A statement that stores `number` if `inside` holds and it may be written; else it returns `outside`."""
+        """Return the statement that stores `number` if `inside` holds and it may be written, else returns `outside`."""
         status = self._checked(number) if is_rechecked(self.point) else "FIELDSCRIBE_OK"
         kept = f"fieldscribe_keep_{self.kind}({status}, {number}, raw)"
         return f"return {inside} ? {kept} : {outside};" if inside else f"return {kept};"
 
     def _whole(self, whole: str) -> tuple[str, ...]:
-        """Statements that store a whole number, with a check before where one is needed."""
+        """Return the statements that store a whole number, checked first where a check is needed."""
         if not is_rechecked(self.point):
             return (f"return fieldscribe_store_{self.kind}({whole}, raw);",)
         number = f"({self.type})whole.number"
@@ -88,7 +88,7 @@ class Writer:
         return f"const fieldscribe_whole whole = {whole};", store
 
     def _decode(self, tail: str, kind: str, number: str, *, floating: bool = False, fits: str = "") -> Function:
-        """A decode function; it returns a status if decoding can fail, else the number itself."""
+        """Return a decode function; it returns a status if decoding can fail, else the number itself."""
         raw = f"{self.type} raw"
         if self.special is None and not fits:
             body = f"return {number};"
@@ -103,7 +103,7 @@ class Writer:
     # ---- points whose raw number is the value
 
     def plain(self) -> Iterator[Function]:
-        """The functions of a point whose raw number is the value."""
+        """Yield the functions of a point whose raw number is the value."""
         point, kind = self.point, value_type(self.point)
         if point.writable:
             yield self.check()
@@ -133,7 +133,7 @@ class Writer:
     # ---- points with a constant scale
 
     def scaled(self) -> Iterator[Function]:
-        """The functions of a point whose scale is known at compile time."""
+        """Yield the functions of a point whose scale is known at compile time."""
         point, scale, fields = self.point, scaled(self.point, *encoded_limits(self.point)), self.fields
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
@@ -156,7 +156,7 @@ class Writer:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
 
     def _outer(self) -> str:
-        """The limits as two arguments: by their macros where a check follows, else as numbers."""
+        """Return the limits as two arguments: by their macros where a check follows, else as numbers."""
         reach = encoded_limits(self.point)
         if reach != self.point.outer:
             return ", ".join(map(bare, reach))
@@ -174,7 +174,7 @@ class Writer:
     # ---- points whose scale depends on other points
 
     def ruled(self) -> Iterator[Function]:
-        """The functions of a point whose scale depends on other points."""
+        """Yield the functions of a point whose scale depends on other points."""
         point = self.point
         if point.writable:
             yield self.check()
@@ -203,7 +203,7 @@ class Writer:
             yield self._by_rule("decode", "double *value", core, floating=True)
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
-        """The call that gives the rule, in a function with these arguments."""
+        """Return the call that gives the rule, in a function with these arguments."""
         assert self.rule is not None
         self.scope.takes(arguments)
         return called(self.rule.name, *self.scope.passed(self.point.scale_arguments))
@@ -227,7 +227,7 @@ class Writer:
     # ---- points that are bit patterns of floating-point numbers
 
     def floating(self) -> Iterator[Function]:
-        """The functions of a point whose raw number is the bit pattern of a floating-point number."""
+        """Yield the functions of a point whose raw number is the bit pattern of a floating-point number."""
         point, bits = self.point, self.point.info.bits
         real = "fieldscribe_real" if bits == 32 else "double"
         if point.writable:
@@ -243,7 +243,7 @@ class Writer:
 
 
 def _spans(point: Point) -> str:
-    """The status of writing a bit pattern: whether its number lies in one of the point's intervals."""
+    """Return the status of writing a bit pattern: whether its number lies in one of the point's intervals."""
     bits = point.info.bits
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]

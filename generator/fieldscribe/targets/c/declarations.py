@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class PointComment:
-    """The comment above points: what users of the code must know, in names and numbers, without titles and notes.
+    """The comment above points: what users of the code must know, without titles and notes.
 
     It gives the code, name, range, unit, step, access, space and default of a point, then rare facts, and the errata
     that changed one of these. All but code, name, range, references and default follow from the template key.
@@ -80,7 +80,7 @@ def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
 
 
 def range_words(point: Point) -> str:
-    """The range in the unit, or in raw numbers where values cannot be given."""
+    """Return the range in the unit, or in raw numbers where values cannot be given."""
     if point.text is not None:
         return f"{point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
@@ -91,7 +91,7 @@ def range_words(point: Point) -> str:
 
 
 def _steps(point: Point) -> Iterator[str]:
-    """The unit of one count, and the steps of the device where they are coarser."""
+    """Yield the unit of one count, and the steps of the device where they are coarser."""
     if point.form != "scaled":
         return
     count = "" if point.decimals is None else with_unit(exact(1, 10**point.decimals), point)
@@ -103,7 +103,7 @@ def _steps(point: Point) -> Iterator[str]:
 
 
 def defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
-    """The macros of a generated point and their literals."""
+    """Yield the macros of a generated point and their literals."""
     macro = f"{scope.upper}_{fields.macro}"
     yield from place_defines(point, fields, scope)
     if point.words > 1 or point.text is not None:
@@ -123,13 +123,13 @@ def defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[D
 
 
 def shares_values(point: Point) -> bool:
-    """Whether several flags have the same named numbers: their macros are then named after the point."""
+    """Return True if several flags have the same named numbers: their macros are then named after the point."""
     wide = [tuple((entry.name, entry.raw) for entry in flag.values) for flag in point.flags if flag.width > 1]
     return len(wide) > 1 and len(set(wide)) == 1
 
 
 def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
-    """The macros that say where a point is."""
+    """Yield the macros that say where a point is."""
     macro = f"{scope.upper}_{fields.macro}"
     if not point.addresses:
         return
@@ -143,7 +143,7 @@ def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iter
 
 
 def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Define]:
-    """The macros of the contents: the number of characters or digits, or the limits of the raw number."""
+    """Yield the macros of the contents: the number of characters or digits, or the limits of the raw number."""
     if point.text is not None:
         yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
     elif point.digits is not None:
@@ -158,7 +158,7 @@ def _raw_number(point: Point, fields: PointFields, macro: str) -> Iterator[Defin
 
 
 def _bits(point: Point, macro: str) -> Iterator[Define]:
-    """The macros of a bit group's place in its word, and of the constant bits of the word."""
+    """Yield the macros of a bit group's place in its word, and of the constant bits of the word."""
     if point.fixed is not None:
         digits = 4 * point.words
         yield f"{macro}_FIXED_MASK", hexadecimal(point.fixed.mask, digits)
@@ -169,12 +169,12 @@ def _bits(point: Point, macro: str) -> Iterator[Define]:
 
 
 def _active_low(flag: Flag) -> bool:
-    """Whether the bit is 0 while its name is true."""
+    """Return True if the bit is 0 while its name is true."""
     return flag.width == 1 and flag.active == 0
 
 
 def flag_defines(flag: Flag, point: Point, macro: str) -> list[Define]:
-    """The macros of a flag, and of its named numbers unless they are named after the point."""
+    """Return the macros of a flag, and of its named numbers unless they are named after the point."""
     name, ones = f"{macro}_{upper(flag.name)}", (1 << flag.width) - 1
     remark = " /* true while 0 */" if _active_low(flag) else ""  # setting the bit of OFF2 ends OFF2
     defines = [(f"{name}_MASK", hexadecimal(ones << flag.low, point.info.bits // 4) + remark)]

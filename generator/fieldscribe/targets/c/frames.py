@@ -1,4 +1,4 @@
-"""What the headers of all families share: constant descriptors of points, and layouts, which many points share."""
+"""What the headers of all families have: constant descriptors of points, and layouts that many points share."""
 
 from __future__ import annotations
 
@@ -42,20 +42,20 @@ class Descriptor:
 
     @property
     def parted(self) -> bool:
-        """Whether one line would be too long."""
+        """True if one line would be too long."""
         return len(f"static const {self.type} {self.name} = {self.value};") > _LINE
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """What reaches a point: its descriptors, and the macros of the conformance program for them."""
+    """The descriptors that read and write a point, and the macros of the conformance program for them."""
 
     descriptors: tuple[Descriptor, ...]
     cases: tuple[str, ...]
 
 
 class Frames:
-    """The frames of points, made for the first point of each kind, in their order."""
+    """The frames of points in their order, made for the first point of each template."""
 
     def __init__(self, points: Sequence[GeneratedPoint], make: Callable[[Point, PointView], Frame | None]) -> None:
         self._points = points
@@ -65,7 +65,7 @@ class Frames:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing reaches any of the points."""
+        """True if no request reads or writes any of the points."""
         return not any(frame.descriptors for frame in self._made.values())
 
     def cases(self, template: PointTemplate) -> tuple[str, ...]:
@@ -73,17 +73,17 @@ class Frames:
         return self._made[template].cases if template in self._made else ()
 
     def text(self, render: Render) -> str:
-        """The descriptors of all points."""
+        """Return the descriptors of all points."""
         texts = TemplateTexts(lambda template: folded("".join(self._constants(template, render))))
         return "".join(map(texts.of, self._points))
 
     def names(self) -> Iterator[Named]:
-        """The identifiers of the descriptors."""
+        """Yield the identifiers of the descriptors."""
         for point, template, _ in self._points:
             yield Owner("point", point.item), [descriptor.name for descriptor in self._made[template].descriptors]
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
-        """The descriptors of renamed points under their old names."""
+        """Yield the descriptors of renamed points under their old names."""
         for point, template, _ in self._points:
             for old, item in old_items(point) if point.was else ():
                 for descriptor in self._made[template].descriptors:
@@ -95,41 +95,41 @@ class Frames:
             yield render("c/constant.h.j2", {"one": descriptor})
 
 
-class OfFamily(Protocol):
+class CFamily(Protocol):
     """The part `targets.c` of a family. Its template and its runtime have the family's name."""
 
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
 
     def bus_view(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> Any:
-        """The view of the header of frames, `<family>.h.j2`."""
+        """Return the view of the header of frames, `<family>.h.j2`."""
 
     def sections(self, bus: Any) -> Mapping[str, Frames]:
-        """The frames of points in that header, by the names of their texts in the template."""
+        """Return the frames of points in that header, by the names of their texts in the template."""
 
     def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
-        """Every identifier in that header, with its owner."""
+        """Return every identifier in that header, with its owner."""
 
 
-def frames_of(device: Device) -> OfFamily:
-    """The part `targets.c` of the device's family."""
-    offered: OfFamily = family(device.family).part("targets.c")
+def frames_of(device: Device) -> CFamily:
+    """Return the part `targets.c` of the device's family."""
+    offered: CFamily = family(device.family).part("targets.c")
     return offered
 
 
 def kind_of(point: Point) -> str:
-    """The type of a point's raw number, as in the names of the runtime's functions: `u16`."""
+    """Return the type of a point's raw number, as in the names of the runtime's functions: `u16`."""
     return _KINDS[raw_type(point)]
 
 
 def lies(point: Point) -> str:
-    """Whether a point shares its word, and its constant bits: arguments with which conformance checks the layout."""
+    """Return the facts of a layout that conformance checks: whether the word is shared, and its constant bits."""
     fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
     return f"{'true' if shares(point) else 'false'}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
 
 
 def shares(point: Point) -> bool:
-    """Whether writing the point needs to read its word first, because it has only some of its bits."""
+    """Return True if the point has only some bits of its word, so that writing it needs to read the word first."""
     return point.bits is not None
 
 
@@ -141,7 +141,7 @@ class Layouts:
         self._known: dict[str, Descriptor] = {}
 
     def of(self, point: Point, high_first: Sequence[int]) -> str:
-        """A reference to the layout of a point; `high_first` has the places of its words, the high word's first."""
+        """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
         kind, mask, low = kind_of(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
         fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
@@ -161,20 +161,20 @@ class Layouts:
 
 
 def names_of(layouts: Iterable[Descriptor], sections: Iterable[Frames]) -> Iterator[Named]:
-    """The identifiers of layouts, and of the descriptors of points."""
+    """Yield the identifiers of layouts, and of the descriptors of points."""
     yield Owner("target", "the layouts of points in words"), [layout.name for layout in layouts]
     for frames in sections:
         yield from frames.names()
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
-    """The identifiers of old names, with their points."""
+    """Yield the identifiers of old names, with their points."""
     for alias in aliases:
         yield Owner("old name", alias.was, Owner("point", alias.item)), (alias.old,)
 
 
 def _mask(point: Point) -> int:
-    """The mask of the bits of one or several words that hold the raw number."""
+    """Return the mask of the bits of one or several words that hold the raw number."""
     if point.bits is not None:
         high, low = point.bits
         return ((1 << (high - low + 1)) - 1) << low
@@ -184,7 +184,7 @@ def _mask(point: Point) -> int:
 
 
 def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
-    """The part of a layout's name that tells it from others of its type."""
+    """Return the part of a layout's name that tells it from others of its type."""
     parts = [f"order_{order.lower()}"] if point.words > 1 else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
@@ -196,7 +196,7 @@ def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
 
 
 def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, str], ...]:
-    """The codes with which a device refuses: enumerator, number and comment."""
+    """Return the codes with which a device refuses: enumerator, number and comment."""
     return tuple(
         (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
         for code in device.bus.exceptions
@@ -204,6 +204,6 @@ def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, s
 
 
 def names_of_exceptions(device: Device, defines: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
-    """The enumerators of the codes with which a device refuses."""
+    """Yield the enumerators of the codes with which a device refuses."""
     for code, (name, _, _) in zip(device.bus.exceptions, defines, strict=True):
         yield Owner("exception", code.name), (name,)

@@ -1,4 +1,4 @@
-"""All identifiers in the headers of a device; C has only one namespace for them."""
+"""All identifiers in the headers of a device, which share one namespace in C."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import STATUSES, device_view, function_names, remark_defines
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_templates import fields_of, generated_points
-from fieldscribe.targets.c.points import named_numbers, names_of
+from fieldscribe.targets.c.point_views import named_numbers, names_of
 from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.identifiers import Names, Owner
@@ -37,12 +37,12 @@ _HEADERS = frozenset(
 
 
 def device_name_taken(name: str) -> str:
-    """Why no header may have that name; empty if it may."""
+    """Return why no header may have that name; empty if it may."""
     return f"would make a header `{name}.h`, which hides the one of the C library" if name in _HEADERS else ""
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """All that the headers of a device define."""
+    """Yield all that the headers of a device define."""
     for owner, names in _identifiers(device):
         yield Names("C", owner, names)
 
@@ -100,7 +100,7 @@ def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Na
 
 
 def _of_shared(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
-    """The identifiers of what is named by what it holds; their owners say that, too, so equal checksums are a clash."""
+    """Yield the identifiers that hold a checksum of a content; the owner is that content, so equal checksums clash."""
     if shown.struct:
         yield Owner("struct", ", ".join(sorted(point.arguments))), (shown.struct,)
     if shown.rule is not None:
@@ -110,7 +110,7 @@ def _of_shared(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[N
 
 
 def _of_parts(shown: PointView, point: Point, owner: Owner) -> Iterator[Named]:
-    """The identifiers for the point's flags, and for special codes of its own."""
+    """Yield the identifiers for the point's flags, and for special codes of its own."""
     for flag in point.flags:
         defines = [name for name, _ in flag_defines(flag, point, shown.macro)]
         yield (

@@ -28,7 +28,7 @@ _SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
 
 
 def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
-    """A function whose body is one or two statements."""
+    """Return a function whose body is one or two statements."""
     signature = f"{head}{'' if head.endswith('*') else ' '}{name}({', '.join(parameters) or 'void'})"
     body = f"{{ {' '.join(statements)} }}"
     if len(signature) > WIDTH:
@@ -44,12 +44,12 @@ def function(head: str, name: str, parameters: Sequence[str], *statements: str) 
 
 
 def called(name: str, *arguments: str) -> str:
-    """A call."""
+    """Return a call."""
     return f"{name}({', '.join(arguments)})"
 
 
 def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> list[str]:
-    """The parts in as few lines as possible; every line but the last ends with the separator."""
+    """Return the parts in as few lines as possible; every line but the last ends with the separator."""
     lines: list[str] = []
     for part in parts:
         if lines and len(lines[-1]) + len(between) + len(part) + len(end) <= WIDTH:
@@ -62,7 +62,7 @@ def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> li
 
 
 def wrapped(statement: str, indent: str) -> list[str]:
-    """A statement in lines that are not too long, broken at the least depth of brackets."""
+    """Return a statement in lines that are not too long, broken at the least depth of brackets."""
     if len(indent) + len(statement) <= WIDTH:
         return [indent + statement]
     places = list(_places(statement))
@@ -76,7 +76,7 @@ def wrapped(statement: str, indent: str) -> list[str]:
 
 
 def _places(statement: str) -> Iterator[tuple[int, int]]:
-    """The possible breaks with their depth in brackets: behind a comma or a bracket, or before an operator."""
+    """Yield the possible breaks with their depth in brackets: behind a comma or a bracket, or before an operator."""
     depth = 0
     for match in _SIGNS.finditer(statement):
         sign = match[0]
@@ -93,7 +93,7 @@ def _places(statement: str) -> Iterator[tuple[int, int]]:
 
 
 def folded(text: str) -> str:
-    """The same C in lines of at most 120 characters; a macro goes on behind a backslash."""
+    """Return the same C in lines of at most 120 characters; a macro goes on behind a backslash."""
     lines = text.split("\n")
     if max(map(len, lines)) <= WIDTH:
         return text
@@ -101,7 +101,7 @@ def folded(text: str) -> str:
 
 
 def framed(render: Render, template: str, context: Mapping[str, object], texts: Mapping[str, str]) -> str:
-    """The template, folded, around texts that are folded already."""
+    """Return the rendered template, folded, with `texts` that are folded already in their places."""
     places = dict(zip(texts, placeholders(["_" if text else "" for text in texts.values()]), strict=True))
     result = folded(render(template, {**context, **places}))
     for name, text in texts.items():
@@ -110,7 +110,7 @@ def framed(render: Render, template: str, context: Mapping[str, object], texts: 
 
 
 def _parts(line: str) -> list[str]:
-    """One line broken into several; those after the first are indented."""
+    """Return one line broken into several; those after the first are indented."""
     directive = line.startswith("#")
     most = WIDTH - 2 if directive else WIDTH
     inside = " " * (len(line) - len(line.lstrip())) + _DEEPER
@@ -122,7 +122,7 @@ def _parts(line: str) -> list[str]:
 
 
 def _break(line: str, most: int) -> int:
-    """The last space up to `most` that is in no string and not in the line's indentation; 0 if there is none."""
+    """Return the last space up to `most` that is in no string and not in the line's indentation; 0 if there is none."""
     start = len(line) - len(line.lstrip())
     spaces = [match.start() for match in _WHOLE.finditer(line, start) if match[0] == " "]
     return max((at for at in spaces if at <= most), default=0)

@@ -23,18 +23,18 @@ _TABLE = 3
 
 
 def known(point: Point, status: str) -> str:
-    """The status expression, changed so that a closed enum reports an unknown value for a refused number."""
+    """Return the status expression, changed so that a closed enum reports an unknown value for a refused number."""
     closed = point.enum is not None and point.enum.closed
     return f"fieldscribe_known({status})" if closed and status != "FIELDSCRIBE_OK" else status
 
 
 def refused(point: Point) -> str:
-    """The status of a number that may not be written."""
+    """Return the status of a number that may not be written."""
     return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
 
 
 def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
-    """The status of writing `raw`, an integer that is no special code."""
+    """Return the status of writing `raw`, an integer that is no special code."""
     status = known(point, _status(point, fields, scope))
     if point.fixed is None or point.bits is not None:
         return status
@@ -44,7 +44,7 @@ def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
 
 
 def _checked(point: Point, fields: PointFields, low: int, high: int) -> str:
-    """The status of `raw` between two limits."""
+    """Return the status of `raw` between two limits."""
     if point.type == "u64":
         return f"fieldscribe_check_u64(raw, {unsigned(low)}, {unsigned(high)})"
     wide = "_wide" if point.info.bits > 16 else ""
@@ -73,18 +73,18 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
 
 
 def has_ranges_table(point: Point) -> bool:
-    """Whether the point has so many ranges that a table has them."""
+    """Return True if the point has so many ranges that a table holds them."""
     many = len(point.allowed.intervals) >= _TABLE and not point.allowed.moves
     return many and point.writable and point.info.bits <= 16
 
 
 def ranges_table(point: Point, scope: HeaderScope) -> str:
-    """The table of a point's ranges, which points that have the same share; empty where none is needed."""
+    """Return the name of the table of a point's ranges, shared by points with equal ranges; empty if it needs none."""
     return scope.by_content("ranges", repr(point.allowed.fixed)) if has_ranges_table(point) else ""
 
 
 def _bounds_without_codes(point: Point) -> tuple[int, int]:
-    """The least and greatest raw number without special codes at the ends, which are tested first."""
+    """Return the least and greatest raw number without special codes at the ends, which are tested first."""
     low, high = point.held
     for code in sorted(point.specials, key=lambda code: code.low):
         low = code.high + 1 if code.low <= low <= code.high else low
@@ -94,7 +94,7 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
-    """A test whether the number lies in an interval; its limits may depend on other points."""
+    """Return a test that the number lies in an interval, whose limits may depend on other points."""
     ends = [_end(end, scope, is_low=end is interval.low) for end in (interval.low, interval.high)]
     return f"fieldscribe_between({_signed_raw(point)}, {', '.join(ends)})"
 
@@ -106,12 +106,12 @@ def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
 
 
 def _signed_raw(point: Point) -> str:
-    """The raw number in the signed type of limits; larger numbers become its greatest, which no limit exceeds."""
+    """Return the raw number in the signed type of limits, at most its greatest number, which no limit exceeds."""
     return "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
 
 def interval_test(name: str, low: int, high: int, bounds: tuple[int, int], literal: Callable[[int], str]) -> str:
-    """A test of one interval, without comparisons that are always true; empty if all of the type is inside."""
+    """Return a test of one interval, without comparisons that are always true; empty if all of the type is inside."""
     if low == high:
         return f"({name} == {literal(low)})"
     parts = [f"({name} >= {literal(low)})"] if low > bounds[0] else []
@@ -119,7 +119,7 @@ def interval_test(name: str, low: int, high: int, bounds: tuple[int, int], liter
 
 
 def any_of(tests: list[str]) -> str:
-    """The tests joined by `or`; empty when nothing is refused."""
+    """Return the tests joined by `or`; empty when nothing is refused."""
     if len(tests) < 2:
         return tests[0] if tests else ""
     if not all(tests):
@@ -128,12 +128,12 @@ def any_of(tests: list[str]) -> str:
 
 
 def bracketed(test: str) -> str:
-    """A test in brackets if it needs them in front of a question mark."""
+    """Return a test in brackets if it needs them in front of a question mark."""
     return test if test.startswith("(") and " && " not in test and " || " not in test else f"({test})"
 
 
 def rule_view(point: Point, scope: HeaderScope) -> RuleView:
-    """The function that gives the rule of a point. Of a single other point it knows the type alone: many share it."""
+    """Return the function that gives the rule of a point; points whose rule needs one point of a type share it."""
     names = point.scale_arguments
     parameters = scope.parameters(point, names)
     if len(names) == 1:
@@ -146,7 +146,7 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
 
 
 def _rule_of(point: Point, scope: HeaderScope) -> str:
-    """The expression for the rule of a point: its cases, by the raw numbers of other points."""
+    """Return the expression for the rule of a point: its cases, by the raw numbers of other points."""
     rules, depth = "", 0
     for case in point.scale or ():
         lowered = scope.lowered.rule(case.rule)
@@ -162,7 +162,7 @@ def _rule_of(point: Point, scope: HeaderScope) -> str:
 
 
 def limit(bound: Limit, scope: HeaderScope, *, is_low: bool) -> str:
-    """A limit that depends on other points; while one of them holds a code that lifts it, the outer limit."""
+    """Return a limit that depends on other points; the outer limit while one of them holds a code that lifts it."""
     start, rule = bound.outermost(low=is_low), scope.lowered.rule(bound.rule)
     text = _bare_limit(rule, scope)
     if not _fits(rule) or not _stays_inside(rule, start, is_low=is_low):
@@ -183,7 +183,7 @@ def _bare_limit(rule: Rule, scope: HeaderScope) -> str:
 
 
 def _stays_inside(rule: Rule, outermost: int, *, is_low: bool) -> bool:
-    """Whether a computed limit can never lie beyond the outermost limit, so that no test is needed.
+    """Return True if a computed limit can never lie beyond the outermost limit, so that no test is needed.
 
     If nothing is negative, the limit is at least 0, and at most what the largest arguments give. Rounded, that does not
     exceed the outermost limit if it lies less than a half above it. Divisors may be so small that no upper bound holds.
@@ -207,7 +207,7 @@ def _is_no_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
 
 
 def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
-    """The expression that builds a rule step by step. A scale refuses every zero factor, a limit only zero divisors."""
+    """Return the expression that builds a rule. A scale refuses every factor of zero, a limit only divisors of zero."""
     ratio, offset = rule.ratio, rule.offset
     numbers = (ratio.numerator, ratio.denominator, offset.numerator, offset.denominator)
     text = f"fieldscribe_rule_of({', '.join(map(bare, numbers))})"
@@ -217,7 +217,7 @@ def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
 
 
 def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
-    """The rule with another factor."""
+    """Return the rule with another factor."""
     number, raw = _number(operand, scope), scope.raw(operand.point)
     if operand.floating:
         return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
@@ -231,7 +231,7 @@ def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) ->
 
 
 def _codes(rule: Rule, scope: HeaderScope) -> str:
-    """A test whether some factor's point holds a special code; empty if none can."""
+    """Return a test that the point of some factor holds a special code; empty if none can."""
     tests = [_is_code(name, *band, scope) for name, band in rule.coded]
     return f"({' || '.join(f'({test})' if ' && ' in test else test for test in tests)})" if tests else ""
 
@@ -245,7 +245,7 @@ def _is_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
 
 
 def _fits(rule: Rule) -> bool:
-    """Whether a limit can be computed as a quotient of two integers that always fit 64 bits.
+    """Return True if a limit can be computed as a quotient of two integers that always fit 64 bits.
 
     The limit is (num * tops * part + lift * den * bottoms) / (den * bottoms * part), of the ratio num / den and the
     offset lift / part, where tops and bottoms are the products of the arguments that multiply and divide. The first sum
@@ -262,7 +262,7 @@ def _fits(rule: Rule) -> bool:
 
 
 def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
-    """The expressions for the numerator and the divisor of a limit."""
+    """Return the expressions for the numerator and the divisor of a limit."""
     part = rule.offset.denominator
     tops = [_number(operand, scope) for operand in rule.operands if not operand.over]
     bottoms = [_number(operand, scope) for operand in rule.operands if operand.over]
@@ -275,7 +275,7 @@ def _simple(rule: Rule, scope: HeaderScope) -> tuple[str, str]:
 
 
 def _product(constant: int, names: list[str]) -> str:
-    """A product, without a constant of 1."""
+    """Return a product, without a constant of 1."""
     parts = list(names)
     if constant != 1 or not parts:
         parts.append(bare(constant) if not parts else signed(constant))
@@ -283,7 +283,7 @@ def _product(constant: int, names: list[str]) -> str:
 
 
 def _number(operand: Operand, scope: HeaderScope) -> str:
-    """The expression raw * slope + intercept of a factor, in brackets unless it is just a name."""
+    """Return the expression raw * slope + intercept of a factor, in brackets unless it is just a name."""
     text = f"(int64_t){scope.raw(operand.point)}"
     if operand.slope != 1:
         text = f"({text} * {signed(operand.slope)})"

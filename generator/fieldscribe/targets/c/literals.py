@@ -34,22 +34,22 @@ _KINDS = {
 
 
 def raw_type(point: Point) -> str:
-    """The C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
+    """Return the C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
     return _RAW_TYPES[point.type]
 
 
 def raw_kind(point: Point) -> str:
-    """The type of a point's raw number, as in the names of the runtime's cores: `u16`."""
+    """Return the type of a point's raw number, as in the names of the runtime's cores: `u16`."""
     return _KINDS[_RAW_TYPES[point.type]]
 
 
 def cast(kind: str, number: str) -> str:
-    """A number as another type."""
+    """Return a number as another type."""
     return f"({kind}){number}" if number.isidentifier() else f"({kind})({number})"
 
 
 def sign_and_size(point: Point) -> tuple[str, str]:
-    """Two expressions: whether `raw` is negative, and its magnitude."""
+    """Return two expressions: whether `raw` is negative, and its magnitude."""
     if not point.info.signed:
         return "false", "raw"
     return "raw < 0", "fieldscribe_magnitude(raw)"
@@ -57,7 +57,7 @@ def sign_and_size(point: Point) -> tuple[str, str]:
 
 @lru_cache(maxsize=65536)
 def signed(number: int) -> str:
-    """A number as a signed constant where one can hold it, ready for any expression or `#define`."""
+    """Return a number as a signed constant where one can hold it, ready for any expression or `#define`."""
     if number > INT64[1]:
         return f"UINT64_C({number})"
     if number >= 0:
@@ -67,24 +67,24 @@ def signed(number: int) -> str:
 
 @lru_cache(maxsize=65536)
 def bare(number: int) -> str:
-    """A number as a signed constant without brackets, for comparisons and arguments."""
+    """Return a number as a signed constant without brackets, for comparisons and arguments."""
     return str(number) if INT64[0] < number <= INT64[1] else signed(number)
 
 
 @lru_cache(maxsize=65536)
 def unsigned(number: int) -> str:
-    """A number from 0 on as an unsigned constant."""
+    """Return a number from 0 on as an unsigned constant."""
     return f"{number}U" if number < 1 << 32 else f"UINT64_C({number})"
 
 
 @lru_cache(maxsize=65536)
 def hexadecimal(number: int, digits: int = 4) -> str:
-    """An address or mask as an unsigned constant: `0x1028U`."""
+    """Return an address or mask as an unsigned constant: `0x1028U`."""
     return f"0x{number:0{digits}X}U" if number < 1 << 32 else f"UINT64_C(0x{number:0{digits}X})"
 
 
 def float_order(value: float, bits: int) -> int:
-    """The rank of the nearest binary32 or binary64 among all numbers of its type; 0 and -0 have rank 0."""
+    """Return the rank of the nearest binary32 or binary64 among all numbers of its type; 0 and -0 have rank 0."""
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     try:
         size = min(pattern_of(abs(value), bits), infinity - 1)
@@ -94,5 +94,5 @@ def float_order(value: float, bits: int) -> int:
 
 
 def real(number: Fraction) -> str:
-    """The nearest binary64 number as a constant that converts back to the same bits."""
+    """Return the nearest binary64 number as a constant that converts back to the same bits."""
     return repr(number.numerator / number.denominator)

@@ -14,7 +14,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, signed
-from fieldscribe.targets.c.points import Brings, named_numbers, point_view
+from fieldscribe.targets.c.point_views import Brings, named_numbers, point_view
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields

@@ -74,7 +74,7 @@ class Scaled:
 
 
 def scaled(point: Point, low: int, high: int) -> Scaled:
-    """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
+    """Return the expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
     return Scaled(point, plan_of(point, low, high))
 
 
@@ -94,7 +94,7 @@ def _steps(rule: Linear, *, wide: bool) -> str:
 
 
 def _constant(number: int) -> str:
-    """An integer as a constant; beyond 2^53 as the nearest double."""
+    """Return an integer as a constant; beyond 2^53 as the nearest double."""
     return bare(number) if abs(number) <= _EXACT else f"{number}.0"
 
 
@@ -108,7 +108,7 @@ def _value_of_raw(plan: Plan, point: Point, *, wide: bool) -> str:
 
 
 def _long_quotient(plan: Plan, point: Point) -> str:
-    """(raw * factor + add) / divisor rounded to the nearest double, for numerators that exceed 53 bits."""
+    """Return (raw * factor + add) / divisor rounded to the nearest double, for numerators that exceed 53 bits."""
     factor, add, divisor = plan.to_value
     below, size = sign_and_size(point)
     above = "raw >= 0" if point.info.signed else "true"
@@ -117,7 +117,7 @@ def _long_quotient(plan: Plan, point: Point) -> str:
 
 
 def linear(name: str, factor: int, add: int, cast: str) -> str:
-    """`name * factor + add`, without a factor of 1 and an addend of 0."""
+    """Return `name * factor + add`, without a factor of 1 and an addend of 0."""
     start = f"({cast}){name}" if cast else name
     if factor == -1:
         start = f"-{start}"
@@ -130,7 +130,7 @@ def linear(name: str, factor: int, add: int, cast: str) -> str:
 
 
 def raw_of_count(plan: Plan) -> str:
-    """The raw number of a count that lies in the limits."""
+    """Return the raw number of a count that lies in the limits."""
     factor, add, divisor = plan.to_raw
     wider = "int64_t" if plan.encode_wide and not plan.count_wide else ""
     line = linear("count", factor, add, wider)
@@ -148,13 +148,13 @@ def raw_of_count(plan: Plan) -> str:
 
 
 def _numerators(ends: tuple[int, int], line: Line) -> Numbers:
-    """The numerators of the line's division, for the arguments between two ends."""
+    """Return the numerators of the line's division, for the arguments between two ends."""
     low, high = sorted(end * line.factor + line.add for end in ends)
     return Numbers(low, high, 1, line.divisor)
 
 
 def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
-    """An expression for number * num / den, rounded, without a division; empty if none is proven exact."""
+    """Return an expression for number * num / den, rounded, without a division; empty if none is proven exact."""
     most = (INT64 if wide else INT32)[1]
     if numbers.size > most:
         return ""
@@ -172,7 +172,7 @@ def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
 
 
 def count_fits(plan: Plan) -> str:
-    """A test whether the count of a raw number fits 64 bits; empty if all do. Numbers in the range always do."""
+    """Return a test whether the count of a raw number fits 64 bits; empty if all do. Numbers in the range always do."""
     if plan.beyond is None:
         return ""
     low, high = plan.beyond
@@ -182,7 +182,7 @@ def count_fits(plan: Plan) -> str:
 
 
 def count_of_raw(plan: Plan) -> tuple[str, bool]:
-    """The expression for the count of a raw number, and whether its type has 64 bits."""
+    """Return the expression for the count of a raw number, and whether its type has 64 bits."""
     wide = plan.decode_wide
     if plan.to_raw.does_nothing:
         return "raw", wide
@@ -221,9 +221,9 @@ class Numbers(NamedTuple):
 
 
 def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
-    """The reciprocal with the fewest bits that is exact for all numbers; None if intermediates would exceed `most`.
+    """Return the exact reciprocal with the fewest bits; None if intermediate results would exceed `most`.
 
-    What fails for some numbers fails for more: the first reciprocal for fewer numbers is the first here if it serves.
+    A reciprocal that fails for some numbers fails for more: the first one found for fewer numbers is tried first.
     """
     met = _met(numbers.num, numbers.den, most)
     for factors, fewer in met.items():
@@ -236,12 +236,12 @@ def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
 
 @lru_cache(maxsize=4096)
 def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, Numbers]:
-    """The reciprocals of a ratio that were found, with the numbers for which they were."""
+    """Return the reciprocals of a ratio that were found, with the numbers for which they were."""
     return {}
 
 
 def _serves(factors: Reciprocal, numbers: Numbers, most: int) -> bool:
-    """Whether a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
+    """Return True if a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
     whole = numbers.size * (factors.much + 1) + (1 << factors.bits) <= most
     return whole and numbers.size * factors.little <= most and _is_exact(factors, numbers)
 
@@ -258,7 +258,7 @@ def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
 
 
 def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
-    """The exact reciprocal with that many bits and the fewest `fine` bits, if there is one."""
+    """Return the exact reciprocal with that many bits and the fewest `fine` bits, if there is one."""
     much, rest = divmod(numbers.num << bits, numbers.den)
     for fine in range(most.bit_length()):
         little = -(-(rest << fine) // numbers.den)
@@ -271,7 +271,7 @@ def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
 
 
 def _is_exact(reciprocal: Reciprocal, numbers: Numbers) -> bool:
-    """Whether every number gives the same integer as its exact quotient rounded.
+    """Return True if every number gives the same integer as its exact quotient rounded.
 
     The factor is too large by `error` / (den * 2^shift). The distance of a quotient from the next half is a multiple of
     1 / (2 * den), or of 1 / den if den is even. So a positive number is right if its error is less than that distance,

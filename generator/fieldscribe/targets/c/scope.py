@@ -1,4 +1,4 @@
-"""What the parts of a device's view share while it is built: prefixes, points by name, what was emitted already."""
+"""The state of a header while it is built: prefixes, points by name, and what is emitted already."""
 
 from __future__ import annotations
 
@@ -46,15 +46,15 @@ class HeaderScope:
         return self.lowered.points
 
     def by_content(self, sort: str, content: str) -> str:
-        """The name of something that points share: it follows from what it holds, so one more point renames nothing."""
+        """Return a name with a checksum of the content, so that adding a point renames nothing that points share."""
         return f"{self.prefix}_{sort}_{crc32(content.encode()):08x}"
 
     def is_first(self, point: str, name: str) -> bool:
-        """Whether that point is the first that needs something shared, and so brings it."""
+        """Return True if that point is the first that needs something shared: its text then holds it."""
         return self.shared.setdefault(name, point) == point
 
     def struct(self, names: Iterable[str]) -> str:
-        """The struct for the raw numbers of several points: their names, whoever needs them and in whatever order."""
+        """Return the struct for the raw numbers of several points, named after them in alphabetical order."""
         fields = sorted(names)
         name = f"{self.prefix}_with_{_AND.join(fields)}"
         is_clear = not any(_AND in f"_{field}_" for field in fields)  # `a_and_b` and `c`, or `a` and `b_and_c`
@@ -65,23 +65,23 @@ class HeaderScope:
         self.spelling = "with->{}_raw" if len(names) > 1 else "{}_raw"
 
     def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
-        """The parameter for the raw numbers of other points: a number, or a struct if there are several."""
+        """Return the parameter for the raw numbers of other points: a number, or a struct if there are several."""
         self.takes(names)
         if len(names) > 1:
             return [f"const {self.struct(point.arguments)} *with"]
         return [f"{raw_type(self.points[name])} {name}_raw" for name in names]
 
     def raw(self, name: str) -> str:
-        """The expression for the raw number of another point, in the function being written."""
+        """Return the expression for the raw number of another point, in the function being written."""
         return self.spelling.format(name)
 
     def passed(self, names: tuple[str, ...]) -> tuple[str, ...]:
-        """The arguments that pass these raw numbers on: `lower_limit_raw`, or `with` for several."""
+        """Return the arguments that pass these raw numbers on: `lower_limit_raw`, or `with` for several."""
         return ("with",) if len(names) > 1 else tuple(map(self.raw, names))
 
 
 def scope_of(device: Device) -> HeaderScope:
-    """A fresh scope for a device."""
+    """Return a fresh scope for a device."""
     shapes = {id(point.shape): point.shape for point in device.points}.values()
     digits = frozenset(shape.digits.enum.name for shape in shapes if shape.digits is not None)
     known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
@@ -89,7 +89,7 @@ def scope_of(device: Device) -> HeaderScope:
 
 
 def _spaces(device: Device) -> dict[str, str | None]:
-    """The space of each group; None if its points have different ones."""
+    """Return the space of each group; None if its points have different ones."""
     spaces: dict[str, str | None] = {}
     for terms in {id(point.terms): point.terms for point in device.points}.values():
         if spaces.setdefault(terms.group, terms.space) != terms.space:

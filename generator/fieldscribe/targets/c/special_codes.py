@@ -40,7 +40,7 @@ def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, bring
 
 
 def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
-    """A check with the special codes tested first: writable ones pass, others are refused."""
+    """Return a check with the special codes tested first: writable ones pass, others are refused."""
     if special is None:
         return check
     check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
@@ -51,23 +51,23 @@ def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
 
 
 def no_code(special: SpecialView | None) -> str:
-    """The status of decoding a raw number: whether it is a special code."""
+    """Return the status of decoding a raw number: whether it is a special code."""
     return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
 
 
 def owner(point: Point, fields: PointFields) -> str:
-    """The name that prefixes the codes of a point: its own, or that of the shared codes."""
+    """Return the name that prefixes the codes of a point: its own, or that of the shared codes."""
     return point.shared_codes or fields.item
 
 
 def code_defines(point: Point, macro: str) -> Iterator[Define]:
-    """The macros of all codes of a point."""
+    """Yield the macros of all codes of a point."""
     for special in point.specials:
         yield from dict.fromkeys(special_defines(special, macro, point))
 
 
 def special_defines(special: Special, macro: str, point: Point) -> tuple[Define, Define]:
-    """The macros of the first and the last raw number of a code; for a single number twice the same macro."""
+    """Return the macros of the first and the last raw number of a code; for a single number twice the same macro."""
     name = f"{macro}_{upper(special.name)}"
     first, last = (_literal(raw, special, point) for raw in (special.low, special.high))
     if special.low == special.high:
@@ -76,7 +76,7 @@ def special_defines(special: Special, macro: str, point: Point) -> tuple[Define,
 
 
 def encoded_limits(point: Point) -> tuple[int, int]:
-    """The raw numbers between which a value's raw number is checked further: the outer limits and the special codes.
+    """Return the bounds of the raw numbers that need further checks: the outer limits and the special codes.
 
     Values are computed in signed 64 bits, so that larger codes need no check.
     """
@@ -88,7 +88,7 @@ def encoded_limits(point: Point) -> tuple[int, int]:
 
 
 def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView:
-    """The set of codes, as the first point that has it brings it."""
+    """Return the set of codes, as the first point that has it brings it."""
     shared = point.shared_codes
     return CodesView(
         comment=c_comment(f"Special codes of {shared}: raw numbers that are no quantity.") if shared else "",

@@ -139,7 +139,7 @@ class PointView:
 
     @property
     def takes_others(self) -> bool:
-        """Whether functions take raw numbers of other points."""
+        """True if functions take raw numbers of other points."""
         return bool(self.scale_arguments or self.limit_arguments)
 
 
@@ -170,7 +170,7 @@ class AliasView:
 
 
 @dataclass(frozen=True, slots=True)
-class DeviceView:
+class HeaderView:
     """The header of a device; `double` says that some values are always double."""
 
     head: tuple[str, ...]

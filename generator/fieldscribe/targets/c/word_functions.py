@@ -21,7 +21,7 @@ STATUS = "FIELDSCRIBE_STATUS"
 
 
 def text_functions(point: Point, name: str) -> Iterator[Function]:
-    """The conversions of a text."""
+    """Yield the conversions of a text."""
     assert point.text is not None
     words = f"uint16_t words[{point.words}]"
     latin = "true" if point.text.encoding == "latin-1" else "false"
@@ -35,7 +35,7 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
 
 
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
-    """The conversions of digits."""
+    """Yield the conversions of digits."""
     assert point.digits is not None
     count = point.digits.count
     names = f"{scope.prefix}_{point.digits.enum.name}_names"
@@ -60,14 +60,14 @@ def digits_functions(point: Point, name: str, special: SpecialView | None, scope
 
 
 def has_words(point: Point) -> bool:
-    """Whether the point has word functions: not a text, not a bit group, not a point whose word is the raw number."""
+    """Return True if the point has word functions: a text, a bit group and a word that is the raw number have none."""
     info = point.info
     plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
     return point.text is None and point.bits is None and not plain
 
 
 def words_functions(point: Point, name: str) -> Iterator[Function]:
-    """The functions between a raw number and its own words."""
+    """Yield the functions between a raw number and its own words."""
     kind, info = raw_type(point), point.info
     if point.words == 1:
         mask, sign = ("words[0]", "0x8000U") if info.bits == 16 else ("words[0] & 0xFFU", "0x80U")
@@ -92,7 +92,7 @@ def places_of(point: Point) -> list[int]:
 
 
 def bits_functions(point: Point, name: str) -> Iterator[Function]:
-    """The functions between a raw number and the word that it shares."""
+    """Yield the functions between a raw number and the word that it shares."""
     assert point.bits is not None
     kind, low = raw_type(point), point.bits[1]
     place = f"{hexadecimal(group_mask(point))}, {low}U"
@@ -113,18 +113,18 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
 
 
 def _constant_bits(point: Point) -> str:
-    """The mask of the constant bits, and their values."""
+    """Return the mask of the constant bits, and their values."""
     assert point.fixed is not None
     return f"{hexadecimal(point.fixed.mask)}, {hexadecimal(point.fixed.bits)}"
 
 
 def fixes(point: Point) -> bool:
-    """Whether encoding sets the constant bits of the word; for a bit group, insertion sets them."""
+    """Return True if encoding sets the constant bits of the word; for a bit group, insertion sets them."""
     return point.fixed is not None and point.bits is None
 
 
 def fixed_number(point: Point, _macro: str, _scope: HeaderScope, name: str) -> str:
-    """An expression for the number `name` with the constant bits of the word set, in the point's raw type."""
+    """Return an expression for the number `name` with the constant bits of the word set, in the point's raw type."""
     info = point.info
     width = max(16, info.bits)
     fixed = f"fieldscribe_fix{width if width > 16 else ''}((uint{width}_t){name}, {_constant_bits(point)})"

@@ -26,10 +26,10 @@ NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The files of the device's package, as paths below the output folder and their text."""
+    """Yield the files of the device's package, as paths below the output folder and their text."""
     from fieldscribe.targets.python.device import device_view, uses
     from fieldscribe.targets.python.enums import enums_view
-    from fieldscribe.targets.python.points import points_view
+    from fieldscribe.targets.python.points_module import points_view
 
     names = Identifiers(device)
     head = _head(device)
@@ -54,7 +54,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """The files copied beside the package: output path, and path under the templates folder.
+    """Yield the files copied beside the package: output path, and path under the templates folder.
 
     All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
     """
@@ -64,13 +64,13 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 
 
 def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The device's package, as it lies in a project."""
+    """Yield the device's package, as it lies in a project."""
     for path, text in outputs(device, render):
         yield path.removeprefix("python/"), text
 
 
 def vendored_runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """What the package imports: path, and path under the templates."""
+    """Yield what the package imports: path, and path under the templates."""
     for path, template in runtime(device):
         yield path.removeprefix("python/"), template
 

@@ -8,9 +8,17 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.conditions import absent
 from fieldscribe.lowered.templates import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python.families import in_python
-from fieldscribe.targets.python.forms import NUMBERED, addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
+from fieldscribe.targets.python.point_expressions import (
+    NUMBERED,
+    addresses_of,
+    allowed,
+    form,
+    is_limited,
+    number,
+    place,
+)
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
@@ -53,7 +61,7 @@ _FREE = AttributeFields._fields.index("numbers")
 _SINGLE = AttributeFields._fields.index("addresses")
 
 
-class LimitFields(NamedTuple):
+class LimitTexts(NamedTuple):
     """The limits of a point for its docstring, and their ends in code."""
 
     text: str
@@ -80,7 +88,7 @@ class Attributes:
         self._render = render
         self._keys = scope.lowered.template_keys
         self._templates: dict[tuple[int, tuple[int, ...]], TextTemplate] = {}
-        self._limits: dict[tuple[int, int], LimitFields] = {}
+        self._limits: dict[tuple[int, int], LimitTexts] = {}
         self._remarks: dict[int, tuple[str, list[str]]] = {}
 
     def of_point(self, point: Point) -> str:
@@ -100,7 +108,7 @@ class Attributes:
         return template.fill(fields)
 
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
-        """The attribute of points that have one name in different variants."""
+        """Return the attribute of points that have one name in different variants."""
         self._scope.used.add("ByVariant")
         variant, first = next(iter(points.items()))
         chosen = [f"{python_string(variant.value)}: {attribute(point.item)}" for variant, point in points.items()]
@@ -112,12 +120,12 @@ class Attributes:
         )
 
     def text(self, view: AttributeView) -> str:
-        """The text of an attribute."""
+        """Return the text of an attribute."""
         if view.old_names:
             self._scope.used.add("renamed")
         return self._render("python/attribute.py.j2", {"attribute": view})
 
-    def _fields(self, point: Point, key: int, limits: LimitFields) -> tuple[str, ...]:
+    def _fields(self, point: Point, key: int, limits: LimitTexts) -> tuple[str, ...]:
         """Return the fields in the order of `AttributeFields`."""
         remarks = self._remarks.get(key)
         if remarks is None:
@@ -155,12 +163,12 @@ def _named(fields: tuple[str, ...], point: Point) -> AttributeFields:
     )
 
 
-def _limits_of(point: Point, scope: PackageScope) -> LimitFields:
+def _limits_of(point: Point, scope: PackageScope) -> LimitTexts:
     limits = point.allowed
     text = range_text(point, scope.lowered.points) if point.writable and point.form in _WITH_RANGE else ""
     if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
-        return LimitFields(text, ())
-    return LimitFields(text, tuple([str(end) for interval in limits.fixed for end in interval]))
+        return LimitTexts(text, ())
+    return LimitTexts(text, tuple([str(end) for interval in limits.fixed for end in interval]))
 
 
 def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
@@ -187,7 +195,7 @@ def _errata(point: Point, scope: PackageScope) -> list[str]:
 
 
 def places(point: Point, addresses: tuple[str, ...], index: str, scope: PackageScope) -> Iterator[Node]:
-    """Where the point is read, and where else it is written."""
+    """Yield where the point is read, and where else it is written."""
     yield place("at", point, addresses, index, scope)
     if point.write_place is not None:
         written = addresses_of(point.write_place.addresses, numbered=point.space in NUMBERED)
@@ -217,7 +225,7 @@ def _arguments(point: Point, fields: AttributeFields, scope: PackageScope) -> It
 
 
 def _identity(point: Point, fields: AttributeFields, scope: PackageScope) -> Iterator[Node]:
-    """The places of the point on the wire, and how the manual calls it."""
+    """Yield the places of the point on the wire, and how the manual calls it."""
     yield from places(point, fields.addresses, "" if point.index is None else str(point.index), scope)
     if point.bits is not None:
         yield f"bits=({point.bits[0]}, {point.bits[1]})"
@@ -230,7 +238,7 @@ def _identity(point: Point, fields: AttributeFields, scope: PackageScope) -> Ite
 
 
 def _existence(point: Point, scope: PackageScope) -> Iterator[Node]:
-    """In which devices the point exists."""
+    """Yield the arguments that say in which devices the point exists."""
     if point.variant is not None:
         yield Group("variant=(", (python_string(point.variant.axis), python_string(point.variant.value)))
         yield f"name={python_string(point.name)}"
@@ -241,7 +249,7 @@ def _existence(point: Point, scope: PackageScope) -> Iterator[Node]:
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
-    """The first axis on which the point's condition depends, and the values for which the point can exist."""
+    """Return the first axis that decides about the point's existence, and the values for which it can exist."""
     for axis in () if point.when is None else point.when.names:
         values = variants.get(axis, ())
         left = tuple([value for value in values if not absent(point.when, {**variants, axis: (value,)})])
@@ -251,7 +259,7 @@ def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[st
 
 
 def _is_uncertain(point: Point, variants: Mapping[str, tuple[str, ...]]) -> bool:
-    """Whether the existence of the point depends on more than one axis: on others, on points or on the firmware."""
+    """Return True if the point's existence depends on more than one axis, on points or on the firmware."""
     narrowed = _only_for(point, variants)
     others = set() if point.when is None else {*point.when.names} - ({narrowed[0]} if narrowed else set())
     return bool(others) or point.since is not None or point.until is not None

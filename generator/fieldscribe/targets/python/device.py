@@ -38,7 +38,7 @@ class DeviceClass:
 
 
 @dataclass(frozen=True, slots=True)
-class DeviceView:
+class DeviceModule:
     """The device module: the lines of its imports, its classes, their variants, and further settings of the bus."""
 
     module: str
@@ -49,7 +49,7 @@ class DeviceView:
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
-    """The lines of an example that uses the class with points of the device."""
+    """Return the lines of an example that uses the class with points of the device."""
     point = _example(device)
     if point is None:
         return ()
@@ -75,7 +75,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
 
 
 def _example(device: Device) -> Point | None:
-    """The point for the example: one to read and write, else one to read; of these one that is a quantity."""
+    """Return the point for the example: one to read and write, else one to read; of these one that is a quantity."""
     for is_fit in (_is_settable, _is_usual):
         fitting = list(filter(is_fit, device.points))
         if fitting:
@@ -98,8 +98,8 @@ def _is_quantity(point: Point) -> bool:
     return point.form in ("scaled", "float") and not point.specials
 
 
-def device_view(device: Device, names: Identifiers) -> DeviceView:
-    """The classes of the device."""
+def device_view(device: Device, names: Identifiers) -> DeviceModule:
+    """Return the classes of the device."""
     family = in_python(device)
     axes = tuple(
         Axis(python_string(axis), parameter(axis), f"{pascal(axis)}Choice", tuple(map(python_string, values)))
@@ -113,4 +113,4 @@ def device_view(device: Device, names: Identifiers) -> DeviceView:
     used = {blocking.device, awaiting.device}
     if axes:  # only then does the class have a constructor of its own
         used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
-    return DeviceView(family.module, imported(family.module, sorted_imports(used)), classes, axes, family.settings)
+    return DeviceModule(family.module, imported(family.module, sorted_imports(used)), classes, axes, family.settings)

@@ -68,7 +68,7 @@ class EnumsView:
 
 
 def enums_view(device: Device, names: Identifiers, render: Render) -> EnumsView:
-    """All enums of the device, then the words of flags in the order of the points."""
+    """Return all enums of the device, then the words of flags in the order of the points."""
     classes = _Classes(names, render)
     for enum in device.enums:
         classes.add_enum(names.enum_class(enum.name), enum.title, enum.entries)
@@ -95,13 +95,13 @@ class _Classes:
         self._patterns: dict[object, TextTemplate] = {}
 
     def add_enum(self, name: str, title: Titles, entries: tuple[Entry, ...]) -> None:
-        """The class of named numbers."""
+        """Add the class of named numbers."""
         self.used.add("NamedNumber")
         words = (name, _sentence(title["en"]))
         self._add(id(entries), words, lambda: _enum(*_blanked(words), entries))
 
     def add_word(self, point: Point) -> None:
-        """The class of a word of flags, behind those of the numbers of its flags."""
+        """Add the class of a word of flags, behind those of the numbers of its flags."""
         fields = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
         for flag, named in zip(point.flags, fields, strict=True):
             if named:
@@ -121,7 +121,7 @@ class _Classes:
 
 
 def _blanked(words: tuple[str, str]) -> tuple[str, str]:
-    """Blanks for the name of a class and for its sentence, whose width decides nothing."""
+    """Return placeholders for the name of a class and for its sentence."""
     name, sentence = placeholders(words)
     return name, sentence
 
@@ -144,7 +144,7 @@ def _word(name: str, sentence: str, point: Point, fields: tuple[str, ...]) -> En
 
 
 def _composer(point: Point, fields: tuple[str, ...]) -> Composer:
-    """The composer of a word; flags whose bits are always written as a constant have no parameter."""
+    """Return the composer of a word; flags whose bits are always written as a constant have no parameter."""
     mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
     parameters, parts = [], []
     for flag, named in zip(point.flags, fields, strict=True):
@@ -161,7 +161,7 @@ def _composer(point: Point, fields: tuple[str, ...]) -> Composer:
 
 
 def _reader(flag: Flag, named: str) -> Node:
-    """The assignment of the attribute that reads a flag of the word; `named` is the class of its numbers."""
+    """Return the assignment of the attribute that reads a flag of the word; `named` is the class of its numbers."""
     attribute = word_attribute(flag.name)
     if flag.width == 1:
         return call(f"{attribute} = Flag", (str(flag.low),) if flag.active else (str(flag.low), "active=0"))
@@ -174,7 +174,7 @@ def _entry_doc(entry: Entry) -> str:
 
 
 def _flag_doc(flag: Flag) -> str:
-    """The docstring of a flag; it says so if the bit is 0 while the name is true."""
+    """Return the docstring of a flag; it says so if the bit is 0 while the name is true."""
     meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
     if not meaning and flag.active and _says_the_same(flag.title, flag.name):
         return ""
@@ -187,6 +187,6 @@ def _says_the_same(title: Titles, name: str) -> bool:
 
 
 def _sentence(text: str) -> str:
-    """Docstring text that ends with a full stop."""
+    """Return docstring text that ends with a full stop."""
     clean = python_doc(text)
     return clean if clean.endswith(".") else f"{clean}."

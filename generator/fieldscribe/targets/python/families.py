@@ -42,7 +42,7 @@ class Line:
     """What the device is made with beside the line and the unit."""
 
     def imports(self, wait: str) -> tuple[str, ...]:
-        """The classes that the expression names, in order."""
+        """Return the classes that the expression names, in order."""
         classes = [part.partition("(")[0] for part in (self.blocking, self.awaiting)]
         if not wait:
             return (classes[0],)
@@ -70,13 +70,13 @@ class PythonFamily:
 
 
 def in_python(device: Device) -> PythonFamily:
-    """The part `targets.python` of the device's family."""
+    """Return the part `targets.python` of the device's family."""
     part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
     return part
 
 
 def usual_maker(point: Point) -> str:
-    """The function for the attribute of a point; only its access decides."""
+    """Return the function for the attribute of a point; only its access decides."""
     return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
@@ -86,7 +86,7 @@ def no_blocks(device: Device, scope: PackageScope) -> None:
 
 
 def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
-    """The telegrams of a device."""
+    """Return the telegrams of a device."""
     nodes = []
     for telegram in named_telegrams:
         scope.used.add("Telegram")

@@ -81,34 +81,34 @@ _DIGITS = re.compile(r"([0-9]+)")
 
 
 def attribute(name: str) -> str:
-    """The attribute of a point on the device class. A description's names never end with an underscore."""
+    """Return the attribute of a point on the device class. A description's names never end with an underscore."""
     return f"{name}_" if name in _ATTRIBUTE_TAKEN else name
 
 
 def command_attributes(device: Device) -> Iterator[tuple[Command, str]]:
-    """The commands of a device with their attributes, which differ from those of the points."""
+    """Yield the commands of a device with their attributes, which differ from those of the points."""
     points = {name for point in device.points for name in (point.item, point.name)}
     for command in device.commands:
         yield command, attribute(f"{command.name}_command" if command.name in points else command.name)
 
 
 def word_attribute(name: str) -> str:
-    """The attribute of a flag on its word's class."""
+    """Return the attribute of a flag on its word's class."""
     return f"{name}_" if name in _WORD_TAKEN else name
 
 
 def parameter(name: str) -> str:
-    """The constructor's parameter for a variant's axis."""
+    """Return the constructor's parameter for a variant's axis."""
     return f"{name}_" if name in _PARAMETER_TAKEN else name
 
 
 def sorted_imports(names: Iterable[str]) -> list[str]:
-    """Names sorted as in imports: constants, classes, functions; numbers by value, without regard to case."""
+    """Return names sorted as in imports: constants, classes, functions; numbers by value, without regard to case."""
     return sorted(names, key=lambda name: (_kind(name), _natural(name.lower()), _natural(name)))
 
 
 def sorted_exports(names: Iterable[str]) -> list[str]:
-    """Names sorted as linters want it in `__all__`: as in imports, but capitals first."""
+    """Return names sorted as linters want it in `__all__`: as in imports, but capitals first."""
     return sorted(names, key=lambda name: (_kind(name), _natural(name)))
 
 
@@ -142,20 +142,20 @@ class Identifiers:
         """The classes by their old names, sorted for an import."""
 
     def enum_class(self, enum: str) -> str:
-        """The class of an enum."""
+        """Return the class of an enum."""
         return self._enums[enum]
 
     def numbers_class(self, shape: Shape) -> str:
-        """The class that names the numbers of a shape, or each of its digits; empty if nothing does."""
+        """Return the class that names the numbers of a shape, or each of its digits; empty if nothing does."""
         enum = shape.digits.enum if shape.digits is not None else shape.enum
         return "" if enum is None else self._enums[enum.name]
 
     def word_class(self, point: Point) -> str:
-        """The class of a point's flags; empty if it has none."""
+        """Return the class of a point's flags; empty if it has none."""
         return self._words.get(point.item, "")
 
     def field_class(self, point: Point, flag: str) -> str | None:
-        """The class of the named numbers of a flag of several bits; None if they have no names."""
+        """Return the class of the named numbers of a flag of several bits; None if they have no names."""
         return self._fields.get((point.item, flag))
 
     @cached_property
@@ -176,7 +176,7 @@ class Identifiers:
                 self._fields[point.item, flag.name] = self._class(f"{name}{pascal(flag.name)}", "Field")
 
     def _renamed(self, device: Device) -> Iterator[tuple[str, str, Iterable[str]]]:
-        """The classes that are called after a point with old names: each with its kind, and what it was called."""
+        """Yield the classes that are named after a point with old names: each with its kind and its old names."""
         for enum in device.enums:
             yield self._enums[enum.name], "Enum", map(pascal, enum.was)
         for point in device.points:

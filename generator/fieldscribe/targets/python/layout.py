@@ -29,7 +29,7 @@ class Group:
 
     @property
     def is_tuple(self) -> bool:
-        """Whether it is a tuple: a single item then needs a comma behind it."""
+        """True for a tuple: a single item then needs a comma behind it."""
         return self.close == ")" and not self.calls
 
 
@@ -37,22 +37,22 @@ Node = str | Group
 
 
 def comment(text: str) -> str:
-    """Text for a `#` comment, in which no second `#` can start a directive for some tool."""
+    """Return text for a `#` comment, in which no second `#` can start a directive for some tool."""
     return python_doc(text).replace("#", "")
 
 
 def call(head: str, items: Iterable[Node]) -> Group:
-    """A call of `head`."""
+    """Return a call of `head`."""
     return Group(f"{head}(", tuple(items), calls=True)
 
 
 def assigned(name: str, node: Group) -> Group:
-    """The assignment of the expression to a name."""
+    """Return the assignment of the expression to a name."""
     return replace(node, head=f"{name} = {node.head}")
 
 
 def laid_out(node: Node, indent: int) -> str:
-    """The lines of the expression at that indentation, with room for a comma behind it."""
+    """Return the lines of the expression at that indentation, with room for a comma behind it."""
     if isinstance(node, str):
         return node
     line = flat(node)
@@ -60,7 +60,7 @@ def laid_out(node: Node, indent: int) -> str:
 
 
 def _spread(node: Group, indent: int) -> str:
-    """A line for each item.
+    """Return a line for each item.
 
     A tuple of a single item is spread only if the item is spread itself: formatters with longer lines would join it
     again, even with a comma behind the item.
@@ -73,7 +73,7 @@ def _spread(node: Group, indent: int) -> str:
 
 
 def flat(node: Node) -> str:
-    """The expression on one line."""
+    """Return the expression on one line."""
     if isinstance(node, str):
         return node
     comma = "," if len(node.items) == 1 and node.is_tuple else ""
@@ -81,12 +81,12 @@ def flat(node: Node) -> str:
 
 
 def wrapped(text: str) -> list[str]:
-    """The lines of a docstring inside a class."""
+    """Return the lines of a docstring inside a class."""
     return [text] if len(text) <= DOC else textwrap.wrap(text, DOC, break_long_words=False, break_on_hyphens=False)
 
 
 def docstring(lines: Sequence[str]) -> tuple[str, ...]:
-    """The lines of a docstring inside a class."""
+    """Return the lines of a docstring inside a class."""
     first, *others = lines
     if not others:
         return (f'    """{first}"""',)
@@ -94,6 +94,6 @@ def docstring(lines: Sequence[str]) -> tuple[str, ...]:
 
 
 def imported(module: str, names: Sequence[str]) -> tuple[str, ...]:
-    """The lines of an import."""
+    """Return the lines of an import."""
     line = f"from {module} import {', '.join(names)}"
     return (line,) if len(line) <= WIDTH else (f"from {module} import (", *(f"    {name}," for name in names), ")")

@@ -31,7 +31,7 @@ _CLASSES = "Python, the classes of numbers and flags"
 
 
 def device_name_taken(name: str) -> str:
-    """Why no package may have that name; empty if it may."""
+    """Return why no package may have that name; empty if it may."""
     if iskeyword(name):
         return "is a word that Python reserves, so that no program could name its package"
     if name in sys.stdlib_module_names:
@@ -42,7 +42,7 @@ def device_name_taken(name: str) -> str:
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Every name that depends on the description, and the fixed names beside them."""
+    """Yield every name that depends on the description, and the fixed names beside them."""
     names = Identifiers(device)
     yield from _of_device(device, names)
     yield from _classes(device, names)
@@ -58,7 +58,7 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 
 def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
-    """The names in the device module, in the constructor of its classes, and in the exports of the package."""
+    """Yield the names in the device module, in the constructor of its classes, and in the exports of the package."""
     module, constructor, view = "Python, the device module", "Python, the constructor", device_view(device, names)
     yield Names(module, _OWN, ("Literal", "Points", *view.imports))
     yield Names(module, Owner("device", device.id), (names.device_class, names.async_class))
@@ -69,7 +69,7 @@ def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
 
 
 def _classes(device: Device, names: Identifiers) -> Iterator[Names]:
-    """The classes of the enums module."""
+    """Yield the classes of the enums module."""
     for enum in device.enums:
         yield Names(_CLASSES, Owner("enum", enum.name), (names.enum_class(enum.name),))
     for point in device.points:

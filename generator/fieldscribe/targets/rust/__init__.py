@@ -25,7 +25,7 @@ NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The generated files: path relative to the output folder, and text."""
+    """Yield the generated files: path relative to the output folder, and text."""
     from fieldscribe.targets.rust.conformance import arms, conformance_tables
     from fieldscribe.targets.rust.device import device_context
 
@@ -41,14 +41,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def runtime(_: Device) -> Iterator[tuple[str, str]]:
-    """The real source files beside the output: output path, and path under the templates."""
+    """Yield the real source files beside the output: output path, and path under the templates."""
     for crate in _RUNTIMES:
         for name in runtime_files(f"rust/runtime/{crate}"):
             yield f"rust/{crate}/{name}", f"rust/runtime/{crate}/{name}"
 
 
 def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The crate, as it lies in a project."""
+    """Return the crate, as it lies in a project."""
     from fieldscribe.targets.rust.device import device_context
 
     scope = scope_of(device)
@@ -56,7 +56,7 @@ def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def vendored_runtime(device: Device) -> Iterator[tuple[str, str]]:
-    """The crate that it depends on: path, and path under the templates."""
+    """Yield the crate that it depends on: path, and path under the templates."""
     del device
     for name in runtime_files(f"rust/runtime/{_RUNTIMES[0]}"):
         yield f"{_RUNTIMES[0]}/{name}", f"rust/runtime/{_RUNTIMES[0]}/{name}"

@@ -48,7 +48,7 @@ Rows = dict["Spot", list[str]]
 
 
 def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
-    """The tables by kind; rows are tokens that the runner's macro reads."""
+    """Return the tables by kind; rows are tokens that the runner's macro reads."""
     rows = _rows(scope)
     parts: dict[str, list[str]] = {}
     for spot in sorted(rows, key=lambda spot: spot.part):
@@ -96,7 +96,7 @@ def _laid_out(subject: CratePoint, fields: Iterable[str], scope: CrateScope, row
 
 
 def _protocol(device: Device) -> Iterator[Table]:
-    """The tables of the numbers of the protocol, and of commands."""
+    """Yield the tables of the numbers of the protocol, and of commands."""
     family_part = in_rust(device.family)
     constants, named = [], []
     for codes in family(device.family).codes:
@@ -119,7 +119,7 @@ def _protocol(device: Device) -> Iterator[Table]:
 
 
 def item_row(key: str, module: str, how: str, name: str) -> str:
-    """The row of something other than a point: its key in the vectors, and its path in the crate."""
+    """Return the row of something other than a point: its key in the vectors, and its path in the crate."""
     return row_text((rust_string(key), module, *bracketed((how, name))))
 
 
@@ -128,7 +128,7 @@ def _code(what: str, module: str, name: str, how: str) -> str:
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
-    """The match arms that choose the table for vectors of whole exchanges, laid out as by rustfmt."""
+    """Yield the match arms that choose the table for vectors of whole exchanges, laid out as by rustfmt."""
     answering: dict[str, list[str]] = {}
     for table in tables:
         answering.setdefault(table.kind, []).append(f"{table.name}(vector)")

@@ -30,7 +30,7 @@ Row = tuple[Spot, "Tokens"]
 
 
 def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
-    """All rows of a point; `enum` is the type of its enum."""
+    """Yield all rows of a point; `enum` is the type of its enum."""
     point = subject.point
     yield from _CONVERSIONS.get(subject.form, _whole)(subject)
     if enum:
@@ -74,7 +74,7 @@ def _scaled(subject: CratePoint) -> Iterator[Row]:
 
 
 def _whole(subject: CratePoint) -> Iterator[Row]:
-    """The raw number is the value, or says it by name."""
+    """Yield the rows of a point whose raw number is its value, or the number of a name."""
     point = subject.point
     mixed = subject.shape.carried != subject.raw
     how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
@@ -132,14 +132,14 @@ def _flags(subject: CratePoint) -> Iterator[Row]:
 
 
 def _exchanges(subject: CratePoint, scope: CrateScope) -> Iterator[Row]:
-    """A row for each way in which the point is read or written."""
+    """Yield a row for each way in which the point is read or written."""
     for kind, run, needs in _ways(subject, scope):
         arguments = [token for pair in needs for token in bracketed(_arguments(*pair))]
         yield Spot(f"{kind}_by_{run}", 0, run, kind), row_of(subject, bracketed(("wire", *arguments)))
 
 
 def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
-    """The ways to read and write a point: by requests if it has an address, and further ones of its family."""
+    """Yield the ways to read and write a point: by requests if it has an address, and further ones of its family."""
     point = subject.point
     text = "_text" if subject.form == "text" else ""
     if point.telegram is None and point.readable:
@@ -150,7 +150,7 @@ def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
 
 
 def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs]:
-    """The function that writes a point, and the structs that it needs."""
+    """Return the function that writes a point, and the structs that it needs."""
     point = subject.point
     if point.bits:
         return update, ()
@@ -161,22 +161,22 @@ def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs
 
 
 def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of the raw numbers that the scale needs, with its fields."""
+    """Return the struct of the raw numbers that the scale needs, with its fields."""
     return subject.factors_struct, subject.factors
 
 
 def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
-    """The struct of all raw numbers that writing needs, with its fields."""
+    """Return the struct of all raw numbers that writing needs, with its fields."""
     return subject.name, subject.arguments
 
 
 def row_of(subject: CratePoint, how: Tokens) -> Tokens:
-    """The row of a point: its name in the vectors, its path in the crate, and further tokens."""
+    """Return the row of a point: its name in the vectors, its path in the crate, and further tokens."""
     return _quoted(subject.item), subject.name, *how
 
 
 def bracketed(tokens: Tokens) -> Tokens:
-    """Tokens in parentheses."""
+    """Return tokens in parentheses."""
     if not tokens:
         return ("()",)
     first, *others = tokens
@@ -184,7 +184,7 @@ def bracketed(tokens: Tokens) -> Tokens:
 
 
 def _quoted(names: str) -> str:
-    """Names need no encoder, since they are identifiers, and blanks would not pass through it."""
+    """Return names in quotes. Identifiers need no escapes, and an encoder would strip placeholders."""
     return f'"{names}"'
 
 
@@ -203,12 +203,12 @@ def _arguments(struct: str, names: Tokens) -> Tokens:
 
 
 def _has_place(point: Point) -> bool:
-    """Whether a single address does not say where the point is: a text, an index or a telegram."""
+    """Return True if a single address does not say where the point is: a text, an index or a telegram."""
     return point.text is not None or point.index is not None or point.telegram is not None
 
 
 def _has_words(point: Point) -> bool:
-    """Whether the words of the point differ from its raw number."""
+    """Return True if the words of the point differ from its raw number."""
     return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 

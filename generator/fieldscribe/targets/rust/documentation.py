@@ -32,7 +32,7 @@ _BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
 
 
 def sentence(name: str) -> str:
-    """A name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
+    """Return a name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
     return f"{name.replace('_', ' ').capitalize()}."
 
 
@@ -64,7 +64,7 @@ def _comment(paragraph: str) -> str:
 
 
 def _paragraphs(point: Point, errata: Collection[str]) -> Iterator[str]:
-    """The special codes of a point, and its errata."""
+    """Yield the special codes of a point, and its errata."""
     if point.specials:
         yield f"{codes_text(point, '`')}."
     named = [f"`{name}`" for name in point.errata if name in errata]
@@ -73,12 +73,12 @@ def _paragraphs(point: Point, errata: Collection[str]) -> Iterator[str]:
 
 
 def is_long(text: str) -> bool:
-    """Whether the text may take several lines."""
+    """Return True if the text may take several lines."""
     return len(text) > _WIDTH
 
 
 def wrapped(text: str) -> Iterator[str]:
-    """The text in lines, none of which begins like a list or a heading."""
+    """Yield the text in lines, none of which begins like a list or a heading."""
     if not is_long(text):
         yield text
         return
@@ -93,7 +93,7 @@ def wrapped(text: str) -> Iterator[str]:
 
 
 def left_out(device: Device) -> tuple[str, ...]:
-    """One line for each point that is only documented, with its address on the wire if it has one."""
+    """Return a line for each point that is only documented, with its address on the wire if it has one."""
     return tuple(
         f"`{point.item}`" + "".join(f", {fact}" for fact in _whereabouts(point))
         for point in device.points
@@ -143,7 +143,7 @@ def _facts(point: Point) -> Iterator[str]:
 
 
 def _resolution(point: Point) -> Iterator[str]:
-    """The unit of a raw step and of a count."""
+    """Yield the unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
     resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
@@ -157,7 +157,7 @@ def _resolution(point: Point) -> Iterator[str]:
 
 
 def _count(point: Point) -> str:
-    """The unit of one count of a scaled point; empty if it has no counts."""
+    """Return the unit of one count of a scaled point; empty if it has no counts."""
     if point.form != "scaled" or point.decimals is None:
         return ""
     return with_unit(f"0.{'1':0>{point.decimals}}" if point.decimals else "1", point)

@@ -36,7 +36,7 @@ class EntryView:
 
 
 @dataclass(frozen=True, slots=True)
-class EnumView:
+class EnumItem:
     """An enum; `unknown` is the variant that carries a number without a name."""
 
     doc: str
@@ -88,7 +88,7 @@ class FlagsView:
 
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
-    """The enums that generated points use, in the device's order, and whether one of them has many names."""
+    """Return the enums that generated points use, in the device's order, and whether one of them has many names."""
     patterns: dict[object, tuple[TextTemplate, bool]] = {}
     texts, long = [], False
     for enum in device.enums:
@@ -107,7 +107,7 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, 
 
 
 def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
-    """The types that keep the old names of one, as the description writes those."""
+    """Return the types that keep the old names of one, as the description writes those."""
     texts = []
     for old in old_names:
         lines = binding(0, Item(f"pub type {type_name(old)}"), name)
@@ -115,8 +115,8 @@ def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
     return "".join(texts)
 
 
-def _is_long(enum: EnumView) -> bool:
-    """Whether a function with an arm for each name would be too long for clippy."""
+def _is_long(enum: EnumItem) -> bool:
+    """Return True if a function with an arm for each name would be too long for clippy."""
     return (
         max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
     )
@@ -145,18 +145,18 @@ _OF_TRAITS = frozenset(
 
 
 def getter_name(flag: str) -> str:
-    """The function that gets a flag; renamed if it would look like a conversion or a method of a trait."""
+    """Return the function that gets a flag; renamed if it would look like a conversion or a method of a trait."""
     convertible = flag.startswith(("from_", "as_", "into_", "to_"))
     return f"get_{flag}" if convertible or flag in _OF_TRAITS else value_name(flag)
 
 
 def constant_name(flag: Flag) -> str:
-    """The constant of a flag's mask; its name says so if the flag is false while the bit is set."""
+    """Return the constant of a flag's mask; its name says so if the flag is false while the bit is set."""
     return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
 
 
 def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
-    """The words with named bits."""
+    """Yield the words with named bits."""
     patterns: dict[object, TextTemplate] = {}
     for subject in scope.subjects:
         if subject.form == "flags":
@@ -185,7 +185,7 @@ def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
 
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
-    """The constant that says how flags are shown, with the names of their numbers."""
+    """Return the constant that says how flags are shown, with the names of their numbers."""
     item = Item("const FLAGS", "&'static [runtime::Flag]")
     names, shown = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
@@ -201,16 +201,16 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
 
 
 def _names(constant: str, flag: Flag) -> tuple[str, ...]:
-    """The constant of the numbers of a flag that have names."""
+    """Return the constant of the numbers of a flag that have names."""
     rows: list[tuple[str, tuple[str, ...]]] = [("", (integer(one.raw), rust_string(one.name))) for one in flag.values]
     return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
-def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumView:
+def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumItem:
     entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
     unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
-    return EnumView(doc, name, raw, entries, unknown)
+    return EnumItem(doc, name, raw, entries, unknown)
 
 
 def _entry(entry: Entry, enum: str) -> EntryView:

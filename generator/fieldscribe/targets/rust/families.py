@@ -62,27 +62,27 @@ class Table:
 
 
 def row_text(row: Tokens) -> str:
-    """A row in as few lines as possible, without its semicolon."""
+    """Return a row in as few lines as possible, without its semicolon."""
     return "    " + "\n    ".join(filled("", " ", row, ";"))[:-1]
 
 
 def nothing(*_: object) -> tuple[()]:
-    """For families that have nothing to add."""
+    """Return nothing, for families that have nothing to add."""
     return ()
 
 
 def no_line(_: Device) -> str:
-    """For families whose transports need a whole page."""
+    """Return no expression, for families whose transports need a whole page."""
     return ""
 
 
 def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
-    """For families whose devices send nothing unasked."""
+    """Return no telegram, for families whose devices send only answers."""
     return "", Snippet()
 
 
 @dataclass(frozen=True, slots=True)
-class OfFamily:
+class RustFamily:
     """What the part `targets.rust` of a family offers as `IN_RUST`.
 
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
@@ -108,9 +108,9 @@ class OfFamily:
     heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 
-def in_rust(name: str) -> OfFamily:
-    """The part `targets.rust` of the family of that name."""
-    part: OfFamily = family(name).part("targets.rust").IN_RUST
+def in_rust(name: str) -> RustFamily:
+    """Return the part `targets.rust` of the family of that name."""
+    part: RustFamily = family(name).part("targets.rust").IN_RUST
     return part
 
 
@@ -125,13 +125,13 @@ _SPACES = {
 
 
 def space_variant(name: str) -> str:
-    """A space as a variant of the runtime's enum."""
+    """Return the name of a space in the runtime's enum."""
     known = _SPACES.get(name)
     return known or f"Other({rust_string(name)})"
 
 
 def space(name: str) -> str:
-    """The same with the enum, as a value."""
+    """Return a space as a value of the runtime's enum."""
     return f"runtime::Space::{space_variant(name)}"
 
 
@@ -140,7 +140,7 @@ Constant = tuple[str, tuple[str, ...]]
 
 
 def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Constant, ...]:
-    """A constant of that type for each code; `what` is the word for its number in the doc comment."""
+    """Return a constant of that type for each code; `what` is the word for its number in the doc comment."""
     return tuple(
         (
             f"{sentence(code.name).rstrip('.')}: {what} {code.number}." if what else sentence(code.name),
@@ -151,7 +151,7 @@ def constants(codes: Iterable[Code], type_: str, what: str = "") -> tuple[Consta
 
 
 def code_names(codes: Iterable[Code]) -> tuple[str, ...]:
-    """The match arms from codes to their names, each code once."""
+    """Return the match arms from codes to their names, each code once."""
     named = {code.number: code.name for code in reversed(tuple(codes))}
     arms = (arm(12, name.upper(), f"Some({rust_string(name)})") for _, name in sorted(named.items()))
     return tuple(line for lines in arms for line in lines)

@@ -28,14 +28,14 @@ _CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 
 
 def device_name_taken(name: str) -> str:
-    """Why no crate may have that name; empty if it may."""
+    """Return why no crate may have that name; empty if it may."""
     if name in RESERVED:
         return "is a word that Rust reserves, so that no program could name its crate"
     return "is a crate of Rust's own, which the generated crate would hide" if name in _CRATES else ""
 
 
 def identifiers(device: Device) -> Iterator[Names]:
-    """Every identifier that depends on the description, by namespace."""
+    """Yield every identifier that depends on the description, by namespace."""
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
@@ -84,7 +84,7 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
 
 
 def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
-    """The constants of a point that the description names, and the constants of every point that they could hide."""
+    """Yield the constants that the description names for a point, and those of every point that they could hide."""
     point, namespace = subject.point, f"Rust, the point `{subject.item}`"
     for name in (*point.references, *(special.name for special in point.specials)):
         if name in CONSTANTS:
@@ -102,7 +102,7 @@ def _constants(subject: CratePoint, owner: Owner) -> Iterator[Names]:
 
 
 def _shared_codes(subject: CratePoint) -> Iterator[Names]:
-    """The type of special codes that many points share, with its constants and its table."""
+    """Yield the type of special codes that many points share, with its constants and its table."""
     name = subject.point.shared_codes
     owner, space = Owner("special codes", name), f"Rust, the special codes `{name}`"
     yield Names("Rust, module `special`", owner, (type_name(name),))

@@ -82,7 +82,7 @@ def calls(indent: int, item: Item, items: list[tuple[str, Lines]]) -> Lines:
 
 
 def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
-    """The same list as an expression."""
+    """Return a list of calls as an expression: on one line, or with a line for each call."""
     flat = [f"{name}({', '.join(arguments)})" for name, arguments in items]
     joined = ", ".join(flat)
     if len(joined) <= _ARRAY_WIDTH:
@@ -99,7 +99,7 @@ def called(indent: int, items: list[tuple[str, Lines]]) -> Lines:
 
 
 def fields_of(indent: int, type_: str, names: Lines) -> Lines:
-    """A struct literal whose fields come from the struct `all`."""
+    """Return a struct literal whose fields come from the struct `all`."""
     joined = ", ".join(f"{name}: all.{name}" for name in names)
     if len(joined) <= _STRUCT_WIDTH:
         return (f"{type_} {{ {joined} }}",)
@@ -111,7 +111,7 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
 
 
 def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
-    """Items in as few lines as possible, for macros, where rustfmt changes nothing."""
+    """Return items in as few lines as possible, for macros, where rustfmt changes nothing."""
     line = f"{left}{between.join(items)}{right}"
     if len(line) <= _FREE_WIDTH:
         return (line,)
@@ -126,7 +126,7 @@ def filled(left: str, between: str, items: Sequence[str], right: str) -> Lines:
 
 
 def chained(steps: Sequence[str]) -> Lines:
-    """A chain of fallible calls, on one line or with a line for each call."""
+    """Return a chain of fallible calls, on one line or with a line for each call."""
     line = "?".join(steps)
     if len(line) <= _FREE_WIDTH:
         return (line,)

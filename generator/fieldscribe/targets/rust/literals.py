@@ -50,7 +50,7 @@ _UNGROUPED = 10_000
 
 
 def raw_type(shape: Shape) -> str:
-    """The Rust type of the raw number of points of that shape."""
+    """Return the Rust type of the raw number of points of that shape."""
     if shape.text is not None:
         return f"[u16; {shape.words}]"
     return "bool" if shape.form == "bit" else RAW_TYPES[shape.type]
@@ -58,7 +58,7 @@ def raw_type(shape: Shape) -> str:
 
 @lru_cache(maxsize=32)
 def type_range(rust_type: str) -> tuple[int, int]:
-    """The least and the greatest number of a Rust integer type or `bool`."""
+    """Return the least and the greatest number of a Rust integer type or `bool`."""
     if rust_type == "bool":
         return 0, 1
     return ends_of(int(rust_type[1:]), signed=rust_type[0] == "i")
@@ -66,46 +66,46 @@ def type_range(rust_type: str) -> tuple[int, int]:
 
 @lru_cache(maxsize=65536)
 def type_name(name: str) -> str:
-    """The name of a type: `BaseFrequency`; changed if the prelude has that name."""
+    """Return the name of a type: `BaseFrequency`; changed if the prelude has that name."""
     result = pascal(name)
     return f"{result}_" if result in _PRELUDE else result
 
 
 @lru_cache(maxsize=65536)
 def variant_name(name: str) -> str:
-    """The name of an enum's variant: `ForwardAndReverse`; only a few names would hide others there."""
+    """Return the name of an enum's variant: `ForwardAndReverse`; only a few names would hide others there."""
     result = pascal(name)
     return f"{result}_" if result in _HIDDEN else result
 
 
 @lru_cache(maxsize=65536)
 def value_name(name: str) -> str:
-    """The name of a function, a field or a local; a raw identifier if Rust reserves the word."""
+    """Return the name of a function, a field or a local; a raw identifier if Rust reserves the word."""
     if name not in RESERVED:
         return name
     return f"{name}_" if name in _NOT_RAW else f"r#{name}"
 
 
 def integer(number: int) -> str:
-    """A decimal literal: `4000`, `-70_000`."""
+    """Return a decimal literal: `4000`, `-70_000`."""
     return str(number) if -_UNGROUPED < number < _UNGROUPED else f"{number:_}"
 
 
 def raw_literal(number: int, rust_type: str) -> str:
-    """A raw number as a literal of its type."""
+    """Return a raw number as a literal of its type."""
     return ("true" if number else "false") if rust_type == "bool" else integer(number)
 
 
 @lru_cache(maxsize=4096)
 def mask(number: int, rust_type: str) -> str:
-    """A mask in hexadecimal, as wide as its type: `0x0030`, `0x0000_0001`."""
+    """Return a mask in hexadecimal, as wide as its type: `0x0030`, `0x0000_0001`."""
     digits = int(rust_type[1:]) // 4
     text = f"{number:0{digits}X}"
     return "0x" + "_".join(text[at : at + 4] for at in range(0, digits, 4))
 
 
 def nearest_float(number: float, bits: int) -> float:
-    """The binary32 or binary64 nearest to a number, the largest one where that is infinite."""
+    """Return the binary32 or binary64 nearest to a number, the largest one where that is infinite."""
     if bits == 64:
         return number
     try:
@@ -116,7 +116,7 @@ def nearest_float(number: float, bits: int) -> float:
 
 @lru_cache(maxsize=4096)
 def float_literal(number: float) -> str:
-    """A binary64 literal that reads back as the same number: `10.0`, `0.1`, `1e20`."""
+    """Return a binary64 literal that reads back as the same number: `10.0`, `0.1`, `1e20`."""
     mantissa, _, exponent = repr(float(number)).partition("e")
     whole, point, fraction = mantissa.partition(".")
     text = integer(int(whole)) if whole.strip("-") != "0" else whole

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.model import Limit
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.forms import count_type, interval, limit_lines
 from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled
 from fieldscribe.targets.rust.literals import (
     FLOAT_GREATEST,
@@ -18,6 +17,7 @@ from fieldscribe.targets.rust.literals import (
     raw_literal,
     type_name,
 )
+from fieldscribe.targets.rust.value_forms import count_type, interval, limit_lines
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ _WIDTH = 100
 
 
 def read_lines(subject: CratePoint) -> tuple[str, ...]:
-    """The facts of reading."""
+    """Return the facts of reading."""
     count, factors = count_type(subject), subject.factors_type
     facts = [f"count {count};"] if count else []
     facts += [f"with {factors};"] if factors != "()" else []
@@ -40,7 +40,7 @@ def read_lines(subject: CratePoint) -> tuple[str, ...]:
 
 
 def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
-    """The facts of writing."""
+    """Return the facts of writing."""
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
     facts += [f"with {subject.with_type};"] if subject.arguments else []
@@ -52,7 +52,7 @@ def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
 
 
 def _block(name: str, facts: list[Lines]) -> Lines:
-    """Facts in one line if they fit, else each in lines of its own."""
+    """Return facts in one line if they fit, else each in lines of its own."""
     lines = [line for fact in facts for line in fact]
     whole = f"{name} {{ {' '.join(lines)} }}" if facts else f"{name} {{}}"
     if len(whole) <= _BLOCK_WIDTH and len(lines) == len(facts):
@@ -61,7 +61,7 @@ def _block(name: str, facts: list[Lines]) -> Lines:
 
 
 def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
-    """The facts about allowed numbers, unless the outer limits say it all."""
+    """Yield the facts about allowed numbers, unless the outer limits say it all."""
     point = subject.point
     if point.limit_arguments:
         yield tuple(_limits(point, scope))
@@ -76,7 +76,7 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
 
 
 def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
-    """The fact with a pair of ends for each range; some ends depend on other points."""
+    """Yield the fact with a pair of ends for each range; some ends depend on other points."""
     yield "limits |with| ["
     for allowed in point.allowed.intervals:
         low, high = _end(allowed.low, scope, lower=True), _end(allowed.high, scope, lower=False)
@@ -96,7 +96,7 @@ def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
-    """The limits as numbers of the type; empty if they are the type's own limits."""
+    """Yield the limits as numbers of the type; empty if they are the type's own limits."""
     greatest = FLOAT_GREATEST[point.width]
     ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
     if ends and ends != [[-greatest, greatest]]:
@@ -105,7 +105,7 @@ def _float_ranges(point: Point) -> Iterator[str]:
 
 
 def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
-    """The function and the address for writing, unless they are the usual ones."""
+    """Yield the function and the address for writing, unless they are the usual ones."""
     single, many = _WRITES.get(point.space, (0, 0))
     usual = single if point.words == 1 else many
     if usual not in scope.functions and many in scope.functions:
@@ -131,7 +131,7 @@ class SharedView:
 
 
 def shared_views(scope: CrateScope) -> Iterator[SharedView]:
-    """The shared codes, in the order of their first point."""
+    """Yield the shared codes, in the order of their first point."""
     first: dict[str, CratePoint] = {}
     for subject in scope.subjects:
         if subject.point.shared_codes:
@@ -142,7 +142,7 @@ def shared_views(scope: CrateScope) -> Iterator[SharedView]:
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:
-    """The fact about the codes of a point, its own or shared ones."""
+    """Yield the fact about the codes of a point, its own or shared ones."""
     shared = subject.point.shared_codes
     if shared:
         yield f"codes (special::{type_name(shared)}::CODES);"
@@ -160,13 +160,13 @@ def code_lines(subject: CratePoint) -> Iterator[str]:
 
 
 def _kind(special: Special) -> str:
-    """The runtime's constructor for the kind of code."""
+    """Return the runtime's constructor for the kind of code."""
     words = (word for word, holds in (("writable", special.writable), ("no_value", special.no_value)) if holds)
     return "_".join(words) or "new"
 
 
 def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
-    """A constant for each code; of a band, its first code and the last raw number."""
+    """Yield a constant for each code; of a band, its first code and the last raw number."""
     for special in subject.point.specials:
         item = Item(f"pub const {special.name.upper()}", f"runtime::Special<{subject.raw}>")
         call = f"{_kind(special)}({rust_string(special.name)}, {_literal(special.low, special, subject.raw)})"
@@ -190,7 +190,7 @@ def _table(subject: CratePoint, item: Item) -> Lines:
 
 
 def _constant(item: Item, call: str) -> Lines:
-    """The lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
+    """Return the lines of a constant as rustfmt breaks them; with `rustfmt::skip` if the name itself is too long."""
     lines = binding(4, item, call)
     if all(4 + len(line) <= _WIDTH for line in (*lines, f"{item} =")):
         return lines

@@ -1,4 +1,4 @@
-"""What the modules of this target often need of a point: what follows from its shape is worked out once a shape."""
+"""The generated points of a device as the modules of this target need them; facts of a shape are worked out once."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class CrateShape:
 
     @property
     def closed(self) -> bool:
-        """Whether only the enum's own numbers may be written."""
+        """True if only the enum's own numbers may be written."""
         return self.enum is not None and self.enum.closed
 
 
@@ -50,7 +50,7 @@ class CratePoint(NamedTuple):
     key: int
 
     def renamed(self, item: str, name: str) -> CratePoint:
-        """Return the point with placeholders for its names; the structs of a scale follow from its name as it is."""
+        """Return the point with placeholders for its names; one with a computed scale keeps them, for its structs."""
         return self if self.factors else self._replace(item=item, name=name)
 
     @property
@@ -107,7 +107,7 @@ class CrateScope:
 
 
 def scope_of(device: Device) -> CrateScope:
-    """The scope of a device, with its generated points."""
+    """Return the scope of a device, with its generated points."""
     generated = [point for point in device.points if point.generated]
     shapes = {id(point.shape): point.shape for point in generated}
     enums = _enum_types(shapes.values())
@@ -134,7 +134,7 @@ def _subjects(
 
 
 def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
-    """The raw type that each enum carries: that of its points, or one that holds the numbers of all."""
+    """Return the raw type that each enum carries: that of its points, or one that holds the numbers of all."""
     enums: dict[str, str] = {}
     for shape in shapes:
         enum = _enum(shape)
@@ -153,7 +153,7 @@ def _shape(shape: Shape, enums: Mapping[str, str]) -> CrateShape:
 
 
 def _enum(shape: Shape) -> Enum | None:
-    """The enum of the values of points, or of their digits."""
+    """Return the enum of the values of points, or of their digits."""
     if shape.digits is not None and shape.form == "digits":
         return shape.digits.enum
     return shape.enum if shape.form == "enum" else None

@@ -11,7 +11,7 @@ from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import OfFamily, Snippet, Table, code_names, constants, row_text
+from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants, row_text
 from fieldscribe.targets.rust.layout import Item, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.text import rust_string
@@ -177,7 +177,7 @@ def tables_of_frames(device: Device) -> Iterator[Table]:
         yield Table("can_carrier", "can_carrier", rows)
 
 
-IN_RUST = OfFamily(
+IN_RUST = RustFamily(
     context,
     traits,
     identifiers,

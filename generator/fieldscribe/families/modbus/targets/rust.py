@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of, of_bus, profile_of
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families import OfFamily, code_names, space_variant
+from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
 from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
 
@@ -79,7 +79,7 @@ def _command(command: Command) -> tuple[str, str, str]:
     return f"{doc}.", command.name.upper(), f"{command.function}, 0x{command.address:04X}, {value}"
 
 
-IN_RUST = OfFamily(
+IN_RUST = RustFamily(
     context,
     names=("Framing",),
     transports=("std", "tokio-modbus", "embedded-io", "embedded-io-async"),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.uss import of_bus
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance_rows import change_of, of_all, of_scale
-from fieldscribe.targets.rust.families import OfFamily, code_names, constants
+from fieldscribe.targets.rust.families import RustFamily, code_names, constants
 from fieldscribe.targets.rust.layout import Item, array, binding
 from fieldscribe.targets.rust.literals import type_name
 
@@ -93,7 +93,7 @@ def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
         yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
 
 
-IN_RUST = OfFamily(
+IN_RUST = RustFamily(
     context,
     traits,
     identifiers,

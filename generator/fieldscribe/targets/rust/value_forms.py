@@ -27,7 +27,7 @@ _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 
 
 def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, ...]:
-    """The fact about the result of decoding."""
+    """Return the fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
     if subject.form == "scaled" and subject.shape.rule is None:
         return _ruled(subject, scope, kind)
@@ -37,7 +37,7 @@ def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, 
 
 
 def _value_type(subject: CratePoint, enum: str) -> str:
-    """The type of a value that is no special code."""
+    """Return the type of a value that is no special code."""
     if subject.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
@@ -50,7 +50,7 @@ def _value_type(subject: CratePoint, enum: str) -> str:
 
 
 def count_type(subject: CratePoint) -> str:
-    """The integer that holds the counts of a point; empty if it has none."""
+    """Return the integer that holds the counts of a point; empty if it has none."""
     point = subject.point
     if subject.form in ("float", "text", "digits"):
         return ""
@@ -64,7 +64,7 @@ def count_type(subject: CratePoint) -> str:
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:
-    """The form of a point whose scale, if any, depends on no other point, with the facts of the form."""
+    """Return the form of a point whose scale, if any, depends on no other point, with the facts of the form."""
     point = subject.point
     if subject.shape.rule is not None:
         numbers = [subject.shape.rule.ratio, *([subject.shape.rule.offset] if subject.shape.rule.offset else ())]
@@ -80,7 +80,7 @@ def _form(subject: CratePoint) -> tuple[str, str]:
 
 
 def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:
-    """The form of a scale that depends on other points: its rule, and the raw numbers that it can compute with."""
+    """Return the form of a scale that depends on other points: its rule, and the raw numbers that it accepts."""
     point = subject.point
     head = f"=> {kind}_or_error f64 as ruled(|with: {subject.factors_type}|"
     wide = "" if point.encodes_values else "; wide true"
@@ -96,7 +96,7 @@ def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]
 
 @lru_cache(maxsize=4096)
 def _width(rule: Linear, decimals: int, raw: str) -> int:
-    """The bits of the narrowest of `i32`, `i64`, `i128` that holds all integers of decoding into counts.
+    """Return the bits of the narrowest of `i32`, `i64`, `i128` that holds all integers of decoding into counts.
 
     They are linear in the raw number, so that they are largest at the ends of its type. The runtime rounds the quotient
     and proves the widths of its own steps (`path.rs`).
@@ -107,7 +107,7 @@ def _width(rule: Linear, decimals: int, raw: str) -> int:
 
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
-    """The lines that choose the case in force: in order, up to one that always holds."""
+    """Return the lines that choose the case in force: in order, up to one that always holds."""
     otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
     cases: list[tuple[str, list[str], Lines]] = []
     for case in point.scale or ():
@@ -127,14 +127,14 @@ def rule_lines(point: Point, lowered: Lowered) -> Lines:
 
 
 def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
-    """An arm for raw numbers that are one of these codes."""
+    """Yield an arm for raw numbers that are one of these codes."""
     yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
     yield from (f"        {line}" for line in chained(result))
     yield "    }"
 
 
 def rule_of(rule: Rule) -> Lines:
-    """The lines that compute a scale with its factors; special codes of factors are refused first."""
+    """Return the lines that compute a scale with its factors; special codes of factors are refused first."""
     codes = [code for operand in rule.steps for code in _codes(operand)]
     steps = [f".unless({' || '.join(codes)})"] if codes else []
     steps += [_step(operand, limit=False) for operand in rule.steps]
@@ -142,7 +142,7 @@ def rule_of(rule: Rule) -> Lines:
 
 
 def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
-    """The lines that compute a limit within its outermost bound; the bound itself if a special code lifts the limit."""
+    """Return the lines that compute a limit within its outermost bound; just the bound if a code lifts the limit."""
     rule = lowered.rule(limit.rule)
     factors = (_step(operand, limit=True) for operand in rule.steps)
     bound = integer(limit.outermost(low=lower))
@@ -160,7 +160,7 @@ def limit_lines(limit: Limit, lowered: Lowered, *, lower: bool) -> Lines:
 
 
 def interval(low: int, high: int) -> str:
-    """A pattern for the numbers from `low` to `high`."""
+    """Return a pattern for the numbers from `low` to `high`."""
     return integer(low) if low == high else f"{integer(low)}..={integer(high)}"
 
 
@@ -171,14 +171,14 @@ def _start(rule: Rule) -> str:
 
 
 def _codes(operand: Operand) -> Iterator[str]:
-    """The condition that the factor's point holds a special code."""
+    """Yield the condition that the factor's point holds a special code."""
     if operand.codes:
         bands = (interval(*band) for band in sorted(operand.codes))
         yield f"matches!({_raw_of(operand.point)}, {' | '.join(bands)})"
 
 
 def _step(operand: Operand, *, limit: bool) -> str:
-    """The call that puts a factor into a rule."""
+    """Return the call that puts a factor into a rule."""
     raw, times = _raw_of(operand.point), "limited_by" if limit and not operand.ten_to else "times"
     if operand.floating:
         return f".{'over' if operand.over else times}_f32({raw})"
@@ -196,7 +196,7 @@ def _raw_of(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ArgumentsView:
-    """A struct of the raw numbers that a point needs; `old_names` is the text of what it was called."""
+    """A struct of the raw numbers that a point needs; `old_names` is the text of its old names."""
 
     doc: str
     name: str
@@ -207,7 +207,7 @@ class ArgumentsView:
 
 
 def arguments_views(scope: CrateScope, render: Render) -> Iterator[ArgumentsView]:
-    """The structs of raw numbers that points need."""
+    """Yield the structs of raw numbers that points need."""
     needy = [subject for subject in scope.subjects if subject.arguments]
     links = _links(scope) if needy else {}
     for subject in needy:
@@ -234,12 +234,12 @@ def _fields(
 
 
 def _source(name: str, links: Mapping[str, list[str]]) -> str:
-    """The points whose raw number an argument is: several if variants of the device differ."""
+    """Return the points whose raw number an argument is: several if variants of the device differ."""
     return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
 
 
 def _links(scope: CrateScope) -> dict[str, list[str]]:
-    """Links to the points of each name and item."""
+    """Return links to the points of each name and item."""
     links: dict[str, list[str]] = {}
     for subject in scope.subjects:
         for name in {subject.item, subject.point.name}:

@@ -1,4 +1,4 @@
-"""The view of one point."""
+"""The view of one point: its macros, tables and enumerators, and the functions that convert it."""
 
 from __future__ import annotations
 
@@ -71,26 +71,26 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, brings: Br
 
 
 def computes_in_double(point: Point) -> bool:
-    """Whether the value is a double even where values are float by choice."""
+    """Return True if the value is a double even where values are float by choice."""
     if point.form != "scaled":
         return point.form == "float" and point.info.bits == 64
     return bool(point.scale_arguments) or scaled(point, *point.outer).wide
 
 
 def named_numbers(point: Point) -> Enum | None:
-    """The enum that names the point's numbers, or each of its digits."""
+    """Return the enum that names the point's numbers, or each of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
 
 
 def names_of(point: Point, fields: PointFields) -> tuple[str, str]:
-    """The name of the point's enum, also in capitals; an enum of its own has the point's name."""
+    """Return the name of the point's enum, also in capitals; an enum of its own has the point's name."""
     enum = named_numbers(point)
     assert enum is not None
     return (fields.item, fields.macro) if enum.name == point.item else (enum.name, upper(enum.name))
 
 
 def shape_of(point: Point) -> str:
-    """The form of the point's functions: `plain`, `scaled`, `ruled`, `float`, `text` or `digits`."""
+    """Return the form of the point's functions: `plain`, `scaled`, `ruled`, `float`, `text` or `digits`."""
     form = point.form
     if form == "scaled":
         return "ruled" if point.scale_arguments else form
@@ -98,7 +98,7 @@ def shape_of(point: Point) -> str:
 
 
 def functions_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[Function]:
-    """All functions of a point."""
+    """Yield all functions of a point."""
     name, writer = view.function, Writer(point, view, scope)
     if view.shape == "text":
         yield from text_functions(point, name)
@@ -117,7 +117,7 @@ def functions_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[
 
 
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
-    """The arrays of a point: the words of a text, its ranges if it is the first that has them."""
+    """Yield the arrays of a point: the words of a text, its ranges if it is the first that has them."""
     if point.text is not None:
         rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
         yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
@@ -127,7 +127,7 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
 
 
 def _enum_view(point: Point, fields: PointFields, scope: HeaderScope) -> EnumView:
-    """The enumerators."""
+    """Return the enumerators of a point's numbers, and the function that looks their names up."""
     enum, (prefix, macro) = named_numbers(point), names_of(point, fields)
     assert enum is not None
     entries: list[tuple[str, str, str]] = []
@@ -154,7 +154,7 @@ _TABLES = {"dense": "char *const", "sparse": "fieldscribe_name", "wide": "fields
 
 
 def _form_of(named: Mapping[int, tuple[str, str]], *, digits: bool) -> str:
-    """The form of the table of names: `dense` if the numbers count from 0, else `sparse` or `wide` with the numbers."""
+    """Return the form of a table of names: `dense` if its numbers count from 0, else `sparse` or `wide`."""
     if not digits and sorted(named) == list(range(len(named))):
         return "dense"
     return "sparse" if all(-(1 << 31) <= raw < 1 << 31 for raw in named) else "wide"
@@ -182,7 +182,7 @@ def _lookup(name: str, table: str, kind: str, form: str) -> str:
 
 
 def _flag_function(flag: Flag, point: Point, name: str) -> Function:
-    """The function that takes a flag of several bits out of the raw number."""
+    """Return the function that takes a flag of several bits out of the raw number."""
     bits = point.info.bits
     kind, wide = f"uint{bits}_t", "_wide" if bits > 16 else ""
     raw = f"(uint{max(16, bits)}_t)raw" if point.info.signed else "raw"

@@ -11,10 +11,10 @@ from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.targets.rust.documentation import PointDoc
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.families import in_rust, space_variant
-from fieldscribe.targets.rust.forms import form_lines
 from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.point_facts import code_lines, read_lines, write_lines
+from fieldscribe.targets.rust.value_forms import form_lines
 from fieldscribe.text import rust_code, rust_string
 from fieldscribe.wording import raw_range_text
 
@@ -32,7 +32,7 @@ _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
 
 
 @dataclass(frozen=True, slots=True)
-class PointView:
+class MacroView:
     """One point: its doc comment, the manual's code to search for (or empty), and its facts."""
 
     doc: str
@@ -61,7 +61,7 @@ class MacroFields(NamedTuple):
     references: str
 
 
-class LimitFields(NamedTuple):
+class LimitLiterals(NamedTuple):
     """The limits of a point for its doc comment, and their ends in code."""
 
     text: str
@@ -83,7 +83,7 @@ class _PointTemplates:
         self._scope, self._render = scope, render
         self._traits = in_rust(scope.family).traits
         self._templates: dict[object, TextTemplate] = {}
-        self._limits: dict[tuple[int, int], LimitFields] = {}
+        self._limits: dict[tuple[int, int], LimitLiterals] = {}
         self._docs: dict[int, PointDoc] = {}
         self.names_runtime = False
 
@@ -124,13 +124,13 @@ class _PointTemplates:
     def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...]) -> TextTemplate:
         self.names_runtime |= bool(traits) or _names_runtime(subject)
         facts = (*_facts(subject.renamed(fields.item, fields.name), fields, self._scope), *traits)
-        view = PointView(fields.doc, fields.alias, fields.name, facts)
+        view = MacroView(fields.doc, fields.alias, fields.name, facts)
         old_names = old_names_text(fields.name, subject.point.old_items, self._render)
         return TextTemplate(self._render("rust/point.rs.j2", {"point": view}) + old_names)
 
 
 def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
-    """The facts in the order of the macro."""
+    """Yield the facts in the order of the macro."""
     point = subject.point
     yield f'{fields.name}: {subject.raw} = "{fields.item}"{fields.code and ", "}{fields.code};'
     yield from _whereabouts(point, fields)
@@ -153,14 +153,14 @@ def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Itera
 
 
 def _names_runtime(subject: CratePoint) -> bool:
-    """Whether the facts name items of the runtime: the type of a text, the check of digits, or rules."""
+    """Return True if the facts name items of the runtime: the type of a text, the check of digits, or rules."""
     point = subject.point
     checked = point.digits is not None or bool(point.limit_arguments)
     return point.text is not None or bool(subject.factors) or (point.writable and checked)
 
 
 def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
-    """The facts about addresses, index, telegram and constant bits."""
+    """Yield the facts about addresses, index, telegram and constant bits."""
     yield f"at {space_variant(point.space)} {fields.address};"
     if fields.addresses:
         yield fields.addresses
@@ -179,13 +179,13 @@ def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
 
 
-def _limits_of(subject: CratePoint) -> LimitFields:
+def _limits_of(subject: CratePoint) -> LimitLiterals:
     """Return the limits of a point; more than one range is not written by its ends."""
     point, raw = subject.point, subject.raw
     ends, span = point.outer, raw_range_text(point)
     unwritten = subject.form in _UNLIMITED or ends == type_range(raw)
     low, high = ("", "") if unwritten else (raw_literal(ends[0], raw), raw_literal(ends[1], raw))
-    return LimitFields(span and rust_code(span), low, high)
+    return LimitLiterals(span and rust_code(span), low, high)
 
 
 def _addresses(addresses: tuple[int, ...]) -> str:
@@ -193,12 +193,12 @@ def _addresses(addresses: tuple[int, ...]) -> str:
 
 
 def _references(references: Mapping[str, int | str]) -> str:
-    """The manual's other numberings of the point."""
+    """Return the manual's other numberings of the point."""
     return "\n    ".join([f"const {key.upper()}: {_typed(number)};" for key, number in references.items()])
 
 
 def _typed(number: int | str) -> str:
-    """The type of a numbering and the number in it."""
+    """Return the type of a numbering and the number in it."""
     if isinstance(number, str):
         return f"&'static str = {rust_string(number)}"
     return f"{'u32' if 0 <= number < 1 << 32 else 'i64'} = {integer(number)}"

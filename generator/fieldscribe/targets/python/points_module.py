@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from fieldscribe.lowered import lower
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.forms import NUMBERED, addresses_of, place_of_command
 from fieldscribe.targets.python.identifiers import (
     Identifiers,
     PackageScope,
@@ -18,6 +17,7 @@ from fieldscribe.targets.python.identifiers import (
     sorted_imports,
 )
 from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
+from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, place_of_command
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ class GroupView:
 
     @property
     def text(self) -> str:
-        """All of them."""
+        """The texts of all attributes."""
         return "".join(self.attributes)
 
 
@@ -61,7 +61,7 @@ class PointsView:
 
 
 def points_view(device: Device, names: Identifiers, render: Render) -> PointsView:
-    """All points, group by group."""
+    """Return all points, group by group."""
     family = in_python(device)
     errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
     scope = PackageScope(names, lower(device), device.variants, errata, {"PointTable"})
@@ -96,7 +96,7 @@ def points_view(device: Device, names: Identifiers, render: Render) -> PointsVie
 
 
 def _documented(point: Point, scope: PackageScope) -> Group:
-    """Why the point has no attribute, and the addresses of its words, if they can be reached."""
+    """Return why the point has no attribute, and the addresses of its words, if they can be reached."""
     scope.used.add("Documented")
     index, addresses = "" if point.index is None else str(point.index), _shown_addresses(point)
     where = list(places(point, addresses, index, scope)) if point.raw_only else []
@@ -106,7 +106,7 @@ def _documented(point: Point, scope: PackageScope) -> Group:
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
-    """The used names by their modules, sorted for imports."""
+    """Return the used names by their modules, sorted for imports."""
     of_family = used & family.exports if family.module != RUNTIME else set()
     imports = [(RUNTIME, sorted_imports(used - of_family)), (family.module, sorted_imports(of_family))]
     return [(module, names) for module, names in imports if names]
@@ -121,7 +121,7 @@ def _labelled(point: Point) -> str:
 
 
 def _open_points(device: Device) -> Iterable[str]:
-    """The lines of a list of points whose type or scale is open, with their wire addresses."""
+    """Yield the lines of a list of points whose type or scale is open, with their wire addresses."""
     for point in device.points:
         if not point.raw_only:
             continue
@@ -132,12 +132,12 @@ def _open_points(device: Device) -> Iterable[str]:
 
 
 def _indented(text: str) -> list[str]:
-    """The lines of an item of a list; those after the first are indented."""
+    """Return the lines of an item of a list; those after the first are indented."""
     return textwrap.wrap(text, DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
 
 
 def _variants(device: Device) -> Group:
-    """The values of each variant axis."""
+    """Return the values of each variant axis."""
     entries = [
         Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))
         for axis, values in device.variants.items()
@@ -146,7 +146,7 @@ def _variants(device: Device) -> Group:
 
 
 def _commands(device: Device, scope: PackageScope) -> Iterable[AttributeView]:
-    """The attributes of the commands."""
+    """Yield the attributes of the commands."""
     for command, name in command_attributes(device):
         scope.used.add("Command")
         where = place_of_command(command, scope)

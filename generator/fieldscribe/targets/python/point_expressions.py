@@ -22,7 +22,7 @@ NUMBERED = frozenset({"parameter", "telegram"})
 
 
 def form(point: Point, named: str, scope: PackageScope) -> Node:
-    """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`; `named` is the class of its numbers or flags."""
+    """Return the form of a point: `Scaled(U16, Rule(num=10), decimals=1)`; `named` is its class of numbers or flags."""
     inner = _plain_form(point, named, scope)
     if not point.specials:
         return inner
@@ -34,7 +34,7 @@ def form(point: Point, named: str, scope: PackageScope) -> Node:
 
 
 def _codes(point: Point, scope: PackageScope) -> Node:
-    """The special codes of a point; shared ones by the name of their constant."""
+    """Return the special codes of a point; shared ones by the name of their constant."""
     scope.used.add("Codes")
     if not point.shared_codes:
         return call("Codes", _code_arguments(point))
@@ -99,7 +99,7 @@ def _scaled(point: Point, wire: str, scope: PackageScope) -> Node:
 
 
 def _named_facts(point: Point) -> Iterator[str]:
-    """What a form with a class of names says about it."""
+    """Yield what a form with a class of names says about it."""
     if point.digits is not None:
         yield f"count={point.digits.count}"
     elif point.enum is not None and point.enum.closed:
@@ -122,7 +122,7 @@ def _text(point: Point, scope: PackageScope) -> Node:
 
 
 def _only_named(point: Point) -> bool:
-    """Whether the numbers that may be written are exactly those of the closed enum."""
+    """Return True if the numbers that may be written are exactly those of the closed enum."""
     if point.enum is None or not point.enum.closed:
         return False
     named, ranges = {entry.raw for entry in point.enum.entries}, point.allowed.fixed
@@ -149,7 +149,7 @@ def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
 
 
 def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node:
-    """A linear rule as integers; factors of a scale have their special codes with them."""
+    """Return a linear rule as integers; factors of a scale have their special codes with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
     if ratio.numerator != 1:
@@ -183,14 +183,14 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
 
 
 def is_limited(point: Point) -> bool:
-    """Whether the raw numbers that may be written are fewer than the type or the enum says."""
+    """Return True if the raw numbers that may be written are fewer than the type or the enum says."""
     if point.form in ("float", "text", "digits") or _only_named(point):
         return False
     return point.allowed.fixed != ((point.least, point.greatest),)
 
 
 def allowed(point: Point, ends: tuple[str, ...], scope: PackageScope) -> Node:
-    """The argument for the raw numbers that may be written; `ends` are those of its intervals, if they are words."""
+    """Return the argument for the raw numbers that may be written; `ends`, if any, are the bounds of its intervals."""
     bounds = ends or [
         _bound(end, scope) for interval in point.allowed.intervals for end in (interval.low, interval.high)
     ]
@@ -218,12 +218,12 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
 
 
 def addresses_of(addresses: tuple[int, ...], *, numbered: bool) -> list[str]:
-    """Addresses as literals: `numbered` ones in decimal."""
+    """Return addresses as literals: `numbered` ones in decimal."""
     return [str(address) if numbered else f"0x{address:04X}" for address in addresses]
 
 
 def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Node:
-    """A place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
+    """Return a place of a point as an argument, such as `at=holding(0x1028)`, with its index in an array."""
     beside = (f"index={index}",) if index else ()
     if point.space not in NUMBERED:
         return _place(keyword, point.space, addresses, beside, scope)
@@ -233,7 +233,7 @@ def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scop
 
 
 def place_of_command(command: Command, scope: PackageScope) -> Node:
-    """The place that a command writes to, with the function that it takes."""
+    """Return the place that a command writes to, with the function that it takes."""
     address = addresses_of((command.address,), numbered=False)
     return _place("at", command.space, address, (f"function=0x{command.function:02X}",), scope)
 
@@ -247,5 +247,5 @@ def _place(keyword: str, space: str, addresses: Iterable[str], beside: tuple[str
 
 
 def number(value: Fraction, binary: bool = False) -> str:
-    """A number as a literal; `binary` makes whole numbers floats too."""
+    """Return a number as a literal; `binary` makes whole numbers floats too."""
     return str(value.numerator) if value.denominator == 1 and not binary else repr(float(value))
