@@ -11,10 +11,10 @@ from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
+from fieldscribe.targets.vectors.computations import Computations
 from fieldscribe.targets.vectors.identity import Form, Identities
-from fieldscribe.targets.vectors.meaning import Meanings
 from fieldscribe.targets.vectors.scaled import Scaled
-from fieldscribe.targets.vectors.sheets import Sheets
+from fieldscribe.targets.vectors.shared_vectors import SharedVectors
 from support.described import DEVICES, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
 from support.places import ROOT
@@ -79,8 +79,8 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetting(monkeypatch, Identities, "add", "_parts")
     forgetting(monkeypatch, Identities, "add", "_shared")
-    forgetting(monkeypatch, Meanings, "of", "_met")
-    forgetting(monkeypatch, Sheets, "of_bits", "_parts")
+    forgetting(monkeypatch, Computations, "of", "_met")
+    forgetting(monkeypatch, SharedVectors, "of_bits", "_parts")
     forgetting(monkeypatch, Scaled, "_of", "_conversions")
     forgetting(monkeypatch, ModbusWire, "script", "_first")
     assert text_of(device) == SOUND[device.id]
@@ -142,13 +142,13 @@ def test_a_forgotten_part_of_the_form_of_an_identity_is_caught(part: str, monkey
 
 @pytest.mark.parametrize("part", range(5), ids=["shape", "allowed", "bits", "order", "symbol"])
 def test_a_forgotten_part_of_a_meaning_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Meanings, "_met", part)
+    sharing_more(monkeypatch, Computations, "_met", part)
     assert caught()
 
 
 @pytest.mark.parametrize("part", range(3), ids=["shape", "entries", "closed"])
 def test_a_forgotten_part_of_what_makes_shapes_alike_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Meanings, "_alike", part)
+    sharing_more(monkeypatch, Computations, "_alike", part)
     assert caught()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.bus import add_limits
+from fieldscribe.targets.vectors.family_vectors import add_limits
 
 from toy_family import of_bus
 from toy_family.frames import strike

@@ -1,58 +1,36 @@
-"""All vectors of a device, part by part, with those of its family."""
+"""All vectors of a device, with those of its family."""
 
 from __future__ import annotations
 
 from operator import attrgetter
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.vectors.bus import add_limits
+from fieldscribe.targets.vectors.computations import Computations
 from fieldscribe.targets.vectors.exchanges import Exchanges
+from fieldscribe.targets.vectors.family_vectors import FamilyVectors, add_limits
 from fieldscribe.targets.vectors.identity import Identities
 from fieldscribe.targets.vectors.lines import Lines, rows
-from fieldscribe.targets.vectors.meaning import Meanings
 from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.sheets import Sheets
+from fieldscribe.targets.vectors.shared_vectors import SharedVectors
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from fieldscribe.model import Bus, Device
-    from fieldscribe.targets.vectors.exchanges import Wire
-
-
-class OfFamily:
-    """The part `targets.vectors` of a family. These are the defaults."""
-
-    KINDS: Mapping[str, str] = MappingProxyType({})
-    """The kinds of vectors that only this family has, with the fields of their lines."""
-
-    def limits(self, lines: Lines, bus: Bus) -> None:
-        """Add the vectors of the constants of the bus."""
-
-    def frames(self, lines: Lines, device: Device) -> None:
-        """Add the vectors of the frames of a device."""
-
-    def wires(self, device: Device) -> Sequence[Wire]:
-        """The ways in which points travel, with the usual way first."""
-        del device
-        return ()
+    from fieldscribe.model import Device
 
 
 def collect(device: Device) -> Lines:
-    """All vectors of a device: its points by address, then its frames and blocks.
+    """Return all vectors of a device: its points by address, then its frames and blocks.
 
-    What is tried in depth, or with bad answers, is tried at the first of all that are alike.
+    Of points that are computed by the same rules, only the first is tried in depth and with bad answers.
     """
-    family_part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
+    family_part: FamilyVectors = family(device.family).part("targets.vectors") or FamilyVectors()
     lines = Lines(rows(family_part.KINDS))
     oracle = Oracle({point.name: point for point in reversed(device.points)})
-    meanings = Meanings()
-    sheets = Sheets(lines, oracle, meanings)
+    computations = Computations()
+    shared_vectors = SharedVectors(lines, oracle, computations)
     identities = Identities(lines, device.variants)
     points = {point.item: point for point in sorted(device.points, key=attrgetter("rank")) if point.generated}
-    exchanges = [Exchanges(lines, oracle, meanings, points, wire) for wire in family_part.wires(device)]
+    exchanges = [Exchanges(lines, oracle, computations, points, wire) for wire in family_part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for collector in usual:
         collector.open()
@@ -60,12 +38,12 @@ def collect(device: Device) -> Lines:
         lines.add("variant", axis, choices)
     _limits(lines, device, family_part)
     for point in points.values():
-        meaning = meanings.of(point)
+        computation = computations.of(point)
         identities.add(point)
-        lines.include(sheets.of(meaning))
-        lines.include(sheets.of_bits(meaning))
+        lines.include(shared_vectors.of(computation))
+        lines.include(shared_vectors.of_bits(computation))
         for collector in usual:
-            collector.of(point, meaning)
+            collector.of(point, computation)
         lines.gather(_MANY)
     for collector in others:
         collector.open()
@@ -83,11 +61,11 @@ def collect(device: Device) -> Lines:
 
 
 _MANY = 200
-"""So many new lines and parts are joined at once."""
+"""The number of new lines that are joined at once."""
 
 
-def _limits(lines: Lines, device: Device, family_part: OfFamily) -> None:
-    """Add all vectors of constants."""
+def _limits(lines: Lines, device: Device, family_part: FamilyVectors) -> None:
+    """Add the vectors of constants."""
     add_limits(lines, first_unit=device.bus.units[0], last_unit=device.bus.units[1])
     family_part.limits(lines, device.bus)
     for telegram in device.telegrams:

@@ -1,6 +1,6 @@
-"""Vectors of what tells a point from others: its places, references, old names, type and limits, read from the point.
+"""Vectors of the identity of a point: its places, references, old names, type and limits.
 
-Points whose identities have the same form share one pattern, into which each puts its own words.
+Points whose identities have the same form share one text template, which each fills with its own words.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 class Form(NamedTuple):
-    """All that the lines of an identity follow from beside its words: first what shape and terms say."""
+    """All facts that the lines of an identity depend on, except its words; those of shape and terms come first."""
 
     type: str
     words: int
     decimals: int | None
-    """Of counts, where there are some."""
+    """Decimals of counts; None if there are no counts."""
     display: int | None
     space: str
     has_limits: bool
@@ -39,11 +39,11 @@ class Form(NamedTuple):
     has_code: bool
     references: tuple[str, ...]
     placed: tuple[tuple[int, ...], int | None, str | None] | None
-    """Addresses, index and telegram of a point that its lowest address does not find."""
+    """Addresses, index and telegram, if the lowest address does not identify the point."""
     default: float | None
     variant: str | None
     written: tuple[str, tuple[int, ...]] | None
-    """The space and the addresses where the point is written, if not where it is read."""
+    """Space and addresses for writing, if they differ from those for reading."""
     aliases: tuple[str, ...]
 
 
@@ -56,7 +56,7 @@ class Identities:
         self._shared: dict[tuple[int, int], tuple[tuple[object, ...], str]] = {}
 
     def add(self, point: Point) -> None:
-        """Name the point, and add what is its own: facts in which whoever shares too much goes wrong."""
+        """Set the point and add its own facts: a target that shares too much between points gets these wrong."""
         shape, terms = point.shape, point.terms
         shared = self._shared.get((id(shape), id(terms)))
         if shared is None:
@@ -107,7 +107,7 @@ def _own(point: Point) -> tuple[object, ...]:
 
 
 def _words(point: Point, group: str) -> tuple[str, ...]:
-    """What most points have of their own, in the notation of its field."""
+    """Return the words that differ from point to point, in the notation of their fields."""
     shape, place, name, code = point.shape, point.place, word(point.name), point.code
     low, high = outer_bounds(shape, point.allowed) if shape.form not in _WITHOUT_LIMITS else ("", "")
     return (
@@ -123,7 +123,7 @@ def _words(point: Point, group: str) -> tuple[str, ...]:
 
 
 def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
-    """The name and the lines of a form; a word that is empty is absent."""
+    """Add the lines of a form; an empty word is absent."""
     item, name, group, address, code, low, high, *references = (Written(word) if word else None for word in words)
     lines.set("point", item)
     if form.has_address:
@@ -144,7 +144,7 @@ def _write(lines: Lines, form: Form, words: Iterable[str]) -> None:
 
 
 def _only_for(when: Condition, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
-    """The axis that decides whether the point exists, followed by the values for which it can."""
+    """Return the variant axis that decides whether the point exists, then the values for which it can exist."""
     for axis in when.names:
         left = [value for value in variants.get(axis, ()) if _possible_for(when, axis, value)]
         if len(left) < len(variants.get(axis, ())):
@@ -153,7 +153,7 @@ def _only_for(when: Condition, variants: Mapping[str, tuple[str, ...]]) -> tuple
 
 
 def _possible_for(condition: Condition, axis: str, value: str) -> bool:
-    """Whether some clause of the condition can hold for this value of the axis."""
+    """Return True if a clause of the condition can hold for this value of the axis."""
     return any(
         all(comparison.of != axis or comparison.holds(value) for comparison in clause) for clause in condition.clauses
     )

@@ -1,9 +1,9 @@
 """The table of all kinds of vectors, and the notation of the fields of their lines.
 
-A file has lines of fields, separated by tabs. Its head names the device, then every set and every kind in it, with the
-fields and their forms, so that no runner needs a list of its own. A set is what the vectors below it share until it is
-set anew; it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a
-line. A runner compares every field with something, except notes.
+A file has lines of fields, separated by tabs. Its head names the device, then every set and every kind in it with the
+fields and their forms, so no runner needs a list of its own. A set holds for the vectors below it until it is set again;
+setting it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a line.
+A runner compares every field with something, except notes.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ class Kind:
 
     fields: tuple[tuple[str, str], ...]
     optional: frozenset[str]
-    """Fields that may be absent; in the table they end in a question mark."""
+    """Fields that may be absent: in the table they end in a question mark."""
     only: str = ""
-    """The languages that have this in code and not only in comments; empty for all."""
+    """The languages that have this in code and not only in comments; empty means all."""
 
 
 def _kind(row: str) -> Kind:
@@ -123,11 +123,11 @@ KINDS = table(
 
 
 class Written(str):
-    """A word in the notation of its field, which is part of a line as it is."""
+    """A text that is already in the notation of its field."""
 
 
 def _other(value: object, kind: str) -> str:
-    """What stands for any field: nothing, or a word that is written already."""
+    """Return the notation of an absent or already written field. Raises TypeError for any other value."""
     if value is None:
         return ABSENT
     if type(value) is Written:
@@ -238,7 +238,7 @@ class Row:
         return "\t".join((self.name, *words))
 
     def _look_at(self, words: list[str], values: Sequence[object]) -> None:
-        """Refuse too many fields, and the lack of one that every line needs; leave out what is absent at the end."""
+        """Remove absent fields at the end. Raises ValueError for too many fields or a missing one."""
         if len(values) > self._most:
             raise ValueError(f"{self.name} has no more than {self._most} fields")
         for place, (key, _) in enumerate(self.kind.fields):

@@ -15,7 +15,7 @@ FORMAT = 2
 
 
 def rows(further: Mapping[str, str] = MappingProxyType({})) -> dict[str, Row]:
-    """What writes the lines of each kind; `further` are the kinds that only the device's family has."""
+    """Return the writer of each kind's lines; `further` are the kinds of the device's family."""
     return ROWS | {name: Row(name, kind) for name, kind in table(further).items()}
 
 
@@ -37,7 +37,7 @@ class Lines:
         self._joined: str | None = None
 
     def set(self, name: str, *values: object) -> None:
-        """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
+        """Set what the following vectors share; the line is written when a vector follows and the set has changed."""
         line = _SETS[name].line(values)
         if self._wanted or line != self._held.get(name, name):
             self._wanted[name] = line
@@ -61,11 +61,11 @@ class Lines:
         self._numbers[kind] += len(lines)
 
     def apart(self) -> Lines:
-        """No lines yet, of the same kinds: for vectors that are included in several places."""
+        """Return an empty collection of the same kinds, for vectors that are included in several places."""
         return Lines(self._rows)
 
     def include(self, part: Lines, text: str | None = None) -> None:
-        """Add all vectors of a part, which set only what comes after the sets in force; `text` if blanks are filled."""
+        """Add all vectors of a part. A part may override inner sets only. `text` replaces its lines (a filled template)."""
         if part.joined:
             if self._wanted:
                 self._settle()
@@ -80,14 +80,14 @@ class Lines:
 
     @property
     def joined(self) -> str:
-        """The lines of a part that is complete."""
+        """The text of a complete part."""
         if self._joined is None:
             self._joined = "\n".join(self._open)
             self._open.clear()
         return self._joined
 
     def _counts(self) -> Counter[str]:
-        """How many vectors of each kind there are."""
+        """Return the number of vectors of each kind."""
         counts = Counter(self._numbers)
         for part, times in Counter(self._included).items():
             for kind, number in part._numbers.items():
@@ -107,7 +107,7 @@ class Lines:
         wanted.clear()
 
     def gather(self, least: int = 1) -> None:
-        """Join the new lines and parts if there are so many: one long string takes less memory."""
+        """Join the lines added since the last call if there are at least so many: one long string needs less memory."""
         if len(self._open) >= least:
             self._chunks.append("\n".join(self._open))
             self._open.clear()

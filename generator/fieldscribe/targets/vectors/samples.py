@@ -7,7 +7,7 @@ from functools import lru_cache
 from math import gcd
 
 from fieldscribe.model import Allowed, Factor, Limit, Shape
-from fieldscribe.targets.vectors.meaning import MANY, Meaning
+from fieldscribe.targets.vectors.computations import MANY, Computation
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
 
 Limits = Sequence[tuple[int, int]]
@@ -29,7 +29,7 @@ _FACTORS_32 = (
 
 
 def edges(limits: Limits) -> dict[int, None]:
-    """Each limit and the number beyond it, so that every hole of a list is tried."""
+    """Return each limit and the number beyond it, so that every hole of a list is tried."""
     raws: dict[int, None] = {}
     for low, high in limits:
         for raw in (low, high, low - 1, high + 1):
@@ -38,12 +38,12 @@ def edges(limits: Limits) -> dict[int, None]:
 
 
 def limits_to_try(limits: Limits) -> Limits:
-    """The limits that are tried for each point of a shape: all of a few, the ends of a long list."""
+    """Return the limits to try: all of a short list, the first and last of a long one."""
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
 def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
+    """Return raw numbers to decode: limits; if `deep`, also special codes, the ends of the type and around zero."""
     if not deep:
         return _held(shape, (limits[0][0], limits[-1][1]))
     raws = {raw: None for interval in limits for raw in interval}
@@ -121,33 +121,33 @@ def raw_telling_division(ratio: Ratio) -> int | None:
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
-def settings(oracle: Oracle, meaning: Meaning, *, deep: bool = True) -> list[dict[str, int]]:
+def settings(oracle: Oracle, computation: Computation, *, deep: bool = True) -> list[dict[str, int]]:
     """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
     Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
     which shows exchanged arguments, and each case is met once.
     """
-    names = meaning.arguments
+    names = computation.arguments
     if not names:
         return [{}]
-    base = {name: _typical(oracle, meaning, name) for name in names}
+    base = {name: _typical(oracle, computation, name) for name in names}
     if not deep:
-        cases = [(case.point, case.raw) for case in meaning.shape.scale or () if case.point is not None]
-        last = [(name, raw) for name in names for raw in _choices(oracle, meaning, name)[-2:] if raw != base[name]]
+        cases = [(case.point, case.raw) for case in computation.shape.scale or () if case.point is not None]
+        last = [(name, raw) for name in names for raw in _choices(oracle, computation, name)[-2:] if raw != base[name]]
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
-    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, meaning, name))]
+    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, computation, name))]
     # Each case with all choices of its own factors, not only those of the first case.
-    for case in meaning.shape.scale or ():
+    for case in computation.shape.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
-                raws = _choices(oracle, meaning, factor.point)
+                raws = _choices(oracle, computation, factor.point)
                 chosen += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
     return list({tuple(setting.items()): setting for setting in chosen}.values())
 
 
-def _typical(oracle: Oracle, meaning: Meaning, name: str) -> int:
-    for case in meaning.shape.scale or ():
+def _typical(oracle: Oracle, computation: Computation, name: str) -> int:
+    for case in computation.shape.scale or ():
         if case.point == name and case.raw is not None:
             return case.raw
     if (source := oracle.points.get(name)) is not None and source.shape.info.floating:
@@ -157,11 +157,11 @@ def _typical(oracle: Oracle, meaning: Meaning, name: str) -> int:
     return middle or min(high, 1)
 
 
-def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
+def _choices(oracle: Oracle, computation: Computation, name: str) -> list[int]:
     """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
     bands = [
         band
-        for limit in limits_of(meaning.allowed)
+        for limit in limits_of(computation.allowed)
         for other, codes in limit.unless
         if other == name
         for band in codes[:4]
@@ -172,9 +172,9 @@ def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
     if source is not None and source.shape.info.floating:
         return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.shape.greatest]
     low, high = _bounds(oracle, name)
-    cases = [case.raw for case in meaning.shape.scale or () if case.point == name and case.raw is not None]
+    cases = [case.raw for case in computation.shape.scale or () if case.point == name and case.raw is not None]
     raws = [*cases, max(cases) + 1] if cases else [low, high]
-    for factor in _factors(meaning):
+    for factor in _factors(computation):
         if factor.point != name:
             continue
         if factor.ten_to:
@@ -183,15 +183,17 @@ def _choices(oracle: Oracle, meaning: Meaning, name: str) -> list[int]:
             raws.append(-factor.intercept // factor.slope)
     raws += lifting
     if source is not None and any(
-        factor.point == name for limit in limits_of(meaning.allowed) for factor in limit.rule.factors
+        factor.point == name for limit in limits_of(computation.allowed) for factor in limit.rule.factors
     ):
         raws.append(max(source.shape.least, 0) + 1)  # a computed limit beyond the outermost one
     return [raw for raw in dict.fromkeys(raws) if source is None or source.shape.least <= raw <= source.shape.greatest]
 
 
-def _factors(meaning: Meaning) -> list[Factor]:
+def _factors(computation: Computation) -> list[Factor]:
     """All factors of the scale and the limits."""
-    rules = [case.rule for case in meaning.shape.scale or ()] + [limit.rule for limit in limits_of(meaning.allowed)]
+    rules = [case.rule for case in computation.shape.scale or ()] + [
+        limit.rule for limit in limits_of(computation.allowed)
+    ]
     return [factor for rule in rules for factor in rule.factors]
 
 

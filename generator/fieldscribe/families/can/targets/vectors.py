@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import CanFrame, build, checksum, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.targets.vectors.bus import add_limits
-from fieldscribe.targets.vectors.exchanges import codes
+from fieldscribe.targets.vectors.family_vectors import add_codes, add_limits
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bus, Device, Message, Point, Telegram
-    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.family_vectors import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 KINDS = {
@@ -102,7 +101,7 @@ def frames(lines: Lines, device: Device) -> None:
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
     lines.add("can_bus", identifier_bits(device.bus), of_bus(device.bus).bitrate)
-    codes(lines, "constant", "exception", device.bus.exceptions)
+    add_codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
         members = (point for point in device.points if point.generated and point.readable and point.group == group.name)
         addresses = [address for point in members if point.space == "parameter" for address in point.addresses]

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Reply, Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, frame
-from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
-from fieldscribe.targets.vectors.exchanges import codes, writing_addresses
+from fieldscribe.targets.vectors.family_vectors import NO_BROADCAST, add_codes, add_limits, writing_addresses
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Bus, Device, Point
-    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.family_vectors import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 KINDS = {
@@ -136,7 +135,7 @@ def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
 
 def frames(lines: Lines, device: Device) -> None:
     """All vectors for Modbus frames."""
-    codes(lines, "code", "exception", device.bus.exceptions)
+    add_codes(lines, "code", "exception", device.bus.exceptions)
     commands(lines, device)
     builds(lines, device.bus)
     replies(lines, device.bus)

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.families.uss.parts import DOUBLE_RESPONSES, VARIABLE, Link, parameter_words
 from fieldscribe.families.uss.telegrams import LAST_PARAMETER, START, Request, broadcast, build, parse, telegram
-from fieldscribe.targets.vectors.bus import NO_BROADCAST, add_limits
-from fieldscribe.targets.vectors.exchanges import codes
+from fieldscribe.targets.vectors.family_vectors import NO_BROADCAST, add_codes, add_limits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bus, Device, Frame, Point
-    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.family_vectors import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 KINDS = {
@@ -130,9 +129,9 @@ def wires(device: Device) -> list[UssWire]:
 
 def frames(lines: Lines, device: Device) -> None:
     """All vectors for the telegrams of a USS device."""
-    codes(lines, "constant", "task", device.bus.functions)
-    codes(lines, "constant", "response", of_bus(device.bus).responses)
-    codes(lines, "code", "error", device.bus.exceptions)
+    add_codes(lines, "constant", "task", device.bus.functions)
+    add_codes(lines, "constant", "response", of_bus(device.bus).responses)
+    add_codes(lines, "code", "error", device.bus.exceptions)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
         _builds(dialogue)

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Shape
+    from fieldscribe.targets.vectors.computations import Computation
     from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.meaning import Meaning
 
 _NEAR = range(-400, 401)
 """Where halves of the last decimal are looked for."""
@@ -23,35 +23,35 @@ _NO_NUMBERS = {32: (0x7F80_0000, 0xFF80_0000, 0x7FC0_0000), 64: (0x7FF0 << 48, 0
 """Patterns of infinities and of what is no number."""
 
 
-def shown(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
-    """The texts of the values of a point that says with how many decimals they are shown."""
-    shape = meaning.shape
+def shown(lines: Lines, oracle: Oracle, computation: Computation, *, deep: bool) -> None:
+    """Add vectors of the displayed texts of a point that has `display`."""
+    shape = computation.shape
     if shape.display is None:
         return
-    for settings in samples.settings(oracle, meaning, deep=deep):
+    for settings in samples.settings(oracle, computation, deep=deep):
         if settings:
             lines.set("with", settings)
         if shape.info.floating:
-            _told(lines, meaning, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
+            _told(lines, computation, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
             continue
         ratio = oracle.ratio(shape, settings) if shape.scale else Ratio(1, 1, 0, 1)
-        raws = [0, 1] if isinstance(ratio, str) else _raws(meaning, ratio, deep=deep)
-        _told(lines, meaning, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
+        raws = [0, 1] if isinstance(ratio, str) else _raws(computation, ratio, deep=deep)
+        _told(lines, computation, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
 
 
-def _told(lines: Lines, meaning: Meaning, rows: Iterable[tuple[int, str, str]]) -> None:
-    """A line for each raw number, its status and its text; a special code is told by its name."""
-    unit = f" {meaning.symbol}" if meaning.symbol else ""
+def _told(lines: Lines, computation: Computation, rows: Iterable[tuple[int, str, str]]) -> None:
+    """Add a line for each raw number: status and text; a special code shows its name."""
+    unit = f" {computation.symbol}" if computation.symbol else ""
     for raw, status, text in rows:
-        code = code_of(meaning.shape, raw)
+        code = code_of(computation.shape, raw)
         told = f"{text}{unit}" if code is None else code.name
         lines.add("told", raw, "ok" if code is not None else status, told if code is not None or text else None)
 
 
-def _raws(meaning: Meaning, ratio: Ratio, *, deep: bool) -> list[int]:
+def _raws(computation: Computation, ratio: Ratio, *, deep: bool) -> list[int]:
     """The limits of what may be written; in depth the ends of the type, small numbers, halves and special codes too."""
-    shape = meaning.shape
-    found = [*outer_bounds(shape, meaning.allowed), 1]
+    shape = computation.shape
+    found = [*outer_bounds(shape, computation.allowed), 1]
     if deep:
         found += [0, -1, 5, shape.least, shape.greatest, shape.greatest - 1]
         found += [*_halves(shape, ratio), *samples.codes(shape)]

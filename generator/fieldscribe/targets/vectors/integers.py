@@ -1,4 +1,4 @@
-"""Vectors of points whose raw number is the value (integers, enums, flags, bits), names and bit groups."""
+"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of names, bit groups and words."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, code_of, qu
 
 if TYPE_CHECKING:
     from fieldscribe.model import Shape
+    from fieldscribe.targets.vectors.computations import Computation
     from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.meaning import Meaning
 
 
-def whole(lines: Lines, oracle: Oracle, meaning: Meaning, *, deep: bool) -> None:
+def whole(lines: Lines, oracle: Oracle, computation: Computation, *, deep: bool) -> None:
     """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
-    shape = meaning.shape
-    for settings in samples.settings(oracle, meaning, deep=deep):
-        limits = oracle.limits(shape, meaning.allowed, settings)
+    shape = computation.shape
+    for settings in samples.settings(oracle, computation, deep=deep):
+        limits = oracle.limits(shape, computation.allowed, settings)
         if settings:
             lines.set("with", settings)
         if isinstance(limits, str):
-            raw = quantity_at_most(shape, samples.limits_of(meaning.allowed)[0].greatest)
+            raw = quantity_at_most(shape, samples.limits_of(computation.allowed)[0].greatest)
             if shape.writable:
                 lines.add("encode_count", raw, limits)
                 lines.add("check", raw, limits)
         else:
-            _sheet(lines, meaning, limits, deep=deep)
+            _sheet(lines, computation, limits, deep=deep)
 
 
-def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool) -> None:
-    shape = meaning.shape
+def _sheet(lines: Lines, computation: Computation, limits: samples.Limits, *, deep: bool) -> None:
+    shape = computation.shape
     top = INT64 if shape.width > 16 else 1 << 31
-    checked = _raws(meaning, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
-    decoded = _raws(meaning, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
+    checked = _raws(computation, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
+    decoded = _raws(computation, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
     if deep:
         checked = decoded = {**checked, **decoded}
     if shape.readable:
@@ -45,38 +45,38 @@ def _sheet(lines: Lines, meaning: Meaning, limits: samples.Limits, *, deep: bool
     ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
     counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
     fitting = [count for count in counts if -top <= count < top]
-    lines.add_written("encode_count", [_encoded(meaning, count, limits) for count in fitting])
-    lines.add_written("check", [f"check\t{raw}\t{_checked(meaning, raw, limits)}" for raw in checked])
+    lines.add_written("encode_count", [_encoded(computation, count, limits) for count in fitting])
+    lines.add_written("check", [f"check\t{raw}\t{_checked(computation, raw, limits)}" for raw in checked])
 
 
 def _decoded(shape: Shape, raw: int) -> str:
-    """The line that tells status and count."""
+    """Return the line with status and count."""
     code = code_of(shape, raw) if shape.specials else None
     if code is not None:
         return line_of("decode_count", raw, "special", None, code.name)
     return f"decode_count\t{raw}\tok\t{raw}"
 
 
-def _encoded(meaning: Meaning, count: int, limits: samples.Limits) -> str:
-    """The line that tells the status of a count, and its raw number if it may be written."""
-    put = count if meaning.shape.fixed is None else with_fixed(meaning, count)
-    status = admit(meaning.shape, put, limits, by_value=True)
+def _encoded(computation: Computation, count: int, limits: samples.Limits) -> str:
+    """Return the line with the status of a count, and its raw number if it may be written."""
+    put = count if computation.shape.fixed is None else with_fixed(computation, count)
+    status = admit(computation.shape, put, limits, by_value=True)
     return f"encode_count\t{count}\tok\t{put}" if status == "ok" else f"encode_count\t{count}\t{status}"
 
 
-def _checked(meaning: Meaning, raw: int, limits: samples.Limits) -> str:
-    """The status of a raw number that is written as it is."""
-    shape = meaning.shape
-    fits = shape.fixed is None or with_fixed(meaning, raw) == raw or code_of(shape, raw) is not None
+def _checked(computation: Computation, raw: int, limits: samples.Limits) -> str:
+    """Return the status of writing a raw number unchanged."""
+    shape = computation.shape
+    fits = shape.fixed is None or with_fixed(computation, raw) == raw or code_of(shape, raw) is not None
     return admit(shape, raw, limits) if fits else "out_of_range"
 
 
-def _raws(meaning: Meaning, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
-    shape = meaning.shape
+def _raws(computation: Computation, raws: list[int], *, deep: bool) -> dict[int, None]:
+    """Return these raw numbers, those with the constant bits set, enum numbers (all if `deep`), and each flag alone."""
+    shape = computation.shape
     raws_to_try = dict.fromkeys(raws)
     if shape.fixed is not None:
-        raws_to_try.update({with_fixed(meaning, raw): None for raw in raws})
+        raws_to_try.update({with_fixed(computation, raw): None for raw in raws})
     if shape.enum is not None:
         raws_to_try.update({entry.raw: None for entry in (shape.enum.entries if deep else shape.enum.entries[-1:])})
     for flag in shape.flags:
@@ -84,10 +84,10 @@ def _raws(meaning: Meaning, raws: list[int], *, deep: bool) -> dict[int, None]:
     return raws_to_try
 
 
-def with_fixed(meaning: Meaning, raw: int) -> int:
+def with_fixed(computation: Computation, raw: int) -> int:
     """A raw number with the constant bits set; unchanged if the type cannot hold it."""
-    shape, fixed = meaning.shape, meaning.shape.fixed
-    if fixed is None or meaning.bits is not None or not shape.least <= raw <= shape.greatest:
+    shape, fixed = computation.shape, computation.shape.fixed
+    if fixed is None or computation.bits is not None or not shape.least <= raw <= shape.greatest:
         return raw
     return as_raw(shape, raw & ~fixed.mask | fixed.bits)
 
@@ -142,12 +142,12 @@ def fixed(lines: Lines, shape: Shape) -> None:
         lines.add("fixed", shape.fixed.mask, shape.fixed.bits)
 
 
-def bits(lines: Lines, meaning: Meaning) -> None:
+def bits(lines: Lines, computation: Computation) -> None:
     """Add vectors of a bit group: taken out of its word, and replaced in it."""
-    shape = meaning.shape
-    if meaning.bits is None:
+    shape = computation.shape
+    if computation.bits is None:
         return
-    low, ones = meaning.bits[1], (1 << shape.width) - 1
+    low, ones = computation.bits[1], (1 << shape.width) - 1
     patterns = (0, ones, 1, ones >> 1, ones ^ ones >> 1)
     tries = [(0, ones), (0xFFFF, 0), (0x5A3C, 0x5555 & ones), (0xA5C3, 0xAAAA & ones)]
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
@@ -156,3 +156,51 @@ def bits(lines: Lines, meaning: Meaning) -> None:
         if shape.fixed is not None:
             result = result & ~shape.fixed.mask | shape.fixed.bits
         lines.add("bits", word, as_raw(shape, raw), as_raw(shape, put), result)
+
+
+OTHER_BITS = 0xA5C3
+"""The bits of a shared word around those of the point."""
+
+
+def words(lines: Lines, computation: Computation) -> None:
+    """Add vectors of the words of a number, in ascending order of the addresses."""
+    shape, order = computation.shape, computation.order
+    if order is None or computation.bits is not None or shape.text is not None:
+        return
+    count = shape.words
+    if count < 2 and not shape.info.signed:
+        return
+    raws = [as_raw(shape, pattern) for pattern in (_wide_patterns(count) if count > 1 else _NARROW)]
+    lines.add_all("words", [(raw, words_of(computation, order, raw)) for raw in raws])
+
+
+_NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
+"""Samples of a signed word: the least number, negative odd numbers, a positive number."""
+
+
+def _wide_patterns(count: int) -> tuple[int, ...]:
+    top = 1 << 16 * count - 1
+    ascending = sum(0x0001_0203_0405_0607 >> 64 - 16 * count & 0xFFFF << 16 * place for place in range(count))
+    mixed = sum((0x8000 if place % 2 else 0x8001) << 16 * place for place in range(count))
+    return (0, 1, ascending, top, top + 1, top - 1, mixed, (1 << 16 * count) - 1, 0xFFFF)
+
+
+def words_of(computation: Computation, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
+    """The words of a raw number as they travel, in ascending order of address: `order` says which is which.
+
+    A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
+    """
+    if computation.bits is not None:
+        return (_shared_word(computation, computation.bits[1], raw, received=received),)
+    count = len(order)
+    pattern = raw & (1 << 16 * count) - 1
+    return tuple([pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order])
+
+
+def _shared_word(computation: Computation, low: int, raw: int, *, received: bool) -> int:
+    ones, fixed = (1 << computation.shape.width) - 1, computation.shape.fixed
+    word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
+    if fixed is None:
+        return word
+    constant = fixed.bits ^ fixed.mask if received else fixed.bits
+    return word & ~fixed.mask | constant

@@ -1,6 +1,6 @@
-"""What the raw numbers of a point mean, apart from the point's identity: points that mean the same share a sheet.
+"""How the raw numbers of a point are computed, apart from its identity: equal computations share their vectors.
 
-The first of all that are computed alike is tried in depth, the others only with what is their own.
+Of all points that are computed by the same rules, the first gets vectors in depth, the others only their own numbers.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Bound, Enum, Interval, Point, Shape
 
 MANY = 3
-"""So many intervals of a list are tried for every point."""
+"""The number of intervals of a list that are tried for every point."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Meaning:
-    """All that the vectors of raw numbers follow from. They never see the point, so that nothing else can matter.
+class Computation:
+    """All facts that vectors of raw numbers depend on. Their code never sees the point, so nothing else can matter.
 
     `bits` are those of a group in its word. `order` names the words in ascending order of address, the high one being
-    0; it is None if nobody knows the address. `symbol` is that of the unit where texts for people have it.
+    0; it is None without an address. `symbol` is the unit's where a displayed text contains it.
     """
 
     shape: Shape
@@ -35,35 +35,35 @@ class Meaning:
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
+        """The names of the points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         scale, limits = self.shape.scale_arguments, self.allowed.arguments
         return tuple(dict.fromkeys((*scale, *limits))) if scale or limits else ()
 
 
-class Meanings:
-    """The meanings met so far, each once."""
+class Computations:
+    """The different computations of a device, each once."""
 
     def __init__(self) -> None:
-        self._met: dict[Hashable, Meaning] = {}
+        self._met: dict[Hashable, Computation] = {}
         self._first: dict[int, Shape] = {}
         self._alike: dict[Hashable, Shape] = {}
         self._computed: set[Hashable] = set()
         self._shapes: dict[int, int] = {}
         self._facts: dict[Hashable, int] = {}
 
-    def of(self, point: Point) -> Meaning:
-        """The meaning of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
+    def of(self, point: Point) -> Computation:
+        """Return the computation of a point; points whose shape and limits are the same objects share it."""
         shape, terms, addresses = self._like(point.shape), point.terms, point.place.addresses
         order = ascending(shape, addresses) if addresses else None
         symbol = terms.unit.symbol if shape.display is not None else ""
         key = id(shape), id(point.allowed), terms.bits, order, symbol
-        meaning = self._met.get(key)
-        if meaning is None:
-            meaning = self._met[key] = Meaning(shape, point.allowed, terms.bits, order, symbol)
-        return meaning
+        computation = self._met.get(key)
+        if computation is None:
+            computation = self._met[key] = Computation(shape, point.allowed, terms.bits, order, symbol)
+        return computation
 
     def _like(self, shape: Shape) -> Shape:
-        """The first shape that differs in nothing but the name of its enum, which no vector tells."""
+        """Return the first shape that is equal but for the name of its enum, which no vector contains."""
         first = self._first.get(id(shape))
         if first is None:
             facts = replace(shape, enum=None), _entries(shape.enum), shape.enum is not None and shape.enum.closed
@@ -73,20 +73,20 @@ class Meanings:
             self._first[id(shape)] = first
         return first
 
-    def is_new(self, meaning: Meaning) -> bool:
-        """Whether nothing was computed alike before."""
-        number = self._shapes.get(id(meaning.shape))
+    def is_new(self, computation: Computation) -> bool:
+        """Return True the first time that these rules occur."""
+        number = self._shapes.get(id(computation.shape))
         if number is None:
-            facts = _facts(meaning.shape)
-            number = self._shapes[id(meaning.shape)] = self._facts.setdefault(facts, len(self._facts))
-        computed = number, _limits(meaning.allowed.intervals), len(meaning.allowed.units)
+            facts = _facts(computation.shape)
+            number = self._shapes[id(computation.shape)] = self._facts.setdefault(facts, len(self._facts))
+        computed = number, _limits(computation.allowed.intervals), len(computation.allowed.units)
         new = computed not in self._computed
         self._computed.add(computed)
         return new
 
 
 def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """The words of a number in ascending order of address; those that share one address have the high one first."""
+    """Return the words of a number in ascending order of address; words at one address have the high one first."""
     if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
         return _ONE
     count = shape.words if shape.text is None else len(addresses)
@@ -99,7 +99,7 @@ _ONE = (0,)
 
 
 def _facts(shape: Shape) -> Hashable:
-    """The facts that decide how a point is computed, but for its limits: type, scale, special codes."""
+    """Return the facts that decide how a point is computed, except its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
     enum = _entries(shape.digits.enum if shape.digits is not None else shape.enum)
@@ -111,7 +111,7 @@ def _entries(enum: Enum | None) -> tuple[tuple[int, str], ...] | None:
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:
-    """The forms of the limits; a long list counts with its numbers."""
+    """Return the forms of the limits; a long list is its own form."""
     if len(intervals) > MANY:
         return intervals
     return tuple([(_form(interval.low), _form(interval.high)) for interval in intervals])
