@@ -1,9 +1,9 @@
 """The table of all kinds of vectors, and the notation of the fields of their lines.
 
 A file has lines of fields, separated by tabs. Its head names the device, then every set and every kind in it with the
-fields and their forms, so no runner needs a list of its own. A set holds for the vectors below it until it is set again;
-setting it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a line.
-A runner compares every field with something, except notes.
+fields and their forms, so no runner needs a list of its own. A set holds for the vectors below it until it is set
+again; setting it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of
+a line. A runner compares every field with something, except notes.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class Lines:
         return Lines(self._rows)
 
     def include(self, part: Lines, text: str | None = None) -> None:
-        """Add all vectors of a part. A part may override inner sets only. `text` replaces its lines (a filled template)."""
+        """Add all vectors of a part. A part may override inner sets only. `text` replaces its lines."""
         if part.joined:
             if self._wanted:
                 self._settle()
