@@ -1,1 +1,5 @@
-"""From files that have the right shape to the model: expand what repeats, resolve what refers, compute what follows."""
+"""From validated nodes to the model: expands what repeats, resolves names, computes what follows.
+
+`pipeline` calls the steps in their order: `scope` (declarations), `expand` (points), `symbols` (names), `bus`,
+`telegrams`, `points` (which asks `encodings`, `shapes` and `addresses`), `frames`, `commands`, `errata`, `analysis`.
+"""

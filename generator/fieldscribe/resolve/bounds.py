@@ -1,4 +1,4 @@
-"""The least and greatest number that a point or a formula of points can be: by types, ranges and factors."""
+"""The least and the greatest number that a point, or a formula of points, can be."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _DEEPEST = 30
 
 
 def as_text(raw: Any) -> str:
-    """A range as the text that the parser reads: of a YAML list its items with commas."""
+    """Return a range as the text that the parser reads: the items of a YAML list with commas between."""
     return ", ".join(str(item) for item in raw) if isinstance(raw, Seq) else str(raw)
 
 
 @lru_cache(maxsize=16384)
 def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
-    """The intervals of a range that names no point; None if it does. Raises FormulaError."""
+    """Return the intervals of a range of constants; None if it names a point. Raises FormulaError."""
     alternatives = parse_range(text).alternatives
     if any(names(end) for ends in alternatives for end in ends):
         return None
@@ -42,7 +42,7 @@ def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
 
 @lru_cache(maxsize=16384)
 def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) -> tuple[tuple[int, int], ...] | None:
-    """The raw intervals of a range in units; `ratio` and `offset` of the fixed scale are (numerator, denominator)."""
+    """Return the raw intervals of a range in units; `ratio` and `offset` are (numerator, denominator) of the scale."""
     intervals = constant_range(text)
     if intervals is None:
         return None
@@ -53,7 +53,7 @@ def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) ->
 
 
 class Bounds:
-    """What the raw number of each point can be: what its type `holds`, and its hull, what its range leaves of that."""
+    """Computes bounds of raw numbers. A type holds an interval; the hull of a point is what its range leaves of that."""
 
     def __init__(self, scales: Scales, encodings: Mapping[PointFacts, Encoding]) -> None:
         self.scales = scales
@@ -62,19 +62,19 @@ class Bounds:
         self._depth = 0
 
     def hull(self, item: str) -> tuple[int, int]:
-        """The least and greatest raw number that a point can hold, whatever its dependent limits and variant say."""
+        """Return the least and greatest raw number of a point, over its variants and with moving limits at their widest."""
         index = self.scales.index
         ends = [self.own_hull(sibling) for sibling in index.siblings(index.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)
 
     def own_hull(self, facts: PointFacts) -> tuple[int, int]:
-        """The least and greatest raw number that one variant of a point can hold."""
+        """Return the least and greatest raw number of one variant of a point."""
         return self._end(facts, 0), self._end(facts, 1)
 
     def _end(self, facts: PointFacts, end: int) -> int:
-        """The least (`end` 0) or greatest (1) number of the hull.
+        """Return the least (`end` 0) or the greatest (1) number of the hull.
 
-        Each end is computed alone: where points limit each other in a circle, one end is often fixed and breaks it.
+        Each end is computed alone, because a fixed end often breaks a circle of points that limit each other.
         """
         key = (facts, end)
         bound = self._ends.get(key)
@@ -89,12 +89,12 @@ class Bounds:
         return bound
 
     def ends_of(self, factor: Factor) -> tuple[int, int]:
-        """What a factor is (raw * slope + intercept) at the least and greatest raw number of its point."""
+        """Return raw * slope + intercept at the least and at the greatest raw number of the factor's point."""
         low, high = self.hull(factor.point)
         return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
 
     def corners(self, rule: Linear) -> list[Fraction]:
-        """The extreme results of a rule for the value 1, over all that its factors can hold."""
+        """Return the extreme results of a rule for the value 1, over all that its factors can hold."""
         if not rule.factors:
             return [rule.ratio + rule.offset]
         results = {rule.ratio}
@@ -104,7 +104,7 @@ class Bounds:
         return sorted(result + rule.offset for result in results)
 
     def float_range(self, factor: Factor) -> tuple[Fraction, Fraction] | None:
-        """The outer limits of a floating-point factor; None where its point gives none."""
+        """Return the limits of a floating-point factor; None if its point has none."""
         facts = self.scales.index.by_item(factor.point)
         if facts.layer("range_in_units") is None:
             return None
@@ -115,7 +115,7 @@ class Bounds:
         return (min(low for low, _ in intervals), max(high for _, high in intervals)) if intervals else None
 
     def _factor_ends(self, factor: Factor) -> set[Fraction]:
-        """The extreme values of a factor: a number, one divided by it, or ten to the power of it."""
+        """Return the extreme values of a factor: a number, its reciprocal, or a power of ten."""
         if self.scales.index.by_item(factor.point).floating:
             ends = set(self.float_range(factor) or ())
             return {end**factor.power for end in ends if end} or {Fraction(1)}
@@ -158,7 +158,7 @@ class Bounds:
         return low, high
 
     def encoded(self, facts: PointFacts, limit: Linear, span: Span) -> Linear:
-        """A limit in units as a limit in raw numbers. Raises UnknownError after a finding."""
+        """Return a limit in units as a limit in raw numbers. Raises UnknownError after a finding."""
         if "scale" in facts.failed:
             raise UnknownError
         cases = self.scales.cases(facts)
@@ -182,7 +182,7 @@ class Bounds:
     def constant(
         self, facts: PointFacts, text: str, in_units: bool
     ) -> Sequence[tuple[int | Fraction, int | Fraction]] | None:
-        """The ends of a range in raw numbers if neither it nor the scale needs a point, else None."""
+        """Return the ends of a range in raw numbers; None if the range or the scale needs a point."""
         if not in_units:
             return constant_range(text)
         if "scale" in facts.failed:
@@ -197,12 +197,12 @@ class Bounds:
         return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
 
     def limit(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
-        """One end of a range, as a rule that gives the limit for the value 1. Raises FormulaError or UnknownError."""
+        """Return one end of a range as a rule that gives it for the value 1. Raises FormulaError or UnknownError."""
         rule = limit_rule(end, lambda name, part: self._of_another(facts, name, part, Written(text, span)))
         return self.encoded(facts, rule, span) if in_units else rule
 
     def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
-        """A point's number in a limit of `facts`, which cannot limit itself. Raises UnknownError after a finding."""
+        """Return a point's number in a limit of another point. Raises UnknownError after a finding."""
         used = self.scales.index.find(name, facts.variant)
         if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
@@ -212,12 +212,12 @@ class Bounds:
         return self.scales.affine(facts, name, part, formula)
 
     def falls(self, facts: PointFacts) -> bool:
-        """Whether a larger value is a smaller raw number."""
+        """Return True if a larger value is a smaller raw number."""
         cases = self.scales.cases(facts)
         return cases is not None and cases[0].rule.ratio < 0
 
     def _computed_end(self, facts: PointFacts, end: int) -> int:
-        """One end of what the range leaves of the type; that of the type where the range says nothing usable."""
+        """Return one end of what the range leaves of the type; the end of the type if the range is unusable."""
         key = "range" if facts.layer("range") is not None else "range_in_units"
         least, greatest = self.encodings[facts].holds
         if facts.layer(key) is None or facts.floating or facts.text:

@@ -1,4 +1,4 @@
-"""The facts under `bus`: what the family's frames need to know of the device."""
+"""Reads the facts under `bus`: what the frames of the family need to know of the device."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LAST_UNIT = 255
 
 
 def bus_of(scope: Scope) -> Bus:
-    """The bus of the device; a finding when no file or two files say `bus`, or when it lacks what the family needs."""
+    """Return the bus of the device; report a missing or a second `bus`, and keys that it lacks."""
     holders = [file for file in scope.files if "bus" in file]
     keys = scope.family.bus
     if not holders:
@@ -52,7 +52,7 @@ def bus_of(scope: Scope) -> Bus:
 
 
 def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
-    """Findings for keys that the family needs and that are missing, and for keys that it does not know."""
+    """Report missing keys that the family needs, and keys that it does not know."""
     family = scope.family.name
     for key in keys.needed:
         if key not in node and key not in node.broken:
@@ -76,12 +76,12 @@ def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
 
 
 def _knows(family: Family, key: str) -> bool:
-    """Whether a family has this key under `bus`, be it a common key or one of its own."""
+    """Return True if the family has this key under `bus`: a common key or one of its own."""
     return key in family.bus or any(own.name == key and BUS in own.places for own in keys_of_family(family))
 
 
 def ends_of(scope: Scope, node: Map, key: str, complaint: str, last: int) -> tuple[int, int]:
-    """The ends of an interval under `bus`, such as `units`; zeros after a finding or where it is not said."""
+    """Return the ends of an interval under `bus`, such as `units`; zeros if it is missing, or after a finding."""
     if key not in node:
         return 0, 0
     ends = interval(str(node[key]), node.span(key), scope.report)
@@ -95,13 +95,13 @@ def ends_of(scope: Scope, node: Map, key: str, complaint: str, last: int) -> tup
 
 
 def codes_under(scope: Scope, node: Map, key: str) -> tuple[Code, ...]:
-    """The numbered codes under a key that the family needs."""
+    """Return the numbered codes under a key that the family needs."""
     keys = scope.family.bus
     return codes_of(scope, node.get(key) if key in keys.needed else None, *keys.codes)
 
 
 def codes_of(scope: Scope, node: Map | None, first: int, last: int) -> tuple[Code, ...]:
-    """Numbered codes with their names, in the author's order; numbers and names are unique."""
+    """Return the codes of a mapping of numbers to names, in the author's order."""
     result: list[Code] = []
     taken = Taken(scope.report, "code")
     if node is None:
@@ -126,7 +126,7 @@ def _code(scope: Scope, number: int, name: str, value: Map | str) -> Code:
 
 
 def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
-    """The numbers of a list of codes, where `11..14` stands for several."""
+    """Return the numbers of a list of codes, where `11..14` stands for several."""
     codes: dict[int, None] = {}
     items: Seq = node.get(key) or Seq(node.file, node.start)
     for place, item in enumerate(items):
@@ -140,7 +140,7 @@ def code_list(scope: Scope, node: Map, key: str) -> tuple[int, ...]:
 
 
 def _gaps(scope: Scope, node: Map | None) -> dict[str, tuple[tuple[int, int], ...]]:
-    """The intervals of addresses under `gaps`, by space."""
+    """Return the intervals of addresses under `gaps` by space."""
     result: dict[str, tuple[tuple[int, int], ...]] = {}
     known, last = scope.family.spaces, scope.family.last_address
     for space, texts in node.items() if node is not None else ():
@@ -160,7 +160,7 @@ def _gaps(scope: Scope, node: Map | None) -> dict[str, tuple[tuple[int, int], ..
 
 
 def _setting(value: Any) -> dict[str, str]:
-    """A serial setting as texts by key; the texts of a list, or a single one, are their own keys."""
+    """Return a serial setting as texts by key; the texts of a list, or a single text, are their own keys."""
     if isinstance(value, Map):
         return {key: str(text) for key, text in value.items()}
     if isinstance(value, Seq):

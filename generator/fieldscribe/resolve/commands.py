@@ -1,4 +1,4 @@
-"""Commands: named constant writes."""
+"""Resolves commands: named constant writes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
-    """The named constant writes of all files."""
+    """Return the commands of all files."""
     result: dict[str, Command] = {}
     for node in scope.unique("commands"):
         name = str(node["name"])
@@ -64,7 +64,7 @@ def _command(scope: Scope, bus: Bus, node: Map) -> Command | None:
 
 
 def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) -> bool:
-    """Whether the space has the address and holds the value; a finding if not."""
+    """Return True if the space has the address and holds the value; report what does not fit."""
     last = scope.family.last_address
     greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
     inside, holds = 0 <= address <= last, value is None or 0 <= value <= greatest
@@ -78,7 +78,7 @@ def _fits(scope: Scope, node: Map, space: str, address: int, value: int | None) 
 
 
 def _reaches(scope: Scope, bus: Bus, node: Map, space: str, function: int) -> bool:
-    """Whether the device has the function and it writes into the space; a finding if not."""
+    """Return True if the device has the function and it writes into the space; report it otherwise."""
     known = reader_of(scope).writes(space)
     if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
         return True

@@ -1,4 +1,4 @@
-"""`when`: from the author's condition to comparisons of raw numbers and of variants."""
+"""Resolves `when`: from the author's condition to comparisons of raw numbers and of variants."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-"""What a comparison of values becomes for raw numbers that fall while the value rises."""
+"""The test of raw numbers for a test of values, if raw numbers fall while the value rises."""
 
 
 def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition | None:
-    """When the point exists; None for always, or after a finding."""
+    """Return the condition for the point to exist; None if it always does, or after a finding."""
     text = facts.get("when")
     if text is None:
         return None
@@ -48,7 +48,7 @@ def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition |
 def _resolved(
     scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
 ) -> conditions.Comparison | None:
-    """One comparison as the model has it; None after a finding."""
+    """Return a comparison as the model has it; None after a finding."""
     try:
         return _comparison(scope, facts, scales, comparison, written)
     except FormulaError as error:
@@ -61,7 +61,7 @@ def _resolved(
 def _comparison(
     scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
 ) -> conditions.Comparison:
-    """One comparison in whole raw numbers, or of a variant. Raises UnknownError after a finding, else FormulaError."""
+    """Return a comparison of whole raw numbers or of a variant. Raises UnknownError after a finding, or FormulaError."""
     name = comparison.name.name
     if name in scope.axes:
         values = [_value(scope, name, constant, written) for constant in comparison.constants]
@@ -84,7 +84,7 @@ def _comparison(
 
 
 def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str:
-    """The value of a variant axis that a constant names; it may consist of digits."""
+    """Return the value of a variant axis that a constant names; it may consist of digits."""
     values = scope.axes[axis]["values"]
     if constant.text not in values:
         place = written.span.moved(constant.column)
@@ -94,7 +94,7 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
 
 
 def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, written: Written) -> Fraction:
-    """The raw number that a constant means: a number, or a name in the enum of the point."""
+    """Return the raw number of a constant: of a number, or of a name in the enum of the point."""
     if not isinstance(constant.value, str):
         return (constant.value - rule.intercept) / rule.slope
     if constant.value[0].isdigit():
@@ -110,7 +110,7 @@ def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, writt
 
 
 def _with_whole_numbers(point: str, test: str, raws: list[Fraction], comparison: Comparison) -> conditions.Comparison:
-    """The same comparison with whole numbers: raw numbers below 2.5 are those up to 2."""
+    """Return the same comparison with whole numbers: `raw < 2.5` becomes `raw <= 2`."""
     broken = next((place for place, raw in enumerate(raws) if raw.denominator != 1), None)
     if broken is None:
         return conditions.Comparison(point, test, tuple([raw.numerator for raw in raws]))

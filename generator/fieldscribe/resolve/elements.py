@@ -1,4 +1,4 @@
-"""Sets and arrays: rows of the manual that stand for one point in each parameter set, for each index, or both."""
+"""Sets and arrays: which points a row stands for if it has `sets`, `indices` or both."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MOST_ELEMENTS = 4096
 
 
 def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
-    """All points that the row stands for, set by set, in each set index by index; none after a finding."""
+    """Return the elements of a row, set by set and in each set index by index; none after a finding."""
     rows = isinstance(row.get("sets"), Map)  # each further set has a row of its own
     sets = _Axis(1, (None,), "") if rows else _axis(scope, row, "sets", "set")
     indices = _axis(scope, row, "indices", "index")
@@ -39,7 +39,7 @@ def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """The sets or indices of a row: how many there are, which ones the row stands for, and their word in names."""
+    """The sets or the indices of a row: how many exist, which ones the row stands for, and their word in names."""
 
     count: int
     used: tuple[int | None, ...]
@@ -50,7 +50,7 @@ class _Axis:
 
 
 def _axis(scope: Scope, row: PointFacts, plural: str, singular: str) -> _Axis | None:
-    """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
+    """Read `sets: 4`, `indices: 0..1`, or a lone `set: 2`; None after a finding."""
     own_number: int | None = row.get(singular)
     raw = row.get(plural)
     if raw is None:

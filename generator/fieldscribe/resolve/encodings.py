@@ -1,4 +1,4 @@
-"""How the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
+"""Finds how the raw number of a point is encoded: its space, wire type, bits of the word and special codes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Encoding(NamedTuple):
-    """What is known of a point before any formula is read.
+    """The encoding of a point, known before any formula is read.
 
     `width` is the number of bits of the raw number, `holds` the least and the greatest raw number. `specials_of` names
     the special codes if the point shares them with others.
@@ -58,7 +58,7 @@ class Encodings:
 
 
 def _space_of(scope: Scope, facts: PointFacts) -> str:
-    """The point's address space; a finding, and the family's first space of words, if there is none of that name."""
+    """Return the point's address space; report an unknown one, and return the family's first space of words for it."""
     space = str(facts.get("space"))
     known = scope.family.spaces
     if space in known:
@@ -69,7 +69,7 @@ def _space_of(scope: Scope, facts: PointFacts) -> str:
 
 
 def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | None:
-    """The (highest, lowest) bit that the point takes of its word, or None for the whole."""
+    """Return the (highest, lowest) bit that the point takes of its word; None for the whole word."""
     text = facts.get("bits")
     if text is None:
         return None
@@ -100,7 +100,7 @@ def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
 
 
 def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] | None) -> str:
-    """The point's wire type: as described, else by its space and bits; a finding if it does not fit them."""
+    """Return the point's wire type: as stated, else by its space and bits; report a type that does not fit them."""
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
@@ -116,7 +116,7 @@ def _type_of(scope: Scope, facts: PointFacts, space: str, bits: tuple[int, int] 
 
 
 def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, str] | None:
-    """Rule, message and hint for a type that is too wide for the bus, or None."""
+    """Return rule, message and hint for a type that is too wide for the bus; None if it fits."""
     widest = scope.family.widest(space)
     if type_name == "text" and space in scope.family.indexed:
         message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
@@ -137,7 +137,7 @@ def _carrier_fault(scope: Scope, type_name: str, space: str) -> tuple[str, str, 
 def _type_fault(
     type_name: str, space: str, single: bool, width: int | None, default: str
 ) -> tuple[str, str, str] | None:
-    """Rule, message and hint of what is wrong with the type, or None."""
+    """Return rule, message and hint for a type that does not fit space and bits; None if it fits."""
     info: TypeInfo = TYPES[type_name]
     if type_name == "text" and (single or width is not None):
         return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"

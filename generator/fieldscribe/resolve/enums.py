@@ -1,4 +1,4 @@
-"""Names for numbers: reads the entries of enums, and refuses numbers and names that are given twice."""
+"""Reads the entries of enums, and refuses numbers and names that are given twice."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Errata: what they are about and what they say; and the printed facts that differ without one."""
+"""Resolves errata, and compares what the manual prints redundantly with the facts taken."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 
 
 _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"))
-"""Sections of named things that an erratum may be about, and the key that names one."""
+"""The sections of named things that an erratum may be about, each with the key that names one."""
 
 
 @dataclass(frozen=True, slots=True)
 class PrintedFact:
-    """A printed fact that differs from the description: what it is about, its key, its place, and the message.
+    """A printed fact that differs from the description.
 
-    `taken` is the value in the description, None if only an erratum can give the right value. `right` decides whether
-    the `taken` of an erratum is correct where comparing numbers or texts is not enough. `flag` names the flag that the
-    fact is about.
+    `about` names the point or thing, `span` is the place of the fact. `taken` is the value in the description, None if
+    only an erratum can give the right value. `right` decides whether the `taken` of an erratum is correct, where
+    comparing numbers or texts is not enough. `flag` names the flag that the fact is about.
     """
 
     about: About
@@ -50,7 +50,7 @@ class PrintedFact:
 
 @dataclass(slots=True)
 class LocatedErratum:
-    """An erratum with its text; `used` collects the keys of `printed` where a check really met the misprint."""
+    """An erratum with its text. `used` collects the keys of `printed` for which a check found the misprint."""
 
     erratum: Erratum
     node: Map
@@ -58,18 +58,18 @@ class LocatedErratum:
 
     @property
     def subjects(self) -> tuple[About, ...]:
-        """What it is about: its points, another thing, or nothing that has a name."""
+        """Return what it is about: its points, or another named thing, or nothing."""
         where = self.erratum.where
         return self.erratum.points or ((where,) if isinstance(where, Named) else ())
 
     def printed(self, key: str) -> Any:
-        """The printed value of a key, or None."""
+        """Return the printed value of a key, or None."""
         printed = self.node["printed"]
         return printed.get(key) if isinstance(printed, Map) else None
 
 
 def errata_of(scope: Scope, index: SymbolTable, bus: Bus) -> list[LocatedErratum]:
-    """All errata in the order of the text; one about nothing that exists, or with an id given twice, is a finding."""
+    """Return all errata in the order of the text, without those that are about nothing that exists."""
     result = []
     for node in scope.unique("errata", "id"):
         points = tuple(_points(scope, index, node))
@@ -96,18 +96,18 @@ def errata_of(scope: Scope, index: SymbolTable, bus: Bus) -> list[LocatedErratum
 
 
 def _points(scope: Scope, index: SymbolTable, node: Map) -> Iterator[str]:
-    """The names of the points that it is about; a word that means none is a finding."""
+    """Yield the names of the points that an erratum is about; report unknown ones."""
     words = [(node["point"], node.span("point"))] if "point" in node else []
     words += [(word, node["points"].span(number)) for number, word in enumerate(node.get("points", ()))]
     for word, span in words:
-        expanded = index.all(word)
-        if not expanded:
+        named = index.all(word)
+        if not named:
             index.unknown(word, span)
-        yield from dict.fromkeys(facts.name for facts in expanded)
+        yield from dict.fromkeys(facts.name for facts in named)
 
 
 def _flag_exists(scope: Scope, index: SymbolTable, node: Map) -> None:
-    """A finding for an erratum about a flag that its points do not have."""
+    """Report an erratum about a flag that its points do not have."""
     if "flag" not in node:
         return
     words = [node["point"]] if "point" in node else list(node.get("points", ()))
@@ -118,7 +118,7 @@ def _flag_exists(scope: Scope, index: SymbolTable, node: Map) -> None:
 
 
 def _where(scope: Scope, node: Map, bus: Bus) -> Named | str | None:
-    """What it is about, if not a whole point: a thing, words, or nothing; None after a finding."""
+    """Return what an erratum is about if it names no point: a thing, or a place in words; None after a finding."""
     for section, key in _NAMED:
         if key in node:
             known = [str(item["name"]) for item in scope.listed(section)]
@@ -141,18 +141,18 @@ def _where(scope: Scope, node: Map, bus: Bus) -> Named | str | None:
 
 
 def in_one_line(value: Any) -> str:
-    """What is printed or taken, in one line."""
+    """Return what is printed or taken as one line."""
     facts = _facts(value)
     return "; ".join(f"{key.replace('_', ' ')} {text}" for key, text in facts) if facts else str(value)
 
 
 def _facts(value: Any) -> tuple[tuple[str, str], ...]:
-    """Each fact as (key, text); none where the erratum says it in words."""
+    """Return the facts as (key, text); nothing if the erratum states them in words."""
     return tuple((str(key), _fact_text(fact, key)) for key, fact in value.items()) if isinstance(value, Map) else ()
 
 
 def _fact_text(value: Any, key: str) -> str:
-    """One fact as people read it: masks in hexadecimal, lists with slashes."""
+    """Return a fact as people read it: masks in hexadecimal, lists with slashes."""
     if key == "mask" and isinstance(value, int):
         return f"{value:04X}h"
     if isinstance(value, Seq):

@@ -1,4 +1,4 @@
-"""From the points of the text to expanded: every record, set and variant written out."""
+"""Expands the rows of all groups into points: every record, set, index and variant written out."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ if TYPE_CHECKING:
     from fieldscribe.model import Titles
 
 MOST_POINTS = 100_000
-"""The most points of a device: rows that stand for many could otherwise fill the memory."""
+"""The most points of a device. Without a limit, rows that stand for many points could fill the memory."""
 
 _LAST_SET = 999
 _AXES = frozenset(("sets", "indices", "set", "index"))
-"""Keys of a row that stands for several points, or for one point of several."""
+"""Keys of a row that stands for several points, or for one of several."""
 _OWN = own(POINT)
-"""Keys that a further set does not take over from the row that it repeats; its title is extended instead."""
+"""Keys that a further set does not inherit from the row that it repeats; the title is extended instead."""
 _OF_RECORDS = inherited(USE)
 """Keys that the use of a record may set for all its members."""
 
 
 def expand(scope: Scope) -> list[PointFacts]:
-    """All points of all groups, in the order of the text; a finding when there are more than MOST_POINTS."""
-    expanded: list[PointFacts] = []
+    """Return the points of all groups in the order of the text; report more than MOST_POINTS."""
+    points: list[PointFacts] = []
     for group in scope.groups:
         for point in group.get("points", ()):
-            expanded.extend(_point(scope, group, point))
-            if len(expanded) > MOST_POINTS:
+            points.extend(_point(scope, group, point))
+            if len(points) > MOST_POINTS:
                 message = f"the rows up to here stand for more than {MOST_POINTS} points"
                 hint = "look at the sets, indices and records"
                 scope.report.error("too-many-items", message, point.span("name"), hint)
-                return expanded[:MOST_POINTS]
-    return expanded
+                return points[:MOST_POINTS]
+    return points
 
 
 def _point(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
@@ -66,13 +66,13 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
 
 
 def _title(point: Map) -> Titles:
-    """The title of a row: what it says, else its name in words."""
+    """Return the title of a row; without one, its name in words."""
     said = point.get("title")
     return titles(said, "" if isinstance(said, Map) and "en" in said else humanised(point["name"]))
 
 
 def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
-    """The point in its own set, and in each further set that has a row under `sets`."""
+    """Yield the point in its own set, and in each further set that has a row under `sets`."""
     if "indices" in first.own:
         message = f"`{first.name}` repeats in indices, and in sets that have rows of their own"
         hint = "write a point with its `indices` for each set"
@@ -99,7 +99,7 @@ def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
 
 
 def _further_sets(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tuple[int, Map]]:
-    """The further sets by number; a number that is none, or is given twice, is a finding."""
+    """Yield the further sets by number; report wrong numbers and repeated ones."""
     seen: set[int] = set()
     for key in rows:
         number, span = parse_integer(key), rows.key_span(key)
@@ -116,7 +116,7 @@ def _further_sets(scope: Scope, rows: Map, own_set: int | None) -> Iterator[tupl
 
 
 def _single_element(scope: Scope, facts: PointFacts) -> Element | None:
-    """The one element that a row stands for where it says its own set or index; None if it says none."""
+    """Return the element of a row that states its own set or index; None if it states none."""
     if facts.get("index") is None and (facts.get("set") is None or isinstance(facts.get("sets"), Map)):
         return None
     elements = elements_of(scope, facts)
@@ -124,7 +124,7 @@ def _single_element(scope: Scope, facts: PointFacts) -> Element | None:
 
 
 def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
-    """The points that a row with sets and indices stands for."""
+    """Yield the points of a row with `sets` and `indices`."""
     title = _title(point)
     layers = (point, *_format(scope, point))
     elements = elements_of(scope, PointFacts(point["name"], layers, group, point, title))
@@ -164,12 +164,12 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
 
 
 def _decimal_key(text: str) -> str:
-    """A key of `each` with its numbers in decimal: `01h/2` as `1/2`."""
+    """Return a key of `each` with decimal numbers: `1/2` for `01h/2`."""
     return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
 def _variants(scope: Scope, facts: PointFacts) -> Iterator[PointFacts]:
-    """The point once for each of its variants, or as it is if it has none."""
+    """Yield the point once for each of its variants, or unchanged if it has none."""
     overrides: Map | None = facts.get("variants")
     if not overrides:
         yield facts
@@ -219,7 +219,7 @@ def _varied(scope: Scope, facts: PointFacts, variant: Variant, override: Map) ->
 
 
 def _record(scope: Scope, group: Map, use: Map) -> Iterator[PointFacts]:
-    """The points of a record, where a row uses it."""
+    """Yield the points of a record where a row uses it."""
     record = scope.records.get(use["record"])
     if record is None:
         scope.unknown("record", use["record"], use.span("record"), scope.records)
@@ -258,7 +258,7 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> PointFacts:
 
 
 def _whole_record(use: Map) -> Map:
-    """What the use of a record says for all its members: where it stands in the manual, and the code of the whole."""
+    """Return what the use of a record states for all its members: the place in the manual, and the common code."""
     result = Map(use.file, use.start)
     for key in _OF_RECORDS:
         if key in use:
@@ -267,7 +267,7 @@ def _whole_record(use: Map) -> Map:
 
 
 def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
-    """The layer of facts that the point's `format` adds, if it has one; an unknown format counts as all broken."""
+    """Return the layer of the point's `format`, if it has one; all keys of an unknown format count as broken."""
     if "format" not in point:
         return ()
     facts = scope.formats.get(point["format"])

@@ -1,4 +1,4 @@
-"""How the family of a device reads keys that only it has, with defaults for families that have none."""
+"""The interface by which a family reads keys that only it has, with defaults for families that have none."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ if TYPE_CHECKING:
 
 
 class FamilyReader:
-    """Reads the facts that only one family has; a family offers its own reader as `READING` in its module `reading`."""
+    """Reads the facts that only one family has. A family offers its reader as `READING` in its module `reading`."""
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> Own | None:
-        """What the family alone knows of the bus, with findings for what its protocol cannot do."""
+        """Return what only the family knows of the bus; report what its protocol cannot do."""
         del scope, node, functions
         return None
 
     def frame(self, scope: Scope, node: Map, framing: str) -> Own | None:
-        """What the family alone knows of a worked example."""
+        """Return what only the family knows of a worked example."""
         del scope, node, framing
         return None
 
     def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
-        """Whether a worked example cannot be one of this bus, with a finding."""
+        """Report a worked example that cannot be one of this bus, and return True for it."""
         del scope, bus, node
         return False
 
     def messages(self, scope: Scope, bus: Bus) -> tuple[Message, ...]:
-        """The messages that the description lays out."""
+        """Return the messages that the description lays out."""
         del bus
         laid_out = " and ".join(family.name for family in families() if family.lays_out_messages)
         for node in scope.listed("messages"):
@@ -42,23 +42,23 @@ class FamilyReader:
         return ()
 
     def telegram(self, scope: Scope, node: Map, before: Sequence[Telegram]) -> None:
-        """Findings for a telegram that the family's own frames cannot carry."""
+        """Report a telegram that the family's own frames cannot carry."""
 
     def writes(self, space: str) -> tuple[int, ...]:
-        """The functions that write into a space."""
+        """Return the functions that write into a space."""
         del space
         return ()
 
     def blocks(
         self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]
     ) -> tuple[Block, ...] | None:
-        """The reads that bring all points of a group; None where the family plans none."""
+        """Return the reads that bring all points of a group; None if the family plans none."""
         del bus, points, variants
         return None
 
 
 def reader_of(scope: Scope) -> FamilyReader:
-    """How the device's family reads its own keys."""
+    """Return the reader of the device's family."""
     part = scope.family.part("reading")
     reading: FamilyReader = part.READING if part is not None else FamilyReader()
     return reading

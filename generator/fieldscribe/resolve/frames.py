@@ -1,4 +1,4 @@
-"""The manual's worked examples: their bytes, what they answer, what they mean."""
+"""Resolves the manual's worked examples: their bytes, what they answer, and what they mean in raw numbers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 RAW = ".raw"
-"""Behind a point's name it says that the raw number follows, not the value."""
+"""The suffix of a point's name that marks a raw number instead of a value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ class LocatedFrame:
 
 
 def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:
-    """All frames in the order of the text; checks fill in `valid` and `corrected` later."""
+    """Return all frames in the order of the text; the checks set `valid` and `corrected` later."""
     result: dict[str, LocatedFrame] = {}
     seen: set[str] = set()
     for node in scope.unique("frames"):
@@ -90,13 +90,13 @@ def _frame(scope: Scope, bus: Bus, node: Map, data: bytes, meaning: Mapping[str,
 
 
 def framing_of(scope: Scope, bus: Bus, node: Map) -> str:
-    """The framing of a frame: its own, or the first one of the bus or the family."""
+    """Return the framing of a frame: its own, else the first one of the bus or the family."""
     usual = bus.framings[0] if bus.framings else scope.family.framings[0]
     return str(node.get("framing") or usual)
 
 
 def _known_framing(scope: Scope, node: Map) -> bool:
-    """Whether the family has the framing; a finding if not."""
+    """Return True if the family has the framing; report it otherwise."""
     family, known = scope.family.name, scope.family.framings
     if node.get("framing", known[0]) in known:
         return True
@@ -106,7 +106,7 @@ def _known_framing(scope: Scope, node: Map) -> bool:
 
 
 def _foreign_keys(scope: Scope, node: Map) -> None:
-    """Findings for keys that only frames of another family have."""
+    """Report keys that only frames of another family have."""
     for other in families():
         for key in other.frame_keys:
             if key in node and key not in scope.family.frame_keys:
@@ -116,7 +116,7 @@ def _foreign_keys(scope: Scope, node: Map) -> None:
 
 
 def _meaning_of(scope: Scope, node: Map, index: SymbolTable, points: Mapping[str, Point]) -> dict[str, int]:
-    """The raw numbers that a frame carries according to its `says`, by item."""
+    """Return the raw numbers that a frame carries according to `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
     for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
@@ -129,14 +129,14 @@ def _meaning_of(scope: Scope, node: Map, index: SymbolTable, points: Mapping[str
 
 @dataclass(frozen=True, slots=True)
 class _StatedValues:
-    """Values by point as an author wrote them, and `held`: what other points hold at that time."""
+    """Values by point as an author wrote them; `held` is what other points hold at that time."""
 
     scope: Scope
     values: Map
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
     def numbers(self, index: SymbolTable, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
-        """Each point that is named, with its raw number; one whose number is unclear is left out, with a finding."""
+        """Yield each named point with its raw number; report and leave out those without a clear number."""
         for word, value in self.values.items():
             name = word.removesuffix(RAW)
             facts = index.find(name)
@@ -154,7 +154,7 @@ class _StatedValues:
                 yield point, raw_number
 
     def _raw(self, point: Point, word: str, value: Any) -> int | None:
-        """The raw number of a name, or of a value in the unit; None after a finding."""
+        """Return the raw number of a name, or of a value in the unit; None after a finding."""
         if isinstance(value, bool):
             return int(value)
         known = _names(point) if isinstance(value, str) and not value[:1].isdigit() else {}
@@ -172,7 +172,7 @@ class _StatedValues:
         return None if exact is None else self._number(point, word, value, exact)
 
     def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
-        """The raw number of a value; None after a finding."""
+        """Return the raw number of a value; None after a finding."""
         if point.info.floating or point.scale_arguments:
             try:
                 return encode(point, exact, self.held)
@@ -194,7 +194,7 @@ class _StatedValues:
             self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
 
     def _fault(self, point: Point) -> str | None:
-        """Why a value cannot become the point's raw number, or None."""
+        """Return why the point has no raw number for a value; None if it has one."""
         if point.text is not None:
             return "is a text"
         missing = [name for name in point.scale_arguments if name not in self.held]
@@ -205,7 +205,7 @@ class _StatedValues:
 
 
 def _names(point: Point) -> dict[str, int]:
-    """The names that the point's numbers have."""
+    """Return the names of the point's numbers."""
     if point.enum is None:
         return {"off": 0, "on": 1} if point.type == "bit" else {}
     return {entry.name: entry.raw for entry in point.enum.entries}

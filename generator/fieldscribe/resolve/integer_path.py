@@ -1,4 +1,4 @@
-"""Which ways to compute a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
+"""Decides which ways to compute a scaled point are exact: counts of 10^-k units in 64 bits, and values in binary64."""
 
 from __future__ import annotations
 
@@ -15,40 +15,40 @@ if TYPE_CHECKING:
 MOST_DECIMALS = 12
 
 _COUNTED = 1 << 62
-"""The largest integer on the way between counts and raw numbers.
+"""The largest integer between counts and raw numbers.
 
-Code computes with 64 bits and a sign, which hold 2^63 - 1. One bit stays free: to round, half the divisor is added to
-the size of the numerator, and the divisor is held to this bound as the numerator is, so that the sum is below 2^63.
+Generated code computes with signed integers of 64 bits. One bit stays free for rounding, which adds half the divisor to
+the numerator: both stay within this bound, so their sum is below 2^63.
 """
 
 _WORD = 1 << 63
-"""Every constant of a scale is smaller, for code holds it in a signed integer of 64 bits."""
+"""Every constant of a scale is smaller, because code holds it in a signed integer of 64 bits."""
 
 _WIDE = 1 << 127
 """Signed integers of 128 bits are smaller."""
 
 _EXACT = 1 << 53
-"""Up to here every integer is a binary64 number."""
+"""Every integer up to this one is a binary64 number."""
 
 _NARROW = 1 << 33
 """All raw numbers of 32 bits are smaller."""
 
 _HALF = (1 << 52) - (1 << 8)
-"""Half a raw step in units of 2^-53, less a margin for rounding numbers that were rounded before."""
+"""Half a raw step in units of 2^-53, less a margin for numbers that were rounded before."""
 
 _MOST_ROUNDINGS = 5
-"""Where other points choose the rule, five are rounded: the value, product, quotient, sum and offset."""
+"""The roundings on the way back if other points choose the rule: value, product, quotient, sum and offset."""
 
 _MANTISSA = 24
-"""The bits of an f32's mantissa: as a factor they widen the integers, while its exponent only shifts the result."""
+"""The bits of an f32's mantissa. As a factor they widen the integers; the exponent only shifts the result."""
 
 
 class Paths(NamedTuple):
-    """How code computes a point: `decimals` is the k of its counts, None where no 64-bit integer holds them.
+    """How code computes a point. `decimals` is the k of its counts, None if no 64-bit integer holds them.
 
-    `encodes_values` says whether every raw number comes back from its value in binary64.
-    `most_raw` is the largest size of a raw number for which a scale with factors is exact, where the type goes beyond.
-    `raw_alone` says that the scale itself needs more than 64 bits: nothing is computed.
+    `encodes_values` is True if every raw number comes back from its value in binary64. `most_raw` is the largest size
+    of a raw number for which a scale with factors is exact, if the type holds larger ones. `raw_alone` is True if the
+    scale itself needs more than 64 bits: then nothing is computed.
     """
 
     decimals: int | None
@@ -58,9 +58,9 @@ class Paths(NamedTuple):
 
 
 class _Needs(NamedTuple):
-    """The largest integers in a rule: of a raw number with its offset, of a value's numerator, of the constants.
+    """The largest integers in a rule: raw numbers with their offset, numerators of values, constants.
 
-    `down` is what raw numbers are multiplied by on the way to the numerator.
+    `down` is what raw numbers are multiplied by to give the numerator.
     """
 
     raw: int
@@ -70,7 +70,7 @@ class _Needs(NamedTuple):
 
 
 def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
-    """How code computes the point: with the author's decimals, or as few as make each raw step one count or more."""
+    """Return how code computes the point: with the stated decimals, or the fewest that make a raw step a count or more."""
     stated: int | None = facts.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
@@ -99,10 +99,10 @@ def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bou
 
 
 def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
-    """Whether code computes every value with so many decimals by integers alone.
+    """Return True if code computes every value with so many decimals by integers alone.
 
-    Where other points choose the rule, the numerator has 64 bits if there are counts, and 40 more for the decimals stay
-    below 128. With a fixed scale any raw number of the type may come.
+    If other points choose the rule, the numerator of a point with counts has 64 bits, and 40 more for the decimals stay
+    below 128. With a fixed scale any raw number of the type may occur.
     """
     if _is_chosen(cases):
         return counted
@@ -112,18 +112,19 @@ def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decim
 
 
 def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
-    """Whether other points decide at run time what the rule is: integers of 64 bits then compute all that follows."""
+    """Return True if other points decide the rule at run time. Code then computes with 64-bit integers throughout."""
     return any(case.point is not None or case.rule.factors for case in cases)
 
 
 def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
-    """Whether every raw number survives the way to its value and back, step by step in binary64.
+    """Return True if every raw number survives the way to its value and back in binary64.
 
-    The value is the binary64 nearest to the exact one; on the way back the product, the quotient and the sum are
-    rounded, and so are constants that binary64 does not hold. Each rounding is off by at most 2^-53 of a number that is
-    no larger than the raw number with its offset: while all of them together stay below half a raw step, rounding to
-    the nearest integer finds the raw number that it was. That needs no exact numerator, for decoding divides exactly;
-    only where other points choose the rule, decoding is done in binary64, too, if the numerator is exact there.
+    Decoding gives the binary64 nearest to the exact value. Encoding rounds the product, the quotient and the sum, and
+    uses rounded constants where binary64 does not hold them. Each rounding is off by at most 2^-53 of a number that is
+    no larger than the raw number with its offset. While all of them together stay below half a raw step, rounding to
+    the nearest integer gives the same raw number. The numerator need not be exact, because decoding divides exactly.
+    Only if other points choose the rule, decoding also computes in binary64, and then the numerator must be exact
+    there.
     """
     if chosen:
         return needs.numerator <= _EXACT and _MOST_ROUNDINGS * needs.raw <= _HALF
@@ -134,25 +135,25 @@ def _survives(rule: Linear, needs: _Needs, *, chosen: bool) -> bool:
 
 
 def asks_limits(holds: tuple[int, int]) -> bool:
-    """Whether the limits of a type that holds such numbers decide how code computes a point."""
+    """Return True if a type that holds such numbers is so wide that the limits decide how code computes a point."""
     return max(map(abs, holds)) >= _NARROW
 
 
 def _largest(facts: PointFacts, bounds: Bounds) -> int:
-    """The largest raw number that has to come back unchanged: any of a type of 32 bits, any in range of a wider type.
+    """Return the largest raw number that must come back unchanged.
 
-    Every pattern of up to 32 bits that a device may send has a count and a value. To ask that of 64 bits would rule out
-    most scales: there only numbers that may be written have to, and decoding reports others as an overflow.
+    For types of up to 32 bits that is any number that the device may send. For wider types it is any number in range:
+    to ask it of all numbers would rule out most scales, and decoding reports larger ones as an overflow.
     """
     holds = bounds.encodings[facts].holds
     return max(map(abs, bounds.own_hull(facts) if asks_limits(holds) else holds))
 
 
 def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
-    """The largest numerator with which every way to compute a point is exact; None where 128 bits hold any.
+    """Return the largest numerator with which every way to compute a point is exact; None if 128 bits hold any.
 
-    Values in binary64 take one that is exact there. Counts are 10^decimals times as large, and twice that is below the
-    bound, because their numerator is compared with its own half on the way to rounding.
+    Values in binary64 need a numerator that is exact there. Counts are 10^decimals times as large, and rounding
+    compares them with their own half: twice that must stay within the bound.
     """
     counts = None if decimals is None else _COUNTED // (2 * 10**decimals)
     limits = [limit for limit in (_EXACT if encodes else None, counts) if limit is not None]
@@ -160,7 +161,7 @@ def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
 
 
 def _most_raw(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
-    """The largest raw number that code can compute whatever the factors are; None if the type holds no larger one."""
+    """Return the largest raw number that code can compute for all factors; None if the type holds no larger one."""
     if not _is_chosen(cases) or numerator is None:
         return None
     least = _largest(facts, bounds)
@@ -172,7 +173,7 @@ def _most_raw(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, n
 
 
 def _decimals(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
-    """The decimals of the counts; None (without a finding) where no 64-bit integer holds the counts."""
+    """Return the decimals of the counts; None (without a finding) if no 64-bit integer holds the counts."""
     stated: int | None = facts.get("decimals")
     needed = max(_least_decimals(case.rule, bounds) for case in cases)
     fits = needed <= MOST_DECIMALS and _fit(needs, needed)
@@ -192,7 +193,7 @@ def _decimals(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, n
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """What to do where the integers of a scale do not fit: a change that really helps, and causes no other finding."""
+    """Return a hint for a scale whose integers do not fit: a change that helps and causes no other finding."""
     factors = [factor for case in cases for factor in case.rule.factors]
     names = " and ".join(
         f"`{name}`" for name in sorted({bounds.scales.index.by_item(factor.point).name for factor in factors})
@@ -213,17 +214,16 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
-    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits.
+    """Return True if counts of so many decimals, and all integers on the way, stay within 62 bits.
 
-    From a count to its raw number and back the same three products are met, one or the other way round: the raw number
-    with its offset times `down` is the numerator, and the constants are multiplied by 10^decimals at most. The factor
-    of two is the half that rounding compares with.
+    Both ways between counts and raw numbers compute the same three products: the raw number with its offset times
+    `down`, and the constants times at most 10^decimals. The factor of two is for the half that rounding compares with.
     """
     return all(2 * max(need.numerator, need.constant) * 10**decimals <= _COUNTED for need in needs)
 
 
 def _least_decimals(rule: Linear, bounds: Bounds) -> int:
-    """The fewest decimals at which a raw step is one count or more; above MOST_DECIMALS if none are enough."""
+    """Return the fewest decimals at which a raw step is one count or more; more than MOST_DECIMALS if none are enough."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
     if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
         return 0  # nothing can be computed: the author's decimals count
@@ -238,7 +238,7 @@ def _least_decimals(rule: Linear, bounds: Bounds) -> int:
 
 
 def _needs(rule: Linear, raw: int, bounds: Bounds, *, limit: int | None = None) -> _Needs:
-    """The largest integers of both paths of a rule, whatever its factors hold, or with factors of at most `limit`."""
+    """Return the largest integers in a rule for all that its factors can hold, or for factors of at most `limit`."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:

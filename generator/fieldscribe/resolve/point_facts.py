@@ -1,4 +1,4 @@
-"""Points before they are computed: every fact with its place in the text, and with the layer that it comes from."""
+"""The facts that a description states about one point, each with the layer and the place in the text it is from."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _RIVALS = {
     for pair in (("range", "range_in_units"), ("default", "default_in_units"), ("keeps", "keep_with"))
     for stated, rival in (pair, pair[::-1])
 }
-"""Pairs of keys that say one fact: the key that the nearer layer has hides the other one of farther layers."""
+"""Pairs of keys for the same fact: the one in a nearer layer hides the other one in farther layers."""
 
 
 _SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
@@ -36,8 +36,8 @@ _INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
 class Element:
     """One of the points that a row stands for.
 
-    `set_number` and `index` tell which one, None where the row has no sets or indices; `sets` and `indices` tell how
-    many there are. `counted` holds those of the keys `sets` and `indices` that the row has.
+    `set_number` and `index` are None if the row has no sets or indices; `sets` and `indices` say how many there are.
+    `counted` holds those of the keys `sets` and `indices` that the row has.
     """
 
     set_number: int | None
@@ -48,7 +48,7 @@ class Element:
     counted: tuple[str, ...]
 
     def values(self, number: int) -> Mapping[str, Fraction]:
-        """What an addressing rule may name; a point outside sets and arrays is in set 1, at index 1."""
+        """Return the names that an addressing rule may use; outside sets and arrays the set and the index are 1."""
         return {
             "number": Fraction(number),
             "index": Fraction(1 if self.index is None else self.index),
@@ -59,14 +59,14 @@ class Element:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The keys under `each` that mean this element, the most exact first: `set/index`, `index`; or `set` alone."""
+        """Return the keys under `each` for this element, the most exact first: `set/index`, `index`; or `set` alone."""
         if self.index is None:
             return () if self.set_number is None else (f"{self.set_number}",)
         by_index = (f"{self.index}",)
         return by_index if self.set_number is None else (f"{self.set_number}/{self.index}", *by_index)
 
     def titled(self, title: Titles) -> Titles:
-        """The title of this element: that of the row, with its set and index."""
+        """Return the title of the row with the set and index of this element."""
         words = [
             (words, number)
             for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
@@ -78,12 +78,12 @@ class Element:
 
 
 def set_title(title: Titles, number: int) -> Titles:
-    """The title of a point in a further set."""
+    """Return the title of a point in a further set."""
     return {language: f"{text} ({_words_in([(_SET_WORDS, number)], language)})" for language, text in title.items()}
 
 
 ALONE = Element(None, 1, None, 1, "", ())
-"""The one element of a row without sets and indices."""
+"""The element of a row without sets and indices."""
 
 
 def _words_in(words: list[tuple[dict[str, str], int]], language: str) -> str:
@@ -92,9 +92,10 @@ def _words_in(words: list[tuple[dict[str, str], int]], language: str) -> str:
 
 @dataclass(slots=True, eq=False)
 class PointFacts:
-    """One expanded point: its layers of facts, own facts first, and the group last. `use` is where its record is used.
+    """The facts of one expanded point, in layers: the point's own row first, then formats and records, the group last.
 
-    `failed` collects the keys that have findings, so that nobody reports what was assumed in their place.
+    `use` is the row that uses the point's record. `failed` collects the keys that have findings, so that no later step
+    reports what was assumed in their place.
     """
 
     name: str
@@ -132,17 +133,17 @@ class PointFacts:
 
     @property
     def floating(self) -> bool:
-        """Whether the point says that it is a floating-point number."""
+        """Return True if the type is a floating-point type."""
         return TYPES[self.get("type") or "u16"].floating
 
     @property
     def text(self) -> bool:
-        """Whether the point says that it is a text."""
+        """Return True if the type is `text`."""
         return bool(self.get("type") == "text")
 
     @property
     def untyped(self) -> str | None:
-        """What stands in place of a type: the manual's words, "" where it leaves that open, None if there is a type."""
+        """Return the words in place of a type, "" if the manual leaves the type open; None if there is a type."""
         words, typed = self.layer("untyped"), self.layer("type")
         if words is not None and (typed is None or self._rank(words) <= self._rank(typed)):
             return str(words["untyped"])
@@ -150,30 +151,30 @@ class PointFacts:
 
     @property
     def keeps(self) -> str | None:
-        """Whether a written value is kept, or by which command: the nearer one of `keep_with` and `keeps`."""
+        """Return what keeps a written value: the nearer one of `keep_with` (a command) and `keeps`."""
         keeps: str | bool | None = self.get("keep_with", self.get("keeps"))
         return {True: "yes", False: "no"}[keeps] if isinstance(keeps, bool) else keeps
 
     def _rank(self, layer: Map) -> int:
-        """How far a layer is from the point: 0 for its own facts, the greatest number for the group."""
+        """Return how far a layer is from the point: 0 for its own facts, the greatest number for the group."""
         return next((place for place, other in enumerate(self.layers) if other is layer), len(self.layers))
 
     @property
     def keys(self) -> Collection[str]:
-        """The facts that someone says."""
+        """Return the keys that some layer states."""
         return self._where.keys()
 
     def layer(self, key: str) -> Map | None:
-        """The layer that says this fact."""
+        """Return the layer that states this fact; None if none does."""
         return self._where.get(key)
 
     def get(self, key: str, otherwise: Any = None) -> Any:
-        """The fact, or `otherwise`."""
+        """Return the fact, or `otherwise`."""
         layer = self._where.get(key)
         return otherwise if layer is None else layer[key]
 
     def span(self, key: str | None = None) -> Span:
-        """Where the fact stands, or the point's name when nobody says it."""
+        """Return the place of the fact, or of the point's name if no layer states it."""
         layer = self._where.get(key) if key is not None else None
         if layer is not None and key is not None:
             return layer.span(key)
@@ -181,11 +182,11 @@ class PointFacts:
 
     @property
     def suffix(self) -> str:
-        """What this element adds to the name of its row, such as `_set_2`."""
+        """Return what this element adds to the name of its row, such as `_set_2`."""
         return "" if self.element is None else self.element.suffix
 
     def called(self, row: str) -> str:
-        """The name of this point if its row, or the member of its record, were called so."""
+        """Return the name of this point if its row, or the member of its record, had this name."""
         if self.use is not None:
             return f"{self.use['name']}_{row}"
         first = self.row["name"]
@@ -193,7 +194,7 @@ class PointFacts:
 
     @property
     def old_enum_names(self) -> tuple[str, ...]:
-        """What an enum in this row was called when the row, or the member of its record, had its old names."""
+        """Return the names that an enum in this row had when the row, or the record's member, had its old names."""
         head = ""
         if self.use is not None:
             head = f"{self.use['name' if self.enum_name.startswith(self.name) else 'record']}_"
@@ -202,16 +203,16 @@ class PointFacts:
 
     @property
     def row(self) -> Map:
-        """The row that the point comes from, also where a further set has facts of its own."""
+        """Return the row that the point comes from, also if a further set has facts of its own."""
         return next((layer for layer in self.layers if "name" in layer), self.own)
 
     @property
     def code(self) -> str | None:
-        """The manual's short name."""
+        """Return the manual's short name."""
         code = self.get("code")
         return None if code is None else str(code)
 
     @property
     def item(self) -> str:
-        """The name with the variant's value."""
+        """Return the name with the value of the variant."""
         return item_of(self.name, self.variant)

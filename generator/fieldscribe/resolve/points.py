@@ -1,4 +1,4 @@
-"""From expanded to the model's points: addresses, scales, allowed numbers, names."""
+"""Makes the model's points from their facts: places, shapes, limits, and what points of a group share."""
 
 from __future__ import annotations
 
@@ -35,18 +35,18 @@ _MOST_NAMES = 12
 
 @dataclass(frozen=True, slots=True)
 class ResolvedPoint:
-    """A point with the facts that it came from: checks need its places in the text, which the model does not have."""
+    """A point with the facts that it was made from: checks need their places in the text; the model has none."""
 
     point: Point
     facts: PointFacts
 
 
 def resolve_points(
-    scope: Scope, expanded: list[PointFacts], index: SymbolTable, telegrams: Telegrams
+    scope: Scope, all_facts: list[PointFacts], index: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
-    """All points of the device, computed; a wrong fact is a finding, and the usual one is assumed in its place."""
+    """Return all points of the device; a wrong fact is reported, and the usual one is assumed in its place."""
     kind_of, encoding_of = FactKeys().of, Encodings(scope).of
-    kinds = {facts: kind_of(facts) for facts in expanded}
+    kinds = {facts: kind_of(facts) for facts in all_facts}
     encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
     scales = Scales(scope, index)
     ranges, places = Ranges(Bounds(scales, encodings)), Places(scope, telegrams)
@@ -60,7 +60,7 @@ def resolve_points(
 
 
 class _Points:
-    """Puts points together: their identity, and what they share with others."""
+    """Puts points together from their identity and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
@@ -97,7 +97,7 @@ class _Points:
         )
 
     def _default(self, facts: PointFacts, kind: int, shape: Shape) -> tuple[Fraction | None, int | None]:
-        """The factory setting in the unit and as raw number."""
+        """Return the factory setting in the unit and as raw number."""
         if facts.layer("default") is None and facts.layer("default_in_units") is None:
             return None, None
         said = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
@@ -131,12 +131,12 @@ class _Points:
 
 
 def _are_general(terms: Terms) -> bool:
-    """Whether alike points share them: not where no point may name itself."""
+    """Return True if points of a kind share these terms: they name no other points."""
     return terms.when is None and not terms.changes_with
 
 
 def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:
-    """Why no code is generated for a point that has an address; None if there is code for it."""
+    """Return why no code is generated for a point with an address; None if there is code for it."""
     if facts.get("reserved", False):
         return "reserved by the maker"
     if facts.untyped is not None:
@@ -149,7 +149,7 @@ def _reason(facts: PointFacts, access: str, *, raw_alone: bool) -> str | None:
 
 
 def _untyped(scope: Scope, facts: PointFacts) -> str | None:
-    """What stands in place of a type; a finding where a type stands beside it, or `length` beside a type."""
+    """Return what stands in place of a type; report a type beside it, and `length` beside a type."""
     words, typed = facts.layer("untyped"), facts.layer("type")
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{facts.name}` has a type, and words that stand in place of one", "leave one of them out"
@@ -161,7 +161,7 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
 
 
 def _keeps(scope: Scope, facts: PointFacts) -> str | None:
-    """What keeps a written value; a finding where `keeps` and `keep_with` stand side by side."""
+    """Return what keeps a written value; report `keeps` and `keep_with` in one place."""
     kept, command = facts.layer("keeps"), facts.layer("keep_with")
     if kept is not None and kept is command:
         message, hint = "`keeps` and `keep_with` stand in place of each other", "leave one of them out"
@@ -195,7 +195,7 @@ def _steps(scope: Scope, facts: PointFacts) -> tuple[tuple[int, int], ...]:
 
 
 def _changes_with(facts: PointFacts, index: SymbolTable) -> tuple[str, ...]:
-    """The points whose writing changes this one, by name; a word that names none is a finding."""
+    """Return the names of the points whose writing changes this one; report words that name none."""
     words = facts.get("changes_with")
     names: dict[str, None] = {}
     for place, word in enumerate(words if words is not None else ()):
@@ -210,7 +210,7 @@ def _changes_with(facts: PointFacts, index: SymbolTable) -> tuple[str, ...]:
 
 
 def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction | None, int | None]:
-    """The factory setting in the unit and as raw number; None where it is not given or depends on other points."""
+    """Return the factory setting in the unit and as raw number; None if it is not given or depends on other points."""
     if facts.text:
         return None, None
     rule = None if facts.floating else _rule(facts, shape)
@@ -223,7 +223,7 @@ def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction
 
 
 def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
-    """The raw number that `default` says; None after a finding."""
+    """Return the raw number that `default` gives; None after a finding."""
     default, span, enum = facts.get("default"), facts.span("default"), shape.enum
     if facts.floating:
         message = "`default` is in raw numbers, which are bit patterns here"
@@ -254,7 +254,7 @@ def _has_a_fraction(default: object) -> bool:
 
 
 def _rule(facts: PointFacts, shape: Shape) -> Linear | None:
-    """The rule between raw number and value; None where it depends on other points or is not known."""
+    """Return the rule between value and raw number; None if it depends on other points or is unknown."""
     if shape.scale is not None:
         return shape.fixed_scale
     unsettled = facts.untyped is not None or (facts.layer("scale") is not None and facts.get("scale") is None)

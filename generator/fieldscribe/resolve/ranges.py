@@ -1,4 +1,4 @@
-"""Which raw numbers a point allows: from ranges, enums and types, with limits that other points set."""
+"""Resolves which raw numbers a point allows: by ranges, enums and types, with limits that other points set."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|
 
 
 class Ranges:
-    """Works out which raw numbers may be written to each point."""
+    """Resolves which raw numbers may be written to each point."""
 
     def __init__(self, bounds: Bounds) -> None:
         self.bounds = bounds
         self.report = bounds.scales.scope.report
 
     def allowed(self, facts: PointFacts, enum: Enum | None) -> Allowed:
-        """What may be written to the point: its range, else its enum's numbers, else all that the type holds."""
+        """Return what may be written: the point's range, else the numbers of its enum, else all that the type holds."""
         if facts.floating:
             return Allowed((), False, self._float_range(facts))
         if facts.text:
@@ -56,7 +56,7 @@ class Ranges:
     def intervals(
         self, facts: PointFacts, raw: Any, span: Span, in_units: bool, *, printed: bool = False
     ) -> Allowed | None:
-        """The raw numbers that a range (its YAML value, in raw numbers or in units) allows; None after a finding.
+        """Return the raw numbers that a range allows, from its YAML value; None after a finding.
 
         A range that is only `printed` in the manual may lie outside the type or run downwards, as misprints do.
         """
@@ -101,7 +101,7 @@ class Ranges:
         return Allowed((*_merged(fixed), *moving), listed, ())
 
     def _two_meanings(self, raw: Seq, span: Span) -> bool:
-        """A finding for `[0, 100]`: here a list of two numbers, in other tools the ends of an interval."""
+        """Report `[0, 100]`: it is a list of two numbers here, and the ends of an interval in other tools."""
         first, last = (raw[0], raw[1]) if len(raw) == 2 else (0, 0)
         if not all(isinstance(end, int | Decimal) for end in (first, last)) or last - first <= 1:
             return False
@@ -111,14 +111,14 @@ class Ranges:
         return True
 
     def _constant(self, facts: PointFacts, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
-        """The ends of a range that names no point and needs none for its scale; None if it does."""
+        """Return the ends of a range that needs no point; None if it or the scale needs one."""
         pairs = self.bounds.constant(facts, text, in_units)
         if pairs is None:
             return None
         return [(self._whole(low, span), self._whole(high, span)) for low, high in pairs]
 
     def _whole(self, exact: int | Fraction, span: Span) -> int:
-        """A limit as a whole raw number. Raises UnknownError after a finding."""
+        """Return a limit as a whole raw number. Raises UnknownError after a finding."""
         if exact.denominator == 1:
             return exact.numerator
         hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
@@ -128,7 +128,7 @@ class Ranges:
         raise UnknownError
 
     def _bound(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
-        """One end of a range: a raw number, or a limit that other points set."""
+        """Return one end of a range: a raw number, or a limit that other points set."""
         rule = self.bounds.limit(facts, end, text, span, in_units)
         if rule.factors:
             return self._limit(facts, rule, span)
@@ -136,7 +136,7 @@ class Ranges:
         return half_away(exact) if in_units else self._whole(exact, span)
 
     def _checked(self, facts: PointFacts, low: Bound, high: Bound, span: Span) -> bool:
-        """Whether the type holds both ends and the interval can hold a number; a finding if not."""
+        """Return True if the type holds both ends and the interval is not empty; report it otherwise."""
         least, greatest = self.bounds.encodings[facts].holds
         for end in (low, high):
             if isinstance(end, int) and not least <= end <= greatest:
@@ -156,7 +156,7 @@ class Ranges:
         return True
 
     def _limit(self, facts: PointFacts, rule: Linear, span: Span) -> Limit:
-        """A limit that other points set, with the least and greatest number that it can be."""
+        """Return a limit that other points set, with the least and greatest number that it can be."""
         rule = self.bounds.with_exponents(rule, span)
         own_least, own_greatest = self.bounds.encodings[facts].holds
         corners = [half_away(corner) for corner in self.bounds.corners(rule)]
@@ -170,12 +170,12 @@ class Ranges:
         return Limit(rule, tuple((name, codes) for name, codes in unless if codes), least, greatest)
 
     def _codes(self, name: str) -> tuple[tuple[int, int], ...]:
-        """The special codes of a point that limits another: while it holds one of them, the limit does not apply."""
+        """Return the special codes of a point: while it holds one of them, a limit that it sets does not apply."""
         specials = self.bounds.encodings[self.bounds.scales.index.by_item(name)].specials
         return tuple(sorted((special.low, special.high) for special in specials))
 
     def _float_range(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...]:
-        """The range of a floating-point point, in its unit."""
+        """Return the range of a floating-point point in its unit."""
         if facts.layer("range") is not None:
             message = "`range` is in raw numbers, which are bit patterns here"
             self.report.error("float-fact", message, facts.span("range"), "write `range_in_units`")
@@ -201,7 +201,7 @@ class Ranges:
 
 
 def _merged(pairs: Iterable[tuple[int, int]]) -> tuple[Interval, ...]:
-    """Intervals in ascending order, neighbours and overlaps joined."""
+    """Return intervals in ascending order, with neighbours and overlaps joined."""
     joined: list[tuple[int, int]] = []
     for low, high in sorted(pairs):
         if joined and low <= joined[-1][1] + 1:

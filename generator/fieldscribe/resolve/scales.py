@@ -1,4 +1,4 @@
-"""Scales as exact rules: from the author's formula to `raw = value * ratio * factors + offset`."""
+"""Resolves scales: from the author's formula to the exact rule `raw = value * ratio * factors + offset`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
 
 _LONGEST_CHAIN = 100
-"""How many points a search for a circle of scales visits; points of a longer circle are refused for another reason."""
+"""The most points that the search for a circle visits. Longer circles are refused for another reason."""
 
 
 class UnknownError(Exception):
@@ -32,7 +32,7 @@ class UnknownError(Exception):
 
 
 class Scales:
-    """The scale of every point, computed when first asked for; a scale that depends on itself is a finding."""
+    """Resolves the scale of every point when it is first asked for; reports scales that need themselves."""
 
     def __init__(self, scope: Scope, index: SymbolTable) -> None:
         self.scope = scope
@@ -40,13 +40,13 @@ class Scales:
         self._known: dict[PointFacts, tuple[ScaleCase, ...] | None] = {}
 
     def cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
-        """The cases of the point's scale; None where the raw number is the value (also after a finding)."""
+        """Return the cases of the point's scale; None if the raw number is the value, or after a finding."""
         if facts not in self._known:
             self._known[facts] = self._cases(facts)
         return self._known[facts]
 
     def affine(self, facts: PointFacts, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
-        """A point's number in a formula of `facts`: raw * slope + intercept. Raises UnknownError after a finding."""
+        """Return a point's number in a formula as raw * slope + intercept. Raises UnknownError after a finding."""
         used = self.index.find(name, facts.variant)
         place = formula.of(name)
         if used is None:
@@ -71,7 +71,7 @@ class Scales:
         return Affine(self._model_name(facts, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
     def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
-        """A finding unless the point is a number, and one that the manual settles."""
+        """Raise UnknownError after reporting a point that is no number, or whose type or scale the manual does not settle."""
         if used.text:
             self._refuse(place, f"`{name}` is a text", "name a number")
         if used.untyped:
@@ -82,7 +82,7 @@ class Scales:
                 self._refuse(place, f"the {key} of `{name}` is not settled", hint)
 
     def _model_name(self, facts: PointFacts, used: PointFacts, place: Span) -> str:
-        """What the model calls a point that `facts` uses: its item in the same variant, else the name of all."""
+        """Return the model's name of a point that `facts` uses: its item in the same variant, else its plain name."""
         if used.variant is None or used.variant == facts.variant:
             return used.item
         if len({sibling.get("type") or "" for sibling in self.index.siblings(used)}) > 1:
@@ -91,7 +91,7 @@ class Scales:
         return used.name
 
     def _check_floating(self, used: PointFacts, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
-        """A finding unless a floating-point number stands where it may: the value of an f32, as a factor of a scale."""
+        """Report a floating-point number that cannot stand here; only the value of an f32 can, as a factor of a scale."""
         if not in_scale:
             message = f"`{name}` is a floating-point number and cannot stand in a limit"
             self._refuse(place, message, "write the widest range")
@@ -102,7 +102,7 @@ class Scales:
             self._refuse(place, f"`{name}` is wider than 32 bits and cannot be a factor", "factors are f32 or whole")
 
     def floats(self, rule: Linear) -> list[Factor]:
-        """The factors of a rule that are floating-point numbers."""
+        """Return the factors of a rule that are floating-point numbers."""
         return [factor for factor in rule.factors if self.index.by_item(factor.point).floating]
 
     def _cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
@@ -164,14 +164,14 @@ class Scales:
         return None
 
     def _warn_of_cut_decimal(self, text: str, span: Span) -> None:
-        """A warning for a decimal that looks cut off (0.33333): a later reader cannot tell which number was meant."""
+        """Warn of a decimal that looks cut off (0.33333): a later reader cannot tell which number was intended."""
         decimal = cut_off(text)
         if decimal is not None:
             message = f"{decimal.typed} looks like {decimal.exact}, cut off"
             self.scope.report.warning("cut-decimal", message, span, f"write `{decimal.line}` to keep it exact")
 
     def _rule_of_its_own(self, used: PointFacts, name: str, place: Span) -> Linear:
-        """The rule of a point whose value another formula uses; it must not depend on a third point."""
+        """Return the rule of a point whose value another formula uses; it must not depend on a third point."""
         moves = any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list)
         cases = None if moves else self.cases(used)
         if moves or (cases is not None and cases[0].rule.factors):
@@ -182,7 +182,7 @@ class Scales:
         return IDENTITY if cases is None else cases[0].rule
 
     def _circle(self, facts: PointFacts, used: PointFacts) -> list[str]:
-        """The names from `facts` over `used` back to itself, if the values need each other in a circle."""
+        """Return the names from `facts` over `used` back to `facts` if their values need each other in a circle."""
         came_from: dict[PointFacts, PointFacts | None] = {used: None}
         waiting = [used]
         while waiting and len(came_from) < _LONGEST_CHAIN:
@@ -201,7 +201,7 @@ class Scales:
         return []
 
     def _needs(self, facts: PointFacts) -> Iterator[PointFacts]:
-        """The points whose values the scale of this one needs."""
+        """Yield the points whose values the scale of this point needs."""
         raw = facts.get("scale")
         for text in (raw,) if isinstance(raw, str) else (entry["rule"] for entry in raw or ()):
             try:
@@ -219,12 +219,12 @@ class Scales:
 
 
 def written(text: str) -> str:
-    """A formula as its author wrote it, on one line."""
+    """Return a formula on one line, as its author wrote it."""
     return " ".join(text.split())
 
 
 def _suggest_scale(error: FormulaError, text: str, key: str) -> None:
-    """Hint at the scale that was probably meant, where the text is none but one can be guessed from it."""
+    """Add the scale that was probably intended as a hint, if one can be guessed from the text."""
     try:
         parse_scale(text)
     except FormulaError:

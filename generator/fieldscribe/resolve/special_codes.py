@@ -1,4 +1,4 @@
-"""The special codes of a point: its own, its format's, and those of its group and of the device, for all or by type."""
+"""Resolves special codes: a point's own, those of its format, group and device, and those of its type."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 _PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
-"""What marks a number that is not decimal: the pattern of bits as manuals print it."""
+"""Marks a number that is not decimal: manuals print such codes as the pattern of bits."""
 
 
 class _Code(NamedTuple):
-    """An entry of `special`; one without a name takes an inherited code away."""
+    """An entry of `special`; an entry without a name removes an inherited code."""
 
     low: int
     high: int
@@ -36,12 +36,12 @@ class _Code(NamedTuple):
 
     @property
     def span(self) -> Span:
-        """Where the number stands."""
+        """Return the place of the number."""
         return self.holder.key_span(self.key)
 
 
 class _Level(NamedTuple):
-    """Codes that one place declares; `label` is empty for the point itself."""
+    """The codes that one place declares; `label` is empty for the point itself."""
 
     label: str
     codes: Map
@@ -49,7 +49,7 @@ class _Level(NamedTuple):
 
 @dataclass(slots=True)
 class SpecialCodes:
-    """The special codes of all points of a device; codes that many points share are computed once."""
+    """Finds the special codes of points; codes that many points share are computed once."""
 
     scope: Scope
     _reported: set[tuple[Span, str]] = field(default_factory=set)
@@ -64,7 +64,7 @@ class SpecialCodes:
                     self.held(facts["special"], kind, TYPES[kind].bits)
 
     def of(self, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
-        """The codes of a point of type `kind`, the nearest first, and a name for those that it shares with others."""
+        """Return the codes of a point of this type, nearest first, and a name for those that it shares with others."""
         levels = tuple(_levels(self.scope, facts, kind, bits))
         if not levels:
             return (), ""
@@ -86,7 +86,7 @@ class SpecialCodes:
         return specials, "_".join((*labels, kind)) if all_kept else ""
 
     def held(self, node: Map, kind: str, width: int) -> tuple[_Code, ...]:
-        """The codes of one `special` as raw numbers of that type; a finding for each that does not fit or clashes."""
+        """Return the codes of one `special` as raw numbers of the type; report those that do not fit or clash."""
         key = (id(node), kind, width)
         if key not in self._held:
             kept: list[_Code] = []
@@ -97,7 +97,7 @@ class SpecialCodes:
         return self._held[key]
 
     def _numbers(self, node: Map, kind: str, width: int) -> Iterator[_Code]:
-        """The entries of one `special` that the type can hold; a finding for each other one."""
+        """Yield the entries of one `special` that the type can hold; report the others."""
         info = TYPES[kind]
         least, greatest = ends_of(width, signed=info.signed)
         for key, value in node.items():
@@ -135,7 +135,7 @@ class SpecialCodes:
                 yield _Code(low, high, all(patterns), None if value is None else name_of(value), node, key)
 
     def _merged(self, levels: list[tuple[_Code, ...]]) -> list[_Code]:
-        """The codes of all levels, the nearest first, without those that a nearer code without a name takes away."""
+        """Return the codes of all levels, nearest first, without those that a nearer level removes."""
         kept: list[_Code] = []
         away: list[_Code] = []
         used: set[Span] = set()
@@ -156,7 +156,7 @@ class SpecialCodes:
         return kept
 
     def _beats(self, nearer: _Code, code: _Code) -> bool:
-        """Whether a nearer code replaces this one: by its name or numbers; with some of them only it is a finding."""
+        """Return True if a nearer code replaces this one by its name or its numbers; report a partial overlap."""
         if nearer.name == code.name or nearer[:2] == code[:2]:
             return True
         if not _overlap(code, nearer):
@@ -168,9 +168,9 @@ class SpecialCodes:
         return True
 
     def _clash(self, code: _Code, other: _Code) -> bool:
-        """Whether two codes of one place share a number or a name; a finding with both places.
+        """Return True if two codes of one place share a number or a name, after reporting both places.
 
-        An entry that takes an inherited code away may stand beside entries that name its numbers anew.
+        An entry that removes an inherited code may stand beside entries that name its numbers anew.
         """
         if (code.name is None) != (other.name is None):
             return False
@@ -195,15 +195,15 @@ class SpecialCodes:
 
 
 def _overlap(code: _Code, other: _Code) -> bool:
-    """Whether two codes share a number."""
+    """Return True if two codes share a number."""
     return code.low <= other.high and other.low <= code.high
 
 
 def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | None) -> Iterator[_Level]:
-    """Where the codes of a point are declared, the nearest first.
+    """Yield the places that declare codes for a point, nearest first.
 
-    A group and the device speak of whole words: of all whole numbers, or of the points of one type. Bit groups, single
-    bits, texts and what is not settled have their own codes alone.
+    Codes of a group and of the device are for whole words: for all whole numbers, or for the points of one type. Bit
+    groups, single bits, texts and points of an unsettled type have only their own codes.
     """
     if kind == "text":
         return
@@ -223,7 +223,7 @@ def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | 
 
 
 def quantities(scope: Scope, facts: PointFacts, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
-    """What a range allows, without the special codes; a finding where nothing is left."""
+    """Return what a range allows without the special codes; report a range of which nothing is left."""
     remaining = without_codes(allowed, specials)
     if remaining.intervals or not allowed.intervals:
         return remaining
@@ -234,7 +234,7 @@ def quantities(scope: Scope, facts: PointFacts, allowed: Allowed, specials: tupl
 
 
 def without_codes(allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
-    """The intervals without the codes, as far as their ends are known."""
+    """Return the intervals without the codes; ends that other points set stay as they are."""
     intervals: list[Interval] = []
     for interval in allowed.intervals:
         if interval.fixed is not None:
@@ -245,7 +245,7 @@ def without_codes(allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
 
 
 def _without(low: int, high: int, specials: tuple[Special, ...]) -> list[Interval]:
-    """The parts of low..high between the codes."""
+    """Return the parts of low..high between the codes."""
     parts = []
     for special in sorted(specials, key=lambda special: special.low):
         if low <= special.high and special.low <= high:

@@ -1,4 +1,4 @@
-"""Points by name and code, and what is known of them before any formula is read."""
+"""The symbol table: finds points by name, code and item."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class SymbolTable:
-    """Drafts by name (several where variants differ) and by code; a code that several points have finds none."""
+    """Points by name (several if variants differ), by code and by item."""
 
     scope: Scope
     by_name: dict[str, list[PointFacts]]
@@ -26,29 +26,29 @@ class SymbolTable:
     by_items: dict[str, PointFacts]
 
     def find(self, word: str, variant: Variant | None = None) -> PointFacts | None:
-        """The point that a formula or an erratum means by `word`: its name, or a code that no other point has.
+        """Return the point that a word names: by its name, or by a code that no other point has.
 
-        Of a point that differs by variant it is the one of this variant, else the first.
+        Of a point that differs by variant, return the one of this variant, else the first.
         """
-        expanded = self.by_name.get(word) or self.by_code.get(word, [])
-        if not expanded or (len(expanded) > 1 and any(facts.name != expanded[0].name for facts in expanded)):
+        found = self.by_name.get(word) or self.by_code.get(word, [])
+        if not found or (len(found) > 1 and any(facts.name != found[0].name for facts in found)):
             return None
-        return next((facts for facts in expanded if facts.variant == variant), expanded[0])
+        return next((facts for facts in found if facts.variant == variant), found[0])
 
     def by_item(self, item: str) -> PointFacts:
-        """The point that a formula was resolved to: by its item name, or by its name where its variants are alike."""
+        """Return the point of a resolved reference: by item, or by name if all its variants are meant."""
         return self.by_items.get(item) or self.by_name[item][0]
 
     def siblings(self, facts: PointFacts) -> list[PointFacts]:
-        """The point in all its variants."""
+        """Return the point in all its variants."""
         return self.by_name[facts.name]
 
     def all(self, word: str) -> list[PointFacts]:
-        """Every point that `word` names: itself, or all that carry the code."""
+        """Return every point that a word names: by its name, or by a code that several may share."""
         return self.by_name.get(word) or self.by_code.get(word, [])
 
     def unknown(self, word: str, span: Span, axes: Collection[str] = ()) -> None:
-        """A finding for a word that means no point, or several; it could also mean one of the variant `axes`."""
+        """Report a word that names no point, or several; it could also name one of the variant `axes`."""
         several = self.by_code.get(word, [])
         if several:
             message = f"`{word}` is the code of {len(several)} points"
@@ -61,11 +61,11 @@ class SymbolTable:
         self.scope.unknown("point", word, span, [*self.by_name, *self.by_code], hint)
 
 
-def symbols_of(scope: Scope, expanded: list[PointFacts]) -> SymbolTable:
-    """All expanded by name and code; of two points of one name that are not variants the second is a finding."""
+def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
+    """Return the symbol table; report and remove points whose name another point has that is not their variant."""
     index = SymbolTable(scope, {}, {}, {})
     kept = []
-    for facts in expanded:
+    for facts in points:
         known = index.by_name.setdefault(facts.name, [])
         first = _other(known, facts) if known else None
         if first is not None:
@@ -80,17 +80,17 @@ def symbols_of(scope: Scope, expanded: list[PointFacts]) -> SymbolTable:
         if facts.code is not None:
             index.by_code.setdefault(facts.code, []).append(facts)
         kept.append(facts)
-    expanded[:] = kept
+    points[:] = kept
     return index
 
 
 def _other(known: list[PointFacts], facts: PointFacts) -> PointFacts | None:
-    """The first point of the same name that is not the same point in another variant."""
+    """Return the first point of the same name that is not a variant of this one."""
     return next((earlier for earlier in known if not _are_variants(earlier, facts)), None)
 
 
 def _are_variants(facts: PointFacts, other: PointFacts) -> bool:
-    """Whether two expanded are one point in two variants."""
+    """Return True if two points are one point in two variants."""
     return (
         facts.variant is not None and other.variant not in (None, facts.variant) and facts.layers[1] is other.layers[1]
     )

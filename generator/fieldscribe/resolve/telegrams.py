@@ -1,4 +1,4 @@
-"""Telegrams: cyclic layouts of words, and the messages whose frames carry them."""
+"""Resolves telegrams: cyclic layouts of words, and the messages whose frames carry them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.point_facts import PointFacts
 
 Telegrams = Mapping[str, tuple[Telegram, int]]
-"""By name: the telegram, and how many of its words one multiplexed frame carries (0: it is not multiplexed)."""
+"""By name: the telegram, and how many of its words one multiplexed frame carries (0 if it is not multiplexed)."""
 
 SPACE = "telegram"
 """The space whose points are words of a telegram."""
@@ -24,7 +24,7 @@ _MULTIPLEXED = 256
 
 
 def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
-    """All telegrams by name, in the order of the text."""
+    """Return all telegrams by name, in the order of the text."""
     result: dict[str, tuple[Telegram, int]] = {}
     by_name = {message.name: message for message in messages}
     for node in scope.unique("telegrams"):
@@ -49,7 +49,7 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
 
 
 def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts) -> tuple[Telegram, int] | None:
-    """The telegram whose words the points of the facts's group are; None after a finding."""
+    """Return the telegram that the point's group belongs to; None after a finding."""
     name = facts.group.get("telegram")
     if name is None:
         if "telegram" not in facts.group.broken:
@@ -64,7 +64,7 @@ def telegram_of(scope: Scope, telegrams: Telegrams, facts: PointFacts) -> tuple[
 
 
 def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
-    """Findings for a telegram without a message, with one of the other direction, or with one that carries another."""
+    """Report a telegram without a message, with one of the other direction, or with one that another telegram has."""
     name, direction, carrier = str(node["name"]), node["direction"], node.get("message")
     if not scope.family.lays_out_messages:
         reader_of(scope).telegram(scope, node, before)
@@ -85,7 +85,7 @@ def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], bef
 
 
 def _carried(scope: Scope, node: Map, messages: Mapping[str, Message]) -> int:
-    """How many words one frame carries if there are several frames, else 0; findings where they cannot."""
+    """Return how many words one of several frames carries, or 0 for a single frame; report layouts that do not fit."""
     name = node.get("message")
     if name is None or not scope.family.lays_out_messages:
         return 0

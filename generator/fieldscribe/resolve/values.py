@@ -1,4 +1,4 @@
-"""Numbers, keys and intervals out of YAML values, with findings instead of exceptions."""
+"""Reads numbers, bits and intervals from YAML values; reports findings instead of raising exceptions."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
 
 class Written(NamedTuple):
-    """A formula as it stands in a file."""
+    """A formula with its place in a file."""
 
     text: str
     span: Span
 
     def of(self, name: str) -> Span:
-        """The place of a name in it, where it stands first."""
+        """Return the place of a name in the formula, where it stands first."""
         match = re.search(rf"\b{re.escape(name)}\b", self.text)
         return self.span.moved(match.start() if match else 0, len(name))
 
 
 def number(value: Any, span: Span, report: Report) -> Fraction | None:
-    """The exact number that a YAML scalar means, in any notation of a manual; None and a finding if it is none."""
+    """Return the exact number of a YAML scalar in any notation of a manual; None after a finding."""
     if isinstance(value, int | Decimal):
         return Fraction(value)
     try:
@@ -41,7 +41,7 @@ def number(value: Any, span: Span, report: Report) -> Fraction | None:
 
 
 def integer(value: Any, span: Span, report: Report) -> int | None:
-    """The whole number that a YAML scalar means; None and a finding if it is none."""
+    """Return the whole number of a YAML scalar; None after a finding."""
     if isinstance(value, int):
         return value
     try:
@@ -52,7 +52,7 @@ def integer(value: Any, span: Span, report: Report) -> int | None:
 
 
 def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
-    """`a..b` of whole numbers, or one number as both ends."""
+    """Return the ends of `a..b`, or of a single number; None after a finding."""
     meant = None if ".." in text else interval_meant(text)
     if meant is not None:
         report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {meant}")
@@ -86,7 +86,7 @@ def bit_range(text: str, span: Span, report: Report) -> tuple[int, int] | None:
 def formula_value(
     text: str, names: Mapping[str, Fraction], span: Span, report: Report, unknown: str = ""
 ) -> Fraction | None:
-    """A formula of known numbers (`base + 6`, `wire + 1`); `unknown` is the hint if it names another."""
+    """Return the result of a formula of known numbers (`base + 6`); `unknown` is the hint if it names another."""
     try:
         return evaluate(parse_expression(text), names)
     except FormulaError as error:
@@ -97,6 +97,6 @@ def formula_value(
 
 
 def formula_finding(error: FormulaError, span: Span, report: Report) -> None:
-    """A finding at the column of the formula's text that is wrong."""
+    """Report a finding at the column of the formula that is wrong."""
     hint = error.hint or "formulas are made of numbers, points, + - * /, 10 ** n and parentheses"
     report.error("bad-formula", error.message, span.moved(error.column), hint)
