@@ -53,7 +53,7 @@ def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) ->
 
 
 class Bounds:
-    """Computes bounds of raw numbers. A type holds an interval; the hull of a point is what its range leaves of that."""
+    """Computes bounds of raw numbers. A type holds an interval; a point's hull is what its range leaves of it."""
 
     def __init__(self, scales: Scales, encodings: Mapping[PointFacts, Encoding]) -> None:
         self.scales = scales
@@ -62,7 +62,7 @@ class Bounds:
         self._depth = 0
 
     def hull(self, item: str) -> tuple[int, int]:
-        """Return the least and greatest raw number of a point, over its variants and with moving limits at their widest."""
+        """Return the least and greatest raw number of a point, over its variants and moving limits at their widest."""
         index = self.scales.index
         ends = [self.own_hull(sibling) for sibling in index.siblings(index.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)

@@ -61,7 +61,7 @@ def _resolved(
 def _comparison(
     scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
 ) -> conditions.Comparison:
-    """Return a comparison of whole raw numbers or of a variant. Raises UnknownError after a finding, or FormulaError."""
+    """Return a comparison of whole raw numbers or of a variant. Raises UnknownError (reported) or FormulaError."""
     name = comparison.name.name
     if name in scope.axes:
         values = [_value(scope, name, constant, written) for constant in comparison.constants]

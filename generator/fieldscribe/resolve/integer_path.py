@@ -70,7 +70,7 @@ class _Needs(NamedTuple):
 
 
 def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
-    """Return how code computes the point: with the stated decimals, or the fewest that make a raw step a count or more."""
+    """Return how code computes the point: with the stated decimals, or so many that a raw step is a count or more."""
     stated: int | None = facts.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
@@ -223,7 +223,7 @@ def _fit(needs: list[_Needs], decimals: int) -> bool:
 
 
 def _least_decimals(rule: Linear, bounds: Bounds) -> int:
-    """Return the fewest decimals at which a raw step is one count or more; more than MOST_DECIMALS if none are enough."""
+    """Return the fewest decimals at which a raw step is a count or more; above MOST_DECIMALS if none are enough."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
     if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
         return 0  # nothing can be computed: the author's decimals count

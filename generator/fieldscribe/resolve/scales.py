@@ -71,7 +71,7 @@ class Scales:
         return Affine(self._model_name(facts, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
     def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
-        """Raise UnknownError after reporting a point that is no number, or whose type or scale the manual does not settle."""
+        """Report a point that is no number, or whose type or scale is not settled. Raises UnknownError."""
         if used.text:
             self._refuse(place, f"`{name}` is a text", "name a number")
         if used.untyped:
@@ -91,7 +91,7 @@ class Scales:
         return used.name
 
     def _check_floating(self, used: PointFacts, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
-        """Report a floating-point number that cannot stand here; only the value of an f32 can, as a factor of a scale."""
+        """Report a floating-point number that cannot stand here; a scale may have an f32's value as a factor."""
         if not in_scale:
             message = f"`{name}` is a floating-point number and cannot stand in a limit"
             self._refuse(place, message, "write the widest range")
