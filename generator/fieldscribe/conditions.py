@@ -1,7 +1,7 @@
 """When points exist: conditions as structure, and whether values that can occur make them true.
 
-Conditions compare single numbers and names with constants. A few samples are enough to tell whether one can be true:
-each constant, the numbers next to it, and the ends of what can occur. Between these no comparison changes its result.
+A condition compares single numbers and names with constants. A few samples decide whether one can be true: each
+constant, its neighbours, and the ends of what can occur. Between these no comparison changes its result.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LARGEST = 1 << 64
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """`of` compared with constants by `test`: == != < <= > >= (one constant) or `in` (one or more).
+    """Compares `of` with constants by `test`: == != < <= > >= (one constant) or `in` (one or more).
 
     `of` is a variant axis, compared with names of its values, or a point, compared by its raw number.
     """
@@ -36,7 +36,7 @@ class Comparison:
     than: tuple[int, ...] | tuple[str, ...]
 
     def holds(self, value: int | str) -> bool:
-        """Whether it is true of a number, or of a name."""
+        """Return True if the comparison is true of a number, or of a name."""
         if self.test == "!=":
             return value != self.than[0]
         compare = _TESTS.get(self.test)
@@ -51,17 +51,17 @@ Clause = tuple[Comparison, ...]
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """True when all comparisons of one of its `clauses` are."""
+    """True if all comparisons of one of its `clauses` are true."""
 
     clauses: tuple[Clause, ...]
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The axes and points that it compares, in a fixed order."""
+        """Return the axes and points that it compares, in a fixed order."""
         return tuple(dict.fromkeys(comparison.of for clause in self.clauses for comparison in clause))
 
     def holds(self, values: Mapping[str, int | str]) -> bool:
-        """Whether it is true of these values by name."""
+        """Return True if the condition is true of these values by name."""
         return any(all(comparison.holds(values[comparison.of]) for comparison in clause) for clause in self.clauses)
 
 
@@ -69,11 +69,11 @@ Domain = tuple[str, ...] | tuple[tuple[int, int], ...]
 """What can occur: names, or closed intervals of raw numbers."""
 
 ANY: Domain = ((-_LARGEST, _LARGEST),)
-"""The domain of a number of which nothing is known."""
+"""The domain of a number about which nothing is known."""
 
 
 def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -> bool:
-    """Whether all comparisons of a clause can be true at once."""
+    """Return True if all comparisons of a clause can be true at once."""
     together: dict[str, list[Comparison]] = {}
     for comparison in clause:
         together.setdefault(comparison.of, []).append(comparison)
@@ -84,14 +84,14 @@ def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -
 
 
 def absent(condition: Condition | None, left: Mapping[str, tuple[str, ...]]) -> bool:
-    """Whether a condition can no longer be true when only the values `left` remain of each variant axis."""
+    """Return True if a condition cannot be true with only the values `left` of each variant axis."""
     if condition is None:
         return False
     return not any(possible(clause, lambda name: left.get(name, ANY)) for clause in condition.clauses)
 
 
 def _samples(comparisons: list[Comparison], domain: Domain) -> Iterator[int | str]:
-    """Samples of the domain that are enough to decide the comparisons."""
+    """Yield samples of the domain that are enough to decide the comparisons."""
     bounds = [part for part in domain if not isinstance(part, str)]
     if not bounds:
         yield from (part for part in domain if isinstance(part, str))
@@ -104,7 +104,7 @@ def _samples(comparisons: list[Comparison], domain: Domain) -> Iterator[int | st
 
 
 def version_of(text: str) -> tuple[str, tuple[int, ...], str] | None:
-    """`firmware 2.1b` as its words, its numbers and the letter at its end; None for a text without a version."""
+    """Return words, numbers and last letter of a version such as `firmware 2.1b`; None if it has no number."""
     match = _VERSION.fullmatch(" ".join(text.lower().split()))
     if match is None:
         return None
@@ -115,7 +115,7 @@ def version_of(text: str) -> tuple[str, tuple[int, ...], str] | None:
 
 
 def ends_before(until: str | None, since: str | None) -> bool:
-    """Whether a last version comes before a first version; versions are compared only if their words are the same."""
+    """Return True if a last version precedes a first version; only versions with the same words are compared."""
     if until is None or since is None:
         return False
     last, first = version_of(until), version_of(since)

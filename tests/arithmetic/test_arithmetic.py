@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from fieldscribe.arithmetic import floats, words
+from fieldscribe.arithmetic import exact, words
 from fieldscribe.arithmetic.codec import CodecError, decode, encode, encode_checked, powers_last, setting_of
-from fieldscribe.arithmetic.rounding import half_away, nearest
+from fieldscribe.arithmetic.exact import half_away, nearest
 from fieldscribe.model import Fixed, Text
 from hypothesis import given
 from hypothesis import strategies as st
@@ -82,13 +82,13 @@ def test_fixed_bits_reach_the_sign(raw: int, with_bits: int) -> None:
     [(1, 32, 0x3F800000), (-2, 64, 0xC000000000000000), (Fraction(1, 3), 32, 0x3EAAAAAB), (0, 32, 0)],
 )
 def test_patterns_of_floats(value: Fraction | int, bits: int, pattern: int) -> None:
-    assert floats.pattern_of(Fraction(value), bits) == pattern
-    assert floats.pattern_of(floats.float_of(pattern, bits), bits) == pattern
+    assert exact.pattern_of(Fraction(value), bits) == pattern
+    assert exact.pattern_of(exact.float_of(pattern, bits), bits) == pattern
 
 
 def test_what_no_float_holds_is_said() -> None:
     with pytest.raises(OverflowError):
-        floats.pattern_of(Fraction(10) ** 39, 32)
+        exact.pattern_of(Fraction(10) ** 39, 32)
     with pytest.raises(CodecError) as refused:
         encode(point("number", 0, "f32"), Fraction(10) ** 39, {})
     assert refused.value.status == "out_of_range"

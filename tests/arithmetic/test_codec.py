@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.conversation.encoding import encode_point
 from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.conversation.refusals import amount

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.arithmetic.codec import decode, setting_of
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.render import render
 from fieldscribe.targets import docs
 from support.c_device import WARNINGS, write_headers

@@ -6,8 +6,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from fieldscribe.arithmetic.lines import Line, count_line
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import Line, count_line, half_away
 from fieldscribe.lowered import lower, plan_of
 from fieldscribe.model import Limit, Special, Variant
 from fieldscribe.targets.rust.value_forms import limit_lines

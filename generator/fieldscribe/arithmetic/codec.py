@@ -1,6 +1,6 @@
-"""The exact arithmetic of one point: values to raw numbers and back, as rationals, with the run-time factors given.
+"""The exact arithmetic of one point: values to raw numbers and back, as rationals, with run-time factors given.
 
-It knows no words on the wire and no buses. A CodecError names other points whose raw numbers are needed.
+It knows neither words on the wire nor buses. A CodecError names other points whose raw numbers are needed.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from fractions import Fraction
 from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic import floats
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic import exact
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.arithmetic.words import with_fixed
 
 if TYPE_CHECKING:
@@ -22,15 +22,15 @@ Settings = Mapping[str, int | Fraction]
 """The raw numbers of other points by name, as rules need them; for f32 and f64 points the values (`setting_of`)."""
 
 MOST_EXPONENT = 30
-"""The largest exponent of ten that a point may give: 10^30 is beyond any device."""
+"""The largest exponent of ten that a point may be: 10^30 is beyond any device."""
 
 
 class CodecError(Exception):
-    """Why a value or a raw number cannot be computed.
+    """A value or a raw number cannot be computed.
 
     `status` is the status in generated code (`out_of_range`, `zero_factor`, ...) or `missing`. `missing` names the
-    points whose raw numbers are needed but not given, or the point that causes the error. `special` is the special
-    code that was met instead of a quantity.
+    points whose raw numbers are needed but not given, or the point that causes the error. `special` is the special code
+    that was met instead of a quantity.
     """
 
     def __init__(self, status: str, missing: Iterable[str] = (), special: Special | None = None) -> None:
@@ -41,7 +41,7 @@ class CodecError(Exception):
 
 
 class _NoQuantity(Fraction):
-    """The setting of a floating-point point that holds a special code: rules and limits must not compute with it."""
+    """The setting of a floating-point point that holds a special code; rules and limits must not compute with it."""
 
 
 class _Code(int):
@@ -50,7 +50,7 @@ class _Code(int):
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """Raw numbers low..high that may be written now; the widest possible ones while points are `missing`."""
+    """Raw numbers low..high that may be written now; the widest possible interval while points are `missing`."""
 
     low: int
     high: int
@@ -58,7 +58,7 @@ class Window:
 
 
 def setting_of(point: Point, raw: int) -> int | Fraction:
-    """The setting of a point that holds this raw number; 0 for a bit pattern that is no number."""
+    """Return the setting of a point that holds this raw number; 0 for a bit pattern that is no number."""
     coded = point.special(raw) is not None
     if not point.info.floating:
         return _Code(raw) if coded else raw
@@ -69,7 +69,7 @@ def setting_of(point: Point, raw: int) -> int | Fraction:
 
 
 def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]:
-    """(ratio, offset) with raw = value * ratio + offset. Raises CodecError."""
+    """Return (ratio, offset) with raw = value * ratio + offset. Raises CodecError."""
     if point.scale is None:
         return Fraction(1), Fraction(0)
     for case in point.scale:
@@ -79,7 +79,7 @@ def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]
 
 
 def decode(point: Point, raw: int, settings: Settings) -> Fraction:
-    """The exact value of a raw number. Raises CodecError, such as `not_a_number` for a bit pattern."""
+    """Return the exact value of a raw number. Raises CodecError, such as `not_a_number` for a bit pattern."""
     quantity(point, raw)
     if point.info.floating:
         number = float_of(point, raw)
@@ -93,7 +93,7 @@ def decode(point: Point, raw: int, settings: Settings) -> Fraction:
 
 
 def quantity(point: Point, raw: int) -> int:
-    """The raw number itself. Raises CodecError (`special`) if it is a special code."""
+    """Return the raw number itself. Raises CodecError (`special`) if it is a special code."""
     special = point.special(raw)
     if special is not None:
         raise CodecError("special", special=special)
@@ -101,7 +101,7 @@ def quantity(point: Point, raw: int) -> int:
 
 
 def encode(point: Point, value: Fraction, settings: Settings) -> int:
-    """The raw number nearest to a value, halves away from zero; the range is not checked. Raises CodecError."""
+    """Return the raw number nearest to a value, halves away from zero; the range is not checked. Raises CodecError."""
     if point.info.floating:
         return _pattern_of(point, value)
     ratio, offset = rule_in_force(point, settings)
@@ -109,14 +109,14 @@ def encode(point: Point, value: Fraction, settings: Settings) -> int:
 
 
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
-    """The raw number to write for a value; never a special code. Raises CodecError."""
+    """Return the raw number to write for a value; never a special code. Raises CodecError."""
     raw = quantity(point, with_fixed(point, encode(point, value, settings)))
     check(point, raw, settings)
     return raw
 
 
 def check(point: Point, raw: int, settings: Settings) -> None:
-    """Raises CodecError if a raw number may not be written: `special`, `out_of_range`, `unknown_value`, ..."""
+    """Raise CodecError if a raw number may not be written: `special`, `out_of_range`, `unknown_value`, ..."""
     special = point.special(raw)
     if special is not None and special.writable:
         return
@@ -139,7 +139,7 @@ def check(point: Point, raw: int, settings: Settings) -> None:
 
 
 def digits(point: Point, raw: int) -> tuple[int, ...]:
-    """The decimal digits of a word, the highest first; the highest may be more than 9."""
+    """Return the decimal digits of a word, the highest first; the highest may be more than 9."""
     digits = []
     for place in reversed(range(0 if point.digits is None else point.digits.count)):
         digit, raw = divmod(raw, 10**place)
@@ -148,27 +148,27 @@ def digits(point: Point, raw: int) -> tuple[int, ...]:
 
 
 def strange_digits(point: Point, raw: int) -> bool:
-    """Whether some digit of the word has no name in the enum of the digits."""
+    """Return True if a digit of the word has no name in the enum of the digits."""
     known = {entry.raw for entry in point.digits.enum.entries} if point.digits is not None else set()
     return not known.issuperset(digits(point, raw))
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
-    """The intervals in force; without any, all that the bits can hold. Raises CodecError (`zero_factor`)."""
+    """Return the intervals in force; without any, all that the bits can hold. Raises CodecError (`zero_factor`)."""
     in_force = tuple(_window(interval, settings) for interval in point.allowed.intervals)
     return in_force or (Window(point.least, point.greatest),)
 
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
-    """The number closest to `raw` that may certainly be written and is no special code; None if none is certain."""
+    """Return the number closest to `raw` that may certainly be written and is no special code; None without one."""
     known = [window for window in windows(point, settings) if not window.missing and window.low <= window.high]
     ends = [end for window in known if point.special(end := min(max(raw, window.low), window.high)) is None]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)
 
 
 def float_of(point: Point, pattern: int) -> float:
-    """The number that an f32 or f64 point holds as a bit pattern."""
-    return floats.float_of(pattern, point.info.bits)
+    """Return the number that an f32 or f64 point holds as a bit pattern."""
+    return exact.float_of(pattern, point.info.bits)
 
 
 def _needed(name: str, settings: Settings) -> int | Fraction:
@@ -188,7 +188,7 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
 
 
 def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
-    """The ratio times all factors. Raises CodecError for a zero divisor, and for a zero factor unless `zero` is set."""
+    """Return the ratio times all factors. Raises CodecError for a zero divisor; also for a zero factor unless `zero`."""
     product = rule.ratio
     for factor in powers_last(rule):
         number = _factor(factor, settings)
@@ -199,7 +199,7 @@ def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
 
 
 def powers_last(rule: Linear) -> list[Factor]:
-    """The factors in the order of generated code, which reports a zero factor before an exponent that is too large."""
+    """Return the factors in the order of generated code: it reports a zero factor before a too large exponent."""
     return sorted(rule.factors, key=lambda factor: factor.ten_to)
 
 
@@ -220,7 +220,7 @@ def _window(interval: Interval, settings: Settings) -> Window:
 
 
 def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple[str, ...]]:
-    """The bound, and the missing points; with any missing, the bound is the outermost that it can be."""
+    """Return the bound and the missing points; if any are missing, the outermost number that the bound can be."""
     if isinstance(bound, int):
         return bound, ()
     outermost = bound.outermost(low=lower)
@@ -235,7 +235,7 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
 
 
 def _is_code(held: int | Fraction | None, codes: tuple[tuple[int, int], ...]) -> bool:
-    """Whether a setting is one of the point's special codes."""
+    """Return True if a setting is one of the point's special codes."""
     if isinstance(held, int):
         return any(low <= held <= high for low, high in codes)
     return isinstance(held, _NoQuantity)
@@ -243,7 +243,7 @@ def _is_code(held: int | Fraction | None, codes: tuple[tuple[int, int], ...]) ->
 
 def _pattern_of(point: Point, value: Fraction) -> int:
     try:
-        return floats.pattern_of(value, point.info.bits)
+        return exact.pattern_of(value, point.info.bits)
     except OverflowError as error:
         raise CodecError("out_of_range") from error
 

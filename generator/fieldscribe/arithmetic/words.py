@@ -1,4 +1,4 @@
-"""Raw numbers in 16-bit words (the high part first), and in the bits of a word that points share."""
+"""Raw numbers in 16-bit words (high part first), and in the bits of a word that points share."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 
 def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
-    """The least and the greatest number of a type with so many bits."""
+    """Return the least and the greatest number of a type with so many bits."""
     return (-(1 << (width - 1)), (1 << (width - 1)) - 1) if signed else (0, (1 << width) - 1)
 
 
 def fits(numbers: Iterable[int], bits: int) -> bool:
-    """Whether a signed integer of so many bits holds all the numbers."""
+    """Return True if a signed integer of so many bits holds all the numbers."""
     low, high = ends_of(bits, signed=True)
     return all(low <= number <= high for number in numbers)
 
@@ -29,17 +29,17 @@ UINT64 = ends_of(64, signed=False)
 
 
 def mask_of(width: int, low: int = 0) -> int:
-    """A mask of `width` ones from bit `low` on."""
+    """Return a mask of `width` ones from bit `low` on."""
     return ((1 << width) - 1) << low
 
 
 def number_of(pattern: int, width: int, *, signed: bool) -> int:
-    """The number in a pattern of `width` bits, read as two's complement if it is signed."""
+    """Return the number in a pattern of `width` bits, read as two's complement if it is signed."""
     return pattern - (1 << width) if signed and pattern >> (width - 1) else pattern
 
 
 def joined(words: Iterable[int]) -> int:
-    """The words as one unsigned number."""
+    """Return the words as one unsigned number."""
     pattern = 0
     for word in words:
         pattern = pattern << 16 | word
@@ -47,23 +47,23 @@ def joined(words: Iterable[int]) -> int:
 
 
 def words_in(data: bytes) -> tuple[int, ...]:
-    """The words in the data; a single last byte is left out."""
+    """Return the words in the data, without a single last byte."""
     count = len(data) >> 1
     return unpack_from(f">{count}H", data)
 
 
 def split(raw: int, count: int) -> tuple[int, ...]:
-    """A number as so many unsigned words."""
+    """Return a number as `count` unsigned words."""
     return tuple(raw >> 16 * place & 0xFFFF for place in reversed(range(count)))
 
 
 def raw_of(point: Point, words: Sequence[int]) -> int:
-    """The raw number of a point from its words; for a text, all words as one number."""
+    """Return the raw number of a point from its words; for a text, all words as one number."""
     return raw_reader(point, range(len(words)))(words)
 
 
 def raw_reader(point: Point, places: Sequence[int]) -> Callable[[Sequence[int]], int]:
-    """What makes the raw number of a point from words, of which those at these places are its own, high part first."""
+    """Return a function from words to the raw number of a point, whose own words are at `places`, high part first."""
     first, several, own = places[0], len(places) > 1, itemgetter(*places)
     if point.text is not None:
         return lambda words: joined(own(words) if several else (words[first],))
@@ -78,17 +78,17 @@ def raw_reader(point: Point, places: Sequence[int]) -> Callable[[Sequence[int]],
 
 
 def words_of(point: Point, raw: int) -> tuple[int, ...]:
-    """The unsigned words of a raw number."""
+    """Return the unsigned words of a raw number."""
     return split(raw, point.words)
 
 
 def group_mask(point: Point) -> int:
-    """The mask of the bits that a point takes in its word."""
+    """Return the mask of the bits that a point takes in its word."""
     return 0xFFFF if point.bits is None else mask_of(point.width, point.bits[1])
 
 
 def insert(point: Point, word: int, raw: int) -> int:
-    """The word with the bits of a point replaced and its constant bits set."""
+    """Return the word with the bits of a point replaced and its constant bits set."""
     low = 0 if point.bits is None else point.bits[1]
     mask = group_mask(point)
     word = word & ~mask & 0xFFFF | raw << low & mask
@@ -96,7 +96,7 @@ def insert(point: Point, word: int, raw: int) -> int:
 
 
 def with_fixed(point: Point, raw: int) -> int:
-    """The raw number of a whole word with its constant bits set."""
+    """Return the raw number of a whole word with its constant bits set."""
     if point.fixed is None or point.bits is not None:
         return raw
     pattern = (raw & ~point.fixed.mask | point.fixed.bits) & mask_of(point.width)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.arithmetic.words import number_of
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq

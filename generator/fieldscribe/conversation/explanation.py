@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.families import family
 from fieldscribe.text import line

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.floats import float_of, pattern_of
-from fieldscribe.arithmetic.lines import Line
+from fieldscribe.arithmetic.exact import Line, float_of, pattern_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure, is_short
 from fieldscribe.families.decoded_frame import BoundedMemo

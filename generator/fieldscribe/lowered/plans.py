@@ -5,8 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.arithmetic.lines import Line, count_line, value_line
-from fieldscribe.arithmetic.rounding import nearest
+from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
 
 if TYPE_CHECKING:

@@ -16,13 +16,12 @@ from fieldscribe.model.device import (
     Own,
     Role,
     Telegram,
+    Version,
 )
-from fieldscribe.model.interning import Interner
 from fieldscribe.model.numbers import TYPES, Digits, Entry, Enum, Fixed, Flag, Special, Text, Titles, TypeInfo
 from fieldscribe.model.point import NOWHERE, Place, Point, Source, Terms, Unit, Variant, item_of
 from fieldscribe.model.rules import Allowed, Bound, Factor, Interval, Limit, Linear, ScaleCase
-from fieldscribe.model.shape import Shape
-from fieldscribe.model.version import Version
+from fieldscribe.model.shape import Interner, Shape
 
 __all__ = [
     "NOWHERE",

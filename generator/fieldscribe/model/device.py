@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +24,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """A thing beside the points that an erratum is about: a `frame`, a `function`, ... by its name or its number."""
+    """What an erratum is about if it is no point: a `frame`, a `function`, ... by its name or its number."""
 
     kind: str
     name: str | int
@@ -39,9 +39,9 @@ About = str | Named
 
 @dataclass(frozen=True, slots=True)
 class Erratum:
-    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, how sure that is.
+    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, and how sure that is.
 
-    `where` is what it is about if that is no whole point: a thing of the device, or a place in words.
+    `where` says what it is about if that is no point: a thing of the device, or a place in words.
     """
 
     id: str
@@ -53,20 +53,20 @@ class Erratum:
     why: str
     certainty: str
     facts: tuple[tuple[str, str], ...] = ()
-    """The printed facts by their keys; empty if the erratum is only told in words."""
+    """The printed facts by key; empty if the erratum states them in words only."""
 
 
 @dataclass(frozen=True, slots=True)
 class Own:
-    """Facts of one family; its folder defines them."""
+    """Facts of one family, which its folder defines."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
     """A worked example of the manual. `answers` names the request that a response answers.
 
-    `valid` is False when it is misprinted; `corrected` is the frame as it should read (the printed bytes when valid).
-    `meaning` gives raw numbers by point name.
+    `valid` is False for a misprinted frame; `corrected` is the frame as it should read (the printed bytes of a valid
+    one). `meaning` has raw numbers by point name.
     """
 
     name: str
@@ -111,13 +111,13 @@ class Message:
 
     @property
     def words(self) -> int:
-        """How many words of a telegram one frame carries."""
+        """Return how many words of a telegram one frame carries."""
         return sum(role.kind == "word" for role in self.roles) // 2
 
 
 @dataclass(frozen=True, slots=True)
 class Telegram:
-    """A cyclic layout of `words` words, carried by frames of a message, or by the family's own frames."""
+    """A cyclic layout of `words` words, carried by frames of a message or by the family's own frames."""
 
     name: str
     title: Titles
@@ -148,8 +148,8 @@ class Code:
     """A number of the protocol with a name: a function or an exception.
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
-    once; None means as the protocol says. `answers` of a request are its positive responses, of a response or an error
-    the requests that it may answer; `refusals` are the negative responses of a request.
+    once; None means that the protocol decides. `answers` has the positive responses of a request, or the requests that
+    a response or an error may answer; `refusals` has the negative responses of a request.
     """
 
     number: int
@@ -163,7 +163,7 @@ class Code:
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A read of consecutive addresses within the limits and between the gaps; it reads `points`."""
+    """A read of consecutive addresses within the limits and between the gaps, for `points`."""
 
     space: str
     function: int
@@ -174,7 +174,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the frames need to know of the device; `own` are the facts that only its family has."""
+    """What the frames need to know of the device; `own` has the facts of its family."""
 
     framings: tuple[str, ...]
     units: tuple[int, int]
@@ -188,13 +188,13 @@ class Bus:
     own: Own | None = None
 
     def codes(self, section: str) -> tuple[Code, ...]:
-        """The numbered codes under a key of `bus`, also under a key of this family only."""
+        """Return the numbered codes under a key of `bus`, which only this family may have."""
         codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
         return codes
 
     @property
     def usual_unit(self) -> int:
-        """The unit that examples go to: 1, or the lowest that the device may have."""
+        """Return the unit for examples: 1, or the lowest that the device may have."""
         low, high = self.units
         return 1 if low <= 1 <= high else low
 
@@ -214,7 +214,7 @@ class Document:
 class Device:
     """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
 
-    `asked` are the words of the command that makes its output, where that is not `fieldscribe generate`; it is no fact.
+    `asked` has the words of the command that writes the output, if that is not `fieldscribe generate`; it is no fact.
     """
 
     id: str
@@ -238,3 +238,21 @@ class Device:
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
     asked: tuple[str, ...] = field(default=(), repr=False)
+
+
+class Version(NamedTuple):
+    """`1.2.3`: a breaking change raises the first number, a new feature the second, any other change the third."""
+
+    major: int
+    minor: int
+    patch: int
+
+    @classmethod
+    def of(cls, text: str) -> Self:
+        """Return the version of a text of that form."""
+        return cls(*map(int, text.split(".")))
+
+    @property
+    def number(self) -> int:
+        """Return one number that grows with the version; the schema's form of versions keeps it below 2 ** 32."""
+        return (self.major * 1000 + self.minor) * 1000 + self.patch

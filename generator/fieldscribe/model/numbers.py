@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 Titles = Mapping[str, str]
-"""Text for people by language code; `en` is always present."""
+"""Text for people by language code; `en` is always there."""
 
 
 @dataclass(frozen=True, slots=True)
 class TypeInfo:
-    """What a wire type is: its width in bits, whether it is signed, whether it is a floating-point pattern."""
+    """A wire type: its width in bits, whether it is signed, and whether it is a floating-point pattern."""
 
     bits: int
     signed: bool
@@ -25,7 +25,7 @@ TYPES: Mapping[str, TypeInfo] = {
     "f64": TypeInfo(64, False, True),
     "text": TypeInfo(16, False, False),
 }
-"""All wire types; the width of a text is that of one word, and `Shape.text` has the number of its characters."""
+"""All wire types. The width of a text is that of one word; `Shape.text` has the number of its characters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Entry:
 class Enum:
     """Names of numbers. `name` is unique in the device; a closed enum allows only its own numbers.
 
-    `was` are the names that it had when the point that it is called after had its old ones; it follows from those.
+    `was` has the names that the enum had when its point had its old names.
     """
 
     name: str
@@ -56,8 +56,8 @@ class Enum:
 class Special:
     """A special code: raw numbers low..high that are no quantity; `no_value` if they mean that there is no value.
 
-    It may be written only if `writable`; `hexadecimal` if the manual prints it so. `own` is False for a code that many
-    points get from a type, a group or a format.
+    It may be written only if `writable`; it is shown in hexadecimal if the manual prints it so. `own` is False for a
+    code that many points get from a type, a group or a format.
     """
 
     low: int
@@ -80,7 +80,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Digits:
-    """A word whose decimal digits have separate meanings; `enum` names the numbers that each digit may have."""
+    """A word whose decimal digits have separate meanings; `enum` names the numbers that each digit may be."""
 
     count: int
     enum: Enum
@@ -88,7 +88,7 @@ class Digits:
 
 @dataclass(frozen=True, slots=True)
 class Fixed:
-    """Bits of a word that are always written as a constant: the bits in `mask` have the values in `bits`."""
+    """Bits of a word that are always written as a constant: those in `mask`, with the values in `bits`."""
 
     mask: int
     bits: int
@@ -96,7 +96,7 @@ class Fixed:
 
 @dataclass(frozen=True, slots=True)
 class Flag:
-    """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit; bits count from 0.
+    """One or several bits of a word that are named in the word's description. `low` is the lowest bit, counted from 0.
 
     `active` is the value of a single bit while its name is true (0 for inverted bits). `values` names the numbers.
     """

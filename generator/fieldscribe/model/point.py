@@ -19,7 +19,7 @@ Fact = TypeVar("Fact")
 
 
 class _Shared(property, Generic[Fact]):
-    """A fact of the shape or the terms as an attribute of the point: its users need not know which facts are shared."""
+    """Makes a fact of the shape or the terms an attribute of the point: users need not know which facts are shared."""
 
     if TYPE_CHECKING:
 
@@ -55,7 +55,7 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is read or written: its addresses, that of the high part first, and the manual's numbers for it."""
+    """Where a point is read or written: its addresses, high part first, and the numbers that the manual prints."""
 
     addresses: tuple[int, ...]
     references: Mapping[str, int | str]
@@ -77,16 +77,16 @@ class Variant:
 
 
 def item_of(name: str, variant: Variant | None) -> str:
-    """The name in generated code: the plain name, and behind it the value of the variant."""
+    """Return the name in generated code: the plain name, followed by the value of the variant."""
     return name if variant is None else f"{name}_{variant.value.lower()}"
 
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What points of a group share beside their shape: their space and unit, how they are kept, and when they exist.
+    """What points of a group share beside their shape: space, unit, how they are kept, and when they exist.
 
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
-    `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual says in
+    `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
     place of a type: empty if it leaves the type open, None if there is a type.
     """
 
@@ -111,12 +111,12 @@ class Terms:
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One addressable datum: its identity, over the shape and the terms that it shares with others.
+    """One addressable datum: its identity, and the shape and terms that it shares with others.
 
-    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no
-    addresses if the manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is
-    the factory setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a
-    floating-point number has only the first.
+    `name` is unique except for variants: points of the same name differ in `variant`. `place` has no addresses if the
+    manual prints none; `write_place` is where the point is written, if that is elsewhere. `default` is the factory
+    setting in the unit, `default_raw` its raw number: each is None if it depends on other points; a floating-point
+    number has only the first.
     """
 
     name: str
@@ -184,76 +184,77 @@ class Point:
 
     @property
     def raw_only(self) -> bool:
-        """Whether only its address is known, not the meaning of its words: it is read and written raw."""
+        """Return True if only its address is known, not the meaning of its words: it is read and written raw."""
         return not (self.generated or self.reserved) and self.access != "none" and bool(self.addresses)
 
     @property
     def words(self) -> int:
-        """How many 16-bit words (or single bits) the point takes; without a type, as many as addresses are printed."""
+        """Return how many 16-bit words (or single bits) the point takes; without a type, how many addresses it has."""
         return self.shape.words if self.untyped is None else max(1, len(self.addresses))
 
     @property
     def outer(self) -> tuple[int, int]:
-        """The least and greatest raw number that may ever be written; without limits, what the bits can hold."""
+        """Return the least and greatest raw number that may ever be written; without limits, what the bits can hold."""
         least, greatest = self.shape.least, self.shape.greatest
         low, high = self.allowed.outer or (least, greatest)
         return max(low, least), min(high, greatest)
 
     @property
     def addresses(self) -> tuple[int, ...]:
-        """The addresses where the point is read (or else written), the high part first; may be empty."""
+        """Return the addresses where the point is read (or else written), the high part first; may be empty."""
         return self.place.addresses
 
     @property
     def references(self) -> Mapping[str, int | str]:
-        """The numbers that the manual prints for people, by numbering."""
+        """Return the numbers that the manual prints for people, by numbering."""
         return self.place.references
 
     @property
     def address(self) -> int | None:
-        """The lowest address, which requests name; None if the manual prints none."""
+        """Return the lowest address, which requests name; None if the manual prints none."""
         return min(self.addresses) if self.addresses else None
 
     @property
     def written(self) -> Place:
-        """The place where the point is written, which mostly is where it is read."""
+        """Return the place where the point is written: usually where it is read."""
         return self.write_place or self.place
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Where the point is read, and where else it is written; empty if the manual prints no address."""
+        """Return where the point is read, and where else it is written; empty if the manual prints no address."""
         apart = () if self.write_place is None else (self.write_place,)
         return (self.place, *apart) if self.addresses else ()
 
     def special(self, raw: int) -> Special | None:
-        """The special code with that raw number, if there is one."""
+        """Return the special code with that raw number, if there is one."""
         return next((code for code in self.shape.specials if code.low <= raw <= code.high), None)
 
     @property
     def item(self) -> str:
-        """The name in generated code, with the value of its variant."""
+        """Return the name in generated code, with the value of its variant."""
         return item_of(self.name, self.variant)
 
     @property
     def rank(self) -> tuple[bool, str, int]:
-        """What is shown or tried once for many is so at the point of least rank: by address; none is last.
+        """Return the rank of the point: what is shown once for many points is shown at the one of least rank.
 
-        New points mostly have addresses behind those of old ones, wherever they stand in the description.
+        The rank follows the address, because new points usually have higher addresses than old ones, wherever they
+        stand in the description. A point without an address comes last.
         """
         addresses = self.place.addresses
         return not addresses, self.space, min(addresses, default=0)
 
     @property
     def old_items(self) -> tuple[str, ...]:
-        """The old names in generated code."""
+        """Return the old names in generated code."""
         return tuple([item_of(old, self.variant) for old in self.was])
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
+        """Return the points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))
 
     @property
     def limit_arguments(self) -> tuple[str, ...]:
-        """The points that the limits need at run time: their factors, and those whose codes lift them."""
+        """Return the points that the limits need at run time: factors, and points whose codes suspend a limit."""
         return self.allowed.arguments

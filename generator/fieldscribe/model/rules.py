@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 class Factor:
     """A run-time factor: (raw * slope + intercept) of a point, or ten to the power of that; `power` is 1 or -1.
 
-    `exponents` are the raw numbers that may be an exponent; None until all points are resolved.
+    `exponents` are the raw numbers that a point may have as an exponent of ten.
     """
 
     point: str
@@ -34,12 +34,12 @@ class Linear:
     factors: tuple[Factor, ...]
 
     def __hash__(self) -> int:
-        """A hash without fractions: theirs take long."""
+        """Hash without the fractions, whose hashes take long."""
         points = tuple([factor.point for factor in self.factors])
         return hash((self.ratio.numerator, self.ratio.denominator, self.offset.numerator, points))
 
     def at(self, argument: Fraction) -> Fraction:
-        """The result of a rule without factors."""
+        """Return the result of a rule without factors."""
         return argument * self.ratio + self.offset
 
 
@@ -47,8 +47,8 @@ class Linear:
 class ScaleCase:
     """raw = `rule`(value). It holds always if `point` is None, else while the raw number of `point` equals `raw`.
 
-    `written` is the formula as the author took it from the manual. It is for people and no fact: equal rules are equal,
-    and points whose rules are equal show the words of the first.
+    `written` is the formula as the author wrote it. It is for people and no fact: equal rules are equal, and points
+    whose rules are equal show the text of the first.
     """
 
     point: str | None
@@ -61,8 +61,8 @@ class ScaleCase:
 class Limit:
     """A raw limit that depends on other points: the rule applied to 1, rounded half away from zero.
 
-    It does not apply while a point holds a raw number in one of the bands (low, high) of `unless`; `least` and
-    `greatest` bound it always.
+    It is suspended while a point holds a raw number in one of the bands (low, high) of `unless`. It always lies within
+    `least` and `greatest`.
     """
 
     rule: Linear
@@ -71,7 +71,7 @@ class Limit:
     greatest: int
 
     def outermost(self, *, low: bool) -> int:
-        """The outermost raw number that the limit can be, as the lower or the upper end of an interval."""
+        """Return the outermost raw number that the limit can be, as the lower or the upper end of an interval."""
         return self.least if low else self.greatest
 
 
@@ -87,13 +87,13 @@ class Interval:
 
     @property
     def outer(self) -> tuple[int, int]:
-        """The ends; limits that depend on other points as far out as they can be."""
+        """Return the ends, with limits that depend on other points at their widest."""
         low, high = self.low, self.high
         return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
 
     @property
     def fixed(self) -> tuple[int, int] | None:
-        """The ends; None if one of them depends on other points."""
+        """Return the ends; None if one of them depends on other points."""
         return (self.low, self.high) if isinstance(self.low, int) and isinstance(self.high, int) else None
 
 
@@ -101,8 +101,8 @@ class Interval:
 class Allowed:
     """Which raw numbers may be written: a union of intervals in ascending order.
 
-    `listed` says that the author wrote single numbers. For f32 and f64, `units` holds the limits instead, as values in
-    the unit. Points that allow the same share one object, so that derived facts are worked out once.
+    `listed` says that the author wrote single numbers. For f32 and f64, `units` holds the limits instead, in the unit.
+    Points with the same limits share one object, so that derived facts are computed once.
     """
 
     intervals: tuple[Interval, ...]
@@ -111,23 +111,23 @@ class Allowed:
 
     @cached_property
     def outer(self) -> tuple[int, int] | None:
-        """The least and greatest raw number of all intervals; None where there are none."""
+        """Return the least and greatest raw number of all intervals; None if there are none."""
         ends = [interval.outer for interval in self.intervals]
         return (min(low for low, _ in ends), max(high for _, high in ends)) if ends else None
 
     @cached_property
     def fixed(self) -> tuple[tuple[int, int], ...]:
-        """The intervals that depend on no other point."""
+        """Return the intervals that depend on no other point."""
         return tuple(interval.fixed for interval in self.intervals if interval.fixed is not None)
 
     @property
     def moves(self) -> bool:
-        """Whether a limit depends on other points."""
+        """Return True if a limit depends on other points."""
         return len(self.fixed) < len(self.intervals)
 
     @cached_property
     def arguments(self) -> tuple[str, ...]:
-        """The points that the limits need at run time: as factors, or because their codes lift a limit."""
+        """Return the points that the limits need at run time: factors, and points whose codes suspend a limit."""
         names: dict[str, None] = {}
         for interval in self.intervals if self.moves else ():
             for bound in (interval.low, interval.high):
@@ -137,5 +137,5 @@ class Allowed:
         return tuple(names)
 
     def holds(self, raw: int) -> bool:
-        """Whether a raw number can be allowed: limits that depend on other points count as far out as they can be."""
+        """Return True if a raw number can be allowed, with limits that depend on other points at their widest."""
         return any(low <= raw <= high for low, high in (interval.outer for interval in self.intervals))

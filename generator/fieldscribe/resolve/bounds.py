@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear

@@ -7,7 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.arithmetic.rounding import half_away
+from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Seq

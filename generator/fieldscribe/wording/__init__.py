@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.lines import SAME
+from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text

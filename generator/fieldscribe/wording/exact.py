@@ -7,11 +7,10 @@ from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.lines import SAME, value_line
-from fieldscribe.arithmetic.rounding import nearest
+from fieldscribe.arithmetic.exact import SAME, nearest, value_line
 
 if TYPE_CHECKING:
-    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.arithmetic.exact import Line
     from fieldscribe.model import Factor, Point
 
 _SHORT = 6

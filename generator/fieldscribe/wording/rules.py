@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.lines import Line, value_line
+from fieldscribe.arithmetic.exact import Line, value_line
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
 from fieldscribe.wording.exact import exact, fixed_rule, number_text, plus_text, times_text, value_multiple
 

@@ -11,7 +11,7 @@ from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.lines import SAME
+from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.export import ExportError
 from fieldscribe.families.can.frames import LENGTH, carries, places
 from fieldscribe.text import line

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.floats import pattern_of
+from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.arithmetic.words import INT32, INT64, UINT64
 
 if TYPE_CHECKING:

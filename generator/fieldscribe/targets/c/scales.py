@@ -14,7 +14,7 @@ from fieldscribe.lowered import plan_of
 from fieldscribe.targets.c.literals import bare, cast, raw_type, real, sign_and_size, signed, unsigned
 
 if TYPE_CHECKING:
-    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.arithmetic.exact import Line
     from fieldscribe.lowered import Plan
     from fieldscribe.model import Linear, Point
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.lines import SAME
+from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.targets.docs.tables import decimal
 from fieldscribe.wording.exact import exact, fixed_rule, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.arithmetic.lines import Line
+    from fieldscribe.arithmetic.exact import Line
     from fieldscribe.model import Point
     from fieldscribe.targets.docs.tables import Encode
 

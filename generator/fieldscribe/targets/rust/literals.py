@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.floats import float_of, pattern_of
+from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.names import pascal
 

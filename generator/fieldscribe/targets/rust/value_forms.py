@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.lines import count_line
+from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
