@@ -188,7 +188,7 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
 
 
 def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
-    """Return the ratio times all factors. Raises CodecError for a zero divisor; also for a zero factor unless `zero`."""
+    """Return the ratio times all factors. Raises CodecError for a zero divisor, or a zero factor unless `zero`."""
     product = rule.ratio
     for factor in powers_last(rule):
         number = _factor(factor, settings)

@@ -94,7 +94,7 @@ class Shape:
 
     @cached_property
     def form(self) -> str:
-        """Return the form that a user sees: `float` (a pattern) `text digits enum flags bit scaled integer` (unscaled)."""
+        """Return the form that a user sees: `float` (a pattern), `text`, ..., or `integer` (raw is the value)."""
         forms = (
             (self.info.floating, "float"),
             (self.text is not None, "text"),
