@@ -115,7 +115,7 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_expression, "a \u2265 1", 2, "`\u2265`", "write >="),
     (parse_expression, "a \u2260 1", 2, "`\u2260`", "write !="),
     (parse_expression, "1 & 2", 2, "`&`", "write and"),
-    (parse_condition, "a == 1 & b == 1", 7, "`&`", "write `a == 1 and b == 1`"),
+    (parse_condition, "a == 1 & b == 1", 7, "`&`", "write and"),
     (parse_expression, "!a", 0, "`!`", "write not"),
     (parse_range, "0~5", 1, "`~`", "low..high"),
     (parse_expression, "1.", 1, "`.`", "digits on both sides"),

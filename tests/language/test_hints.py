@@ -165,7 +165,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("range: [0, 100]", "two-meanings", "`0..100` for all between them, `0 | 100` for these two alone"),
         ("enum: {off: 0, on: 1}", "unknown-key", "the number stands first: `0: off`"),
         ("flags: {ready: 0}", "unknown-key", "the number stands first: `0: ready`"),
-        ("type: int48", "wrong-choice", "leave `type` out and say it in words"),
+        ("type: int48", "wrong-choice", "leave `type` out; say it in words"),
         ("unit: mw", "unknown-unit", "`mW` (milliwatt) or `MW` (megawatt)"),
         ("unit: furlong", "unknown-unit", "`fieldscribe units` lists what is known"),
         ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
@@ -315,7 +315,7 @@ def test_numbers_as_keys_are_taken_as_manuals_write_them(tmp_path: Path, facts: 
 
 def test_the_two_notations_of_a_key_are_one_number(tmp_path: Path) -> None:
     (only,) = findings(tmp_path, "flags: {10: ten, 0Ah: also_ten}")
-    assert "bit 10 is taken twice" in only.message
+    assert "bit 10 is given twice" in only.message
 
 
 WIDE = [

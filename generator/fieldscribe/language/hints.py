@@ -7,9 +7,10 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.keys import forms
-from fieldscribe.language.meant_keys import meant_key
+from fieldscribe.language.keys import forms, keys_of
+from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.suggestions import bits_meant, key_suggestion, language_meant
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.schema_types import Form
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
+_GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
 _TYPING_SLIP = 0.7
@@ -110,22 +112,26 @@ def form_hint(value: str, form: Form) -> str:
 
 
 def named_otherwise(key: str, known: Collection[Form]) -> str | None:
-    """The right writing of a key that names bits or a language in another way; None if it does not."""
-    from fieldscribe.language.meant import bits_meant
-    from fieldscribe.language.meant_words import LANGUAGES
-
+    """Return a key that names bits or a language in our notation; None if it does not."""
     if forms.BITS in known:
         return bits_meant(key)
-    return LANGUAGES.get(key.lower()) if forms.LANGUAGE in known else None
+    return language_meant(key) if forms.LANGUAGE in known else None
 
 
 def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
     """The hint for an unknown key with this value."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
-    meant = meant_key(key, value, known)
-    if meant is not None:
-        return meant
+    if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
+        return _GROUP
+    if "group" in known and key in keys_of(DEVICE):
+        return "this stands in the head of device.yaml, its first document"
+    suggestion = key_suggestion(key, value, known)
+    return _spelling_hint(key, known, written) if suggestion is None else suggestion
+
+
+def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) -> str:
+    """Return the hint for a key that is misspelled, or that nothing is known of."""
     written = [form for form in written if form is not forms.PRIVATE]
     named = named_otherwise(key, written)
     if named is not None:

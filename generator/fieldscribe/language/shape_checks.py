@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import key_hint, quoted
 from fieldscribe.language.keys import forms, keys_of, needs, required
-from fieldscribe.language.meant import reversed_hint
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.suggestions import reversed_hint
 from fieldscribe.language.value_checks import compiled_pattern
 
 if TYPE_CHECKING:

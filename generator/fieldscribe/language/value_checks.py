@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from fieldscribe.language.hints import form_hint, nearest, quoted, shown, type_hint
 from fieldscribe.language.keys import forms
-from fieldscribe.language.meant import value_hint
 from fieldscribe.language.numbers import parse_integer
+from fieldscribe.language.suggestions import value_hint
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report

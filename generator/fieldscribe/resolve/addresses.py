@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.formula.syntax import names
-from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
+from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import NOWHERE, TYPES, Place
 from fieldscribe.resolve.point_facts import ALONE
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of

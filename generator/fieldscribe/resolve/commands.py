@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import families
-from fieldscribe.language.meant import space_hint
+from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
 from fieldscribe.resolve.family_reader import reader_of

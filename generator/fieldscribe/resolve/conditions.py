@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import conditions
 from fieldscribe.conditions import Condition
 from fieldscribe.language.formula import Comparison, FormulaError, clauses_of, parse_condition, wrong_number
+from fieldscribe.language.suggestions import condition_meant
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.scales import Scales, UnknownError
 from fieldscribe.resolve.values import Written, formula_finding
@@ -31,6 +32,8 @@ def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition |
     try:
         stated = clauses_of(parse_condition(text))
     except FormulaError as error:
+        meant = condition_meant(text)
+        error.hint = f"write `{meant}`" if meant else error.hint
         formula_finding(error, written.span, scope.report)
         stated = ()
     resolved = {

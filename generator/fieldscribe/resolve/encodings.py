@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.hints import quoted
-from fieldscribe.language.meant import bits_meant, space_hint
+from fieldscribe.language.suggestions import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.special_codes import SpecialCodes

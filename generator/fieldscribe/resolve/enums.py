@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.meant import interval_meant
+from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import Entry, Enum
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import integer

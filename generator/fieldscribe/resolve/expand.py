@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import inherited, keys_of, own
 from fieldscribe.language.keys.places import FORMAT, POINT, USE
-from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
+from fieldscribe.language.suggestions import value_hint
 from fieldscribe.model import Variant, item_of
 from fieldscribe.resolve.elements import elements_of
 from fieldscribe.resolve.point_facts import Element, PointFacts, set_title

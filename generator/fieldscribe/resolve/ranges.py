@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
-from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Seq
+from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
 from fieldscribe.resolve.scales import UnknownError

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NoReturn
 
 from fieldscribe.language.formula import Affine, FormulaError, Part, cut_off, parse_case, parse_scale, scale_rule
-from fieldscribe.language.formula.meant import scale_meant
+from fieldscribe.language.suggestions import scale_meant
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.values import Written, formula_finding
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of, number_of
-from fieldscribe.language.meant import interval_meant
+from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.enums import entry_titles, name_of
 from fieldscribe.resolve.values import integer

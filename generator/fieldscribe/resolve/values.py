@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
-from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+from fieldscribe.language.suggestions import interval_meant
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from fieldscribe.language.formula.errors import FormulaError
-from fieldscribe.language.formula.meant import condition_meant
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import Name
 from fieldscribe.language.formula.tokens import Token, number
@@ -70,16 +69,7 @@ Condition: TypeAlias = Comparison | Not | AllOf | AnyOf
 
 @lru_cache(maxsize=4096)
 def parse_condition(text: str) -> Condition:
-    """A condition; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
-    try:
-        return read_condition(text)
-    except FormulaError as error:
-        meant = condition_meant(text)
-        raise FormulaError(error.message, error.column, f"write `{meant}`" if meant else error.hint) from None
-
-
-def read_condition(text: str) -> Condition:
-    """A condition; errors carry no guess at what was meant. Raises FormulaError."""
+    """Return the condition of a text; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
     parser = Parser(text)
     condition = _any(parser)
     parser.finish(_NO_ARITHMETIC)
