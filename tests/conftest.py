@@ -9,8 +9,10 @@ import pytest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from support.c_device import Folders
+    from support.small_drive import Output
 
 T = TypeVar("T")
 UNTOLD = 2.0
@@ -58,3 +60,24 @@ def loads_once(monkeypatch: pytest.MonkeyPatch) -> None:
     from support.loaded_once import load_device
 
     monkeypatch.setattr(pipeline, "load_device", load_device)
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Callable[..., Output]:
+    """Run a command line in this process and return how it ended."""
+    from fieldscribe.cli import main
+    from support.small_drive import Output
+
+    return lambda *words: Output(main(words), *capsys.readouterr())
+
+
+@pytest.fixture
+def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Make a folder with ./descriptions/small_drive the working folder, and return the folder of the device."""
+    from support.described import write
+    from support.small_drive import DEVICE, MAIN
+
+    folder = tmp_path / "descriptions" / "small_drive"
+    write(folder, DEVICE, main=MAIN.replace("TITLE", "Speed"))
+    monkeypatch.chdir(tmp_path)
+    return folder
