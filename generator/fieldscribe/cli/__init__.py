@@ -58,7 +58,7 @@ COMMANDS = {
     "search": "find words in titles, codes, sections, names, flags, labels and numbers of all devices",
     "completion": "print the script with which a shell completes commands, options, devices and points",
     "init": "start a description that compiles at once, by a few questions or by options",
-    "import": "draft a description from the tables of a manual: its text, CSV, TSV, Markdown, HTML, XLSX",
+    "import": "draft a description from tables: CSV, TSV, XLSX, Markdown, HTML, or the text of a manual",
     "fmt": "bring descriptions into their canonical form; what they say stays the same, and so do comments",
     "watch": "compile descriptions, and say what is wrong with them, whenever a file of theirs is saved",
     "units": "list the units that descriptions can use without declaring them",

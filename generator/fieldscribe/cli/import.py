@@ -1,122 +1,147 @@
 # ruff: noqa: N999  # a command's module has the command's name
-"""`fieldscribe import`: a draft of a description from tables of a manual."""
+"""`fieldscribe import`: draft a description from the tables of a file."""
 
 from __future__ import annotations
 
+import re
 import sys
+from argparse import ArgumentTypeError
+from hashlib import sha256
 from typing import TYPE_CHECKING
+
+from fieldscribe.cli.common import StopError, some_path
+from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.families import FAMILIES, families
+from fieldscribe.importing import Draft, UnknownHeadingError, compilable, draft
+from fieldscribe.importing.draft_points import Options
+from fieldscribe.importing.draft_text import Head
+from fieldscribe.importing.headings import ROLES
+from fieldscribe.importing.readers import FORMATS, read_tables
+from fieldscribe.importing.tables import MOST_BYTES, MissingExtraError, UnreadableError
+from fieldscribe.safe_files import read_regular
+from fieldscribe.report import visible
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from pathlib import Path
 
-    from fieldscribe.importing import Drafted, Wishes
-    from fieldscribe.importing.draft_text import Head
     from fieldscribe.importing.tables import Table
 
-EXAMPLE = """examples:
+EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
+  fieldscribe import table registers.csv --base modicon
   fieldscribe import table manual.txt --list
-  fieldscribe import table manual.txt --lines 650..1050 --space holding > registers.yaml
-  fieldscribe import table list.csv --columns code=1,address=3,range=6
+  fieldscribe import table manual.txt --lines 650..1050 --column address="Start (dec)" --column unit=6 --base 1
 
-In a text the tables are rows between bars (|) or lines parted by tabs. What the cells leave open is left out, and
-`# ?` asks for it; numbers that contradict each other become errata to be confirmed. XLSX needs the extra `import`.
-Without --device only groups are written, to be parts of a device.
+The usual headings are known in English and German; --column names other columns, as one of
+{", ".join(ROLES)}.
+In a text, tables are rows between bars (|) or lines with tabs. A cell that is not clear becomes no fact of the
+draft but a comment, `# ?`. A draft compiles. Without --device only groups are written, to be parts of a device.
+XLSX needs the extra `import`.
 
-ends with 1 when the file holds no table of points, or cannot be read"""
-
-_KINDS = ("table",)
+ends with 1 when the file holds no table of points, has no such column, or cannot be read"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import some_path
-    from fieldscribe.families import FAMILIES, families
-
-    spaces = dict.fromkeys(space for family in families() for space in family.spaces)
-    parser.add_argument("kind", choices=_KINDS, metavar="KIND", help=f"what to import: {' or '.join(_KINDS)}")
-    parser.add_argument("file", type=some_path, metavar="FILE", help="the file with the tables")
-    parser.add_argument("--device", metavar="ID", help="write a whole device of this name")
-    parser.add_argument("--family", choices=tuple(FAMILIES), help="the device's family (default: by its spaces)")
-    parser.add_argument(
-        "--space", choices=tuple(spaces), help="the space of all points (default: by heads and headings)"
+    """Add the command's arguments."""
+    spaces = dict.fromkeys(space for family in families() for space in family.spaces if space != "telegram")
+    add = parser.add_argument
+    add("kind", choices=("table",), metavar="KIND", help="what to import: table")
+    add("file", type=some_path, metavar="FILE", help="the file with the tables")
+    add("--device", metavar="ID", help="write a whole device of this name")
+    add("--family", choices=tuple(FAMILIES), help="the device's family (default: by its spaces)")
+    add("--space", choices=tuple(spaces), help="the space of all points (default: by headings)")
+    what = "what the column with this heading or number holds; may be repeated"
+    add("--column", type=_column, action="append", default=[], metavar="ROLE=HEADING|N", help=what)
+    base = "the number printed for wire address 0 (default: 0), or `modicon` for references such as 40001"
+    add("--base", type=_base, default=0, metavar="N|modicon", help=base)
+    add("--hex", dest="is_hex", action="store_true", help="addresses without a mark are hexadecimal")
+    add(
+        "--address-part",
+        type=int,
+        choices=range(1, 9),
+        metavar="N",
+        help="which number is the address in cells that print several",
     )
-    parser.add_argument("--columns", metavar="ROLE=N,...", default="", help="what columns hold, counted from 1")
-    parser.add_argument(
-        "--table", type=int, action="append", default=[], metavar="N", help="only this table; may be repeated"
+    add("--ranges", choices=("raw", "units"), help="what ranges hold: raw numbers, or values in the unit")
+    add("--language", default="en", metavar="CODE", help="the language of the tables, two letters (default: en)")
+    add(
+        "--table",
+        type=int,
+        dest="tables",
+        action="append",
+        default=[],
+        metavar="N",
+        help="only this table; may be repeated",
     )
-    parser.add_argument("--lines", metavar="A..B", help="only tables that begin in these lines (or rows)")
-    parser.add_argument("--list", action="store_true", help="list the tables and their columns, and draft nothing")
-    parser.add_argument("--out", type=some_path, metavar="FILE", help="where to write (default: standard output)")
+    add("--lines", type=_lines, metavar="A..B", help="only tables that begin in these lines (or rows)")
+    add("--list", action="store_true", help="list the tables and their columns, and draft nothing")
+    add("--out", type=some_path, metavar="FILE", help="where to write (default: standard output)")
 
 
 def run(arguments: Namespace) -> int:
-    """Import; the exit code."""
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.importing import draft
-    from fieldscribe.importing.draft_text import draft_text
-
-    wishes = _wishes(arguments)
-    _refuse_call(arguments)
-    drafted = draft(_tables(arguments.file), wishes)
+    """Import, and return the exit code."""
+    _refuse_arguments(arguments)
+    names = ("space", "family", "language", "tables", "lines", "base", "is_hex", "address_part", "ranges")
+    columns: dict[str, list[str]] = {}
+    for role, name in arguments.column:
+        columns.setdefault(role, []).append(name)
+    options = Options(columns, **{name: getattr(arguments, name) for name in names})
+    try:
+        drafted = draft(_tables(arguments.file), options)
+    except UnknownHeadingError as error:
+        hint = f"there are {', '.join(f'`{heading[:60]}`' for heading in error.headings[:60])}"
+        raise StopError(f"--column: no table has a column `{error.name}`", hint, FINDINGS) from error
     if arguments.list:
-        _list(drafted)
+        _print_list(drafted)
         return FINE
-    _tell_left_out(drafted)
+    _print_left_out(drafted)
     if not drafted.groups:
-        hint = "`--list` shows the tables; `--columns` says what their columns hold"
+        hint = "`--list` shows the tables; `--column` says what their columns hold"
         raise StopError(f"`{arguments.file}` holds no table of points", hint, FINDINGS)
-    _write(draft_text(drafted, _head(arguments, drafted)), arguments.out)
+    _write(compilable(drafted, _head(arguments, drafted), with_head=arguments.device is not None), arguments.out)
     return FINE
 
 
-def _wishes(arguments: Namespace) -> Wishes:
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.importing import Wishes
-    from fieldscribe.importing.columns import said_columns
-
-    try:
-        columns = said_columns(arguments.columns) if arguments.columns else {}
-    except ValueError as error:
-        raise StopError(f"--columns: {error}") from error
-    return Wishes(columns, arguments.space, tuple(arguments.table), _lines(arguments.lines))
+def _column(text: str) -> tuple[str, str]:
+    """Return the role and the heading or number of `ROLE=HEADING`."""
+    role, _, name = text.partition("=")
+    if role not in ROLES or not name.strip():
+        raise ArgumentTypeError(f"`{text}` is not ROLE=HEADING or ROLE=NUMBER, with one of {', '.join(ROLES)}")
+    return role, name
 
 
-def _lines(said: str | None) -> tuple[int, int] | None:
-    """`650..1050`, `650-1050` or one line."""
-    from fieldscribe.cli.common import StopError
-
-    if said is None:
-        return None
-    first, _, last = said.replace("..", "-").partition("-")
-    if not all(end.isascii() and end.isdigit() and len(end) < 10 for end in (first, last or first)):
-        raise StopError(f"--lines: `{said[:40]}` is no range of lines", "write the first and the last: 650..1050")
-    return int(first), int(last or first)
+def _base(text: str) -> int | None:
+    """Return the number printed for wire address 0; None for Modicon references."""
+    if text != "modicon" and not re.fullmatch("[0-9]{1,7}", text):
+        raise ArgumentTypeError(f"`{text}` is neither the number printed for wire address 0 nor `modicon`")
+    return None if text == "modicon" else int(text)
 
 
-def _refuse_call(arguments: Namespace) -> None:
-    """What is wrong with the call before anything is read."""
-    import re
+def _lines(text: str) -> tuple[int, int]:
+    """Return the first and the last line of `650..1050`, `650-1050` or `650`."""
+    match = re.fullmatch(r"([0-9]{1,9})(?:(?:\.\.|-)([0-9]{1,9}))?", text)
+    if match is None:
+        raise ArgumentTypeError(f"`{text}` is no range of lines: write the first and the last, as 650..1050")
+    return int(match[1]), int(match[2] or match[1])
 
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.importing.reading import FORMS
 
-    if arguments.file.suffix.lower() not in FORMS:
-        raise StopError(f"`{arguments.file}`: no reader takes such a file", f"the name ends in {', '.join(FORMS)}")
+def _refuse_arguments(arguments: Namespace) -> None:
+    """Raise StopError for what is wrong before anything is read."""
+    if arguments.file.suffix.lower() not in FORMATS:
+        raise StopError(f"`{arguments.file}`: no reader takes such a file", f"the name ends in {', '.join(FORMATS)}")
     if arguments.device is not None and not re.fullmatch(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*", arguments.device[:80]):
         raise StopError(f"--device: `{arguments.device[:80]}` is no name", "names have a to z, digits and single _")
+    if not re.fullmatch("[a-z]{2}", arguments.language):
+        raise StopError(
+            f"--language: `{arguments.language[:80]}` is no code of a language", "write two letters, as `de`"
+        )
     if arguments.out is not None and arguments.out.exists():
         raise StopError(f"`{arguments.out}` is there already", "name another file, or remove it first")
 
 
 def _tables(path: Path) -> list[Table]:
-    from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.importing.reading import read_tables
-    from fieldscribe.importing.tables import MissingExtraError, UnreadableError
-
+    """Return the tables of the file. Raises StopError if it cannot be read."""
     try:
         return read_tables(path)
     except UnreadableError as error:
@@ -127,25 +152,14 @@ def _tables(path: Path) -> list[Table]:
         raise StopError(f"`{path}` needs the extra `{error.extra}`, which is not installed", hint) from error
 
 
-def _head(arguments: Namespace, drafted: Drafted) -> Head | None:
-    """The head of the device, if one is wanted."""
-    from hashlib import sha256
-
-    from fieldscribe.families import families
-    from fieldscribe.importing.draft_text import Head
-    from fieldscribe.importing.tables import MOST_BYTES
-    from fieldscribe.safe_files import read_regular
-
-    if arguments.device is None:
-        return None
-    spaces = {group.space for group in drafted.groups}
-    fitting = max(families(), key=lambda family: len(spaces & family.spaces.keys()))
+def _head(arguments: Namespace, drafted: Draft) -> Head:
+    """Return what the draft says of the device and the file."""
     digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
-    return Head(arguments.device, arguments.file.name, digest, arguments.family or fitting.name)
+    return Head(arguments.device or "draft", arguments.file.name, digest, drafted.family.name, arguments.language)
 
 
 def _write(text: str, out: Path | None) -> None:
-    """To a new file, or to standard output. A file that has come meanwhile is not overwritten."""
+    """Write to a new file, or to standard output; a file that appeared meanwhile is not overwritten."""
     if out is None:
         sys.stdout.write(text)
         return
@@ -154,25 +168,20 @@ def _write(text: str, out: Path | None) -> None:
         stream.write(text)
 
 
-def _list(drafted: Drafted) -> None:
-    """A line for each table: where it is, what its columns hold, whether points are drafted from it."""
-    from fieldscribe.report import visible
-
-    for table, columns, taken in drafted.seen:
-        roles = [f"{place + 1} {role}" for role, places in columns.places.items() for place in places]
-        said = ", ".join(sorted(roles, key=lambda role: int(role.split()[0]))) or "no column is known"
+def _print_list(drafted: Draft) -> None:
+    """Print a line for each table: where it is, whether it holds points, and what its columns hold."""
+    for table, columns in drafted.tables:
+        roles = sorted((place + 1, role) for role, places in columns.places.items() for place in places)
+        listed = ", ".join(f"{number} {role}" for number, role in roles) or "no column is known"
         title = columns.title or table.heading or "(no heading)"
-        mark = "points " if taken else "no points"
-        print(visible(f"{table.number:4}  {table.line}..{table.last}  {mark:9}  {title[:60]}: {said}"))
+        mark = "points " if columns.hold_points else "no points"
+        print(visible(f"{table.number:4}  {table.line}..{table.last}  {mark:9}  {title[:60]}: {listed}"))
 
 
-def _tell_left_out(drafted: Drafted) -> None:
-    """Say on stderr how many tables were not taken."""
-    left = [seen.table for seen in drafted.seen if not seen.taken]
-    if left:
-        lines = ", ".join(str(table.line) for table in left[:12]) + (", …" if len(left) > 12 else "")
-        count = f"{len(left)} table{'s hold' if len(left) > 1 else ' holds'}"
-        print(
-            f"{count} no points and {'are' if len(left) > 1 else 'is'} left out (line {lines}); `--list` shows them",
-            file=sys.stderr,
-        )
+def _print_left_out(drafted: Draft) -> None:
+    """Print to stderr how many tables hold no points."""
+    lines = [str(table.line) for table, columns in drafted.tables if not columns.hold_points]
+    if lines:
+        verbs = "s hold no points and are" if len(lines) > 1 else " holds no points and is"
+        shown = ", ".join(lines[:12]) + (", …" if len(lines) > 12 else "")
+        print(f"{len(lines)} table{verbs} left out (line {shown}); `--list` shows them", file=sys.stderr)

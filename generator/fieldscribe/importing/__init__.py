@@ -1,104 +1,187 @@
-"""Drafts of descriptions from tables: a file's tables, their columns, their rows, and what is open about them.
+"""Drafts a description from the tables of a file: `import table`.
 
-Nothing is guessed: what the cells leave open is left out, and a question stands where it belongs.
+The tables come from `readers`, their columns from `headings`, points from `draft_points`, YAML from `draft_text`.
+What is not certain is no fact of the draft but a question in it, and the compiler has the last word: `compilable`
+replaces each fact that it rejects by a question.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import dataclass, field
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, NamedTuple
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+from fieldscribe.diagnostics import Report
+from fieldscribe.families import families
+from fieldscribe.families import family as family_of_name
+from fieldscribe.importing.cells import one_line, space_in
+from fieldscribe.importing.draft_points import points_of
+from fieldscribe.importing.draft_text import DraftGroup, Names, draft_lines, snake
+from fieldscribe.importing.headings import columns_of, is_column_number, same_heading, upright
+from fieldscribe.pipeline import DEVICE_FILE, load_device
 
-    from fieldscribe.importing.columns import Columns
-    from fieldscribe.importing.drafts import DraftGroup
-    from fieldscribe.importing.rows import Read
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from fieldscribe.families.contract import Family
+    from fieldscribe.importing.draft_points import Options
+    from fieldscribe.importing.draft_text import DraftPoint, Head, Line
+    from fieldscribe.importing.headings import Columns
     from fieldscribe.importing.tables import Table
 
 
-@dataclass(frozen=True, slots=True)
-class Wishes:
-    """What the caller says: columns by role, the space, and which tables (by number, or lines first..last).
+class UnknownHeadingError(Exception):
+    """No table has a column that the user named; `headings` are those that there are."""
 
-    `ranges` says what columns of ranges hold that do not show it: `raw` numbers, or values in `units`.
-    """
-
-    columns: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
-    space: str | None = None
-    tables: tuple[int, ...] = ()
-    lines: tuple[int, int] | None = None
-    ranges: str | None = None
+    def __init__(self, name: str, headings: Sequence[str]) -> None:
+        super().__init__(name)
+        self.name = name
+        self.headings = headings
 
 
-class Seen(NamedTuple):
-    """A table with its columns, and whether points are drafted from it."""
+class ReadTable(NamedTuple):
+    """A table of the file, and its columns."""
 
     table: Table
     columns: Columns
-    taken: bool
 
 
-class Drafted(NamedTuple):
-    """The groups that were drafted, all tables that were looked at, and the language of their heads."""
+class Draft(NamedTuple):
+    """The drafted groups, all tables that were read, and the family of their spaces."""
 
     groups: list[DraftGroup]
-    seen: list[Seen]
-    language: str
+    tables: list[ReadTable]
+    family: Family
 
 
-def draft(tables: Sequence[Table], wishes: Wishes) -> Drafted:
-    """Draft groups of points from the tables that hold points."""
-    from fieldscribe.importing.grouping import grouped, language_of, named
-    from fieldscribe.importing.rows import rows_of, shows_of_range
-    from fieldscribe.importing.settling import each_once, limits_known
-
-    seen = _looked_at(tables, wishes)
-    merges = _print_dashes(seen)
-    read: list[tuple[Seen, list[Read]]] = []
-    shown: dict[str, Counter[str]] = {}
-    for entry in seen:
-        if entry.taken:
-            rows = rows_of(entry.table, entry.columns, merges=merges)
-            read.append((entry, rows))
-            shown.setdefault(_range_head(entry.columns), Counter()).update(shows_of_range(rows, entry.columns))
-    columns = {head: counts.most_common(1)[0][0] for head, counts in shown.items() if counts}
-    language = language_of(head for entry in seen if entry.taken for head in entry.columns.heads)
-    groups = grouped(
-        [(*entry, columns.get(_range_head(entry[0].columns), wishes.ranges)) for entry in read], wishes.space
-    )
-    each_once(groups)
-    limits_known(groups)
-    groups = [group for group in groups if group.points]
-    named(groups)
-    return Drafted(groups, seen, language)
+def draft(tables: Iterable[Table], options: Options) -> Draft:
+    """Draft groups of points from the tables that hold points. Raises UnknownHeadingError."""
+    read: list[ReadTable] = []
+    for table in (upright(table) for table in tables if _is_chosen(table, options)):
+        read.append(ReadTable(table, columns_of(table, options.columns, read[-1].columns if read else None)))
+    _refuse_unknown(read, [name for names in options.columns.values() for name in names])
+    with_points = [entry for entry in read if entry.columns.hold_points]
+    family = _family_of(with_points, options)
+    groups: dict[tuple[str, str], DraftGroup] = {}
+    for entry in with_points:
+        _add_to_groups(groups, entry, family, options)
+    _ask_about_doubles(point for group in groups.values() for point in group.points)
+    _give_names(groups.values())
+    return Draft(list(groups.values()), read, family)
 
 
-def _looked_at(tables: Sequence[Table], wishes: Wishes) -> list[Seen]:
-    """The wanted tables with their columns; a table without heads has those of the one above it."""
-    from fieldscribe.importing.columns import columns_of
-    from fieldscribe.importing.sheets_of_facts import upright
-
-    seen: list[Seen] = []
-    known = None
-    for table in map(upright, tables):
-        columns = columns_of(table, known, wishes.columns)
-        known = columns
-        if wishes.tables and table.number not in wishes.tables:
-            continue
-        if wishes.lines and not wishes.lines[0] <= table.line <= wishes.lines[1]:
-            continue
-        seen.append(Seen(table, columns, columns.are_points and len(table.rows) > columns.first))
-    return seen
+def _family_of(tables: Iterable[ReadTable], options: Options) -> Family:
+    """Return the family that the user names, or the first that has the most of the spaces."""
+    if options.family:
+        return family_of_name(options.family)
+    spaces = {options.space or _space_of(*entry) or "holding" for entry in tables}
+    return max(families(), key=lambda family: len(spaces & family.spaces.keys()))
 
 
-def _range_head(columns: Columns) -> str:
-    """The head of the column of ranges: tables that share it print their ranges alike."""
-    return next((columns.heads[place] for place in columns.places.get("range", ()) if place < len(columns.heads)), "")
+def _is_chosen(table: Table, options: Options) -> bool:
+    first, last = options.lines or (table.line, table.line)
+    return first <= table.line <= last and (not options.tables or table.number in options.tables)
 
 
-def _print_dashes(seen: Sequence[Seen]) -> bool:
-    """Whether the tables print a dash where there is nothing, so that an empty cell is merged with the one above."""
-    cells = [cell.strip() for entry in seen if entry.taken for row in entry.table.rows for cell in row.cells]
-    return sum(cell in ("-", "—", "–") for cell in cells) * 50 > len(cells)
+def _refuse_unknown(tables: Sequence[ReadTable], names: Iterable[str]) -> None:
+    """Raise UnknownHeadingError for a heading or a column number that no table has."""
+    rows = (columns.headings if any(columns.headings) else table.rows[0].cells for table, columns in tables)
+    headings = list(dict.fromkeys(one_line(heading) for row in rows for heading in row if heading))
+    widest = max((table.width for table, _ in tables), default=0)
+    for name in names:
+        is_number = is_column_number(name) and int(name) <= widest
+        if not is_number and same_heading(name) not in map(same_heading, headings):
+            raise UnknownHeadingError(name, headings)
+
+
+def _add_to_groups(
+    groups: dict[tuple[str, str], DraftGroup], entry: ReadTable, family: Family, options: Options
+) -> None:
+    """Add the points of a table to the groups of its title, one group for each space."""
+    table, columns = entry
+    known = options.space or _space_of(table, columns)
+    usual = "holding" if "holding" in family.spaces else next(iter(family.spaces))
+    points, comments = points_of(table, columns, known or usual, options)
+    title = columns.title or table.heading or "Points"
+    if not columns.first:
+        comments.append(f"the table at line {table.line} has no headings: it was read as the one above")
+    if unread := columns.unread(table):
+        comments.append(f"not read at line {table.line}: {', '.join(unread)}")
+    if known is None and options.base is not None:
+        comments.append(f"nothing names the space: is it {usual}?")
+    if options.base == 0 and any(point.wire for point in points) and all(map(_may_be_reference, points)):
+        comments.append("are the addresses Modicon references? Then import with `--base modicon`")
+    for point in points:
+        if point.space not in family.spaces:
+            point.questions.append(f"the family {family.name} has no space {point.space}: is it {usual}?")
+            point.space = usual
+        group = groups.setdefault((title, point.space), DraftGroup(title, point.space, table.section))
+        group.comments += [text for text in comments if text not in group.comments]
+        comments = []
+        point.section = table.section
+        group.points.append(point)
+
+
+def _may_be_reference(point: DraftPoint) -> bool:
+    return point.wire is None or re.fullmatch("[134][0-9]{4,5}", str(point.wire)) is not None
+
+
+def _space_of(table: Table, columns: Columns) -> str | None:
+    """Return the space that the heading of the addresses, the title or the heading of the table names."""
+    return next(filter(None, map(space_in, (columns.heading("address"), columns.title, table.heading))), None)
+
+
+def _ask_about_doubles(points: Iterable[DraftPoint]) -> None:
+    """Leave the address of a point open if a point above has the same."""
+    first: dict[tuple[str, int | None, str | None], DraftPoint] = {}
+    for point in points:
+        above = first.setdefault((point.space, point.wire, point.facts.get("bits")), point)
+        if point.wire is not None and above is not point:
+            point.withdraw("at", f"`{above.title or above.code}` at line {above.line} has the same address")
+
+
+def _give_names(groups: Iterable[DraftGroup]) -> None:
+    """Give every group and every point a name of its own."""
+    of_groups, of_points = Names(), Names()
+    for group in groups:
+        group.name = of_groups.give(snake(group.title, "points"), group.space)
+        for point in group.points:
+            place = "unknown" if point.wire is None else str(point.wire)
+            point.title = point.title or point.code or f"{group.space} {place}"
+            otherwise = snake(point.code, "point")
+            name = f"reserved_{place}" if "reserved" in point.facts else snake(point.title, otherwise)
+            point.name = of_points.give(name, otherwise if point.code else place)
+
+
+def compilable(draft: Draft, head: Head, *, with_head: bool) -> str:
+    """Return the draft as YAML that compiles, below the head of a device or as groups alone.
+
+    Facts that the compiler rejects become questions, until it rejects none.
+    """
+    while True:
+        top, head_lines, group_lines = draft_lines(draft.groups, head)
+        lines = [*top, *head_lines, *group_lines]
+        if not _withdraw_rejected(lines):
+            shown = lines if with_head else [*top, *group_lines[1:]]
+            return "".join(f"{line.text}\n" for line in shown)
+
+
+def _withdraw_rejected(lines: Sequence[Line]) -> bool:
+    """Compile the lines, and turn what is wrong into questions. Return True if anything was.
+
+    Raises ValueError for an error that no point can mend.
+    """
+    report = Report()
+    with TemporaryDirectory() as folder:
+        path = Path(folder, DEVICE_FILE)
+        path.write_text("".join(f"{line.text}\n" for line in lines), "utf-8", newline="\n")
+        load_device(path, report)
+    errors = [finding for finding in report.findings if finding.severity == "error"]
+    for finding in errors:
+        spans = [finding.span, *(span for span, _ in finding.related)]
+        owner = next((line for span in spans if (line := lines[span.line - 1]).point is not None), None)
+        if owner is None or owner.point is None:
+            raise ValueError(finding.message)
+        owner.point.withdraw(owner.key, finding.message)
+    return bool(errors)

@@ -1,218 +1,238 @@
-"""A draft as text: a description in YAML, with `# ?` wherever a person must decide."""
+"""Writes a draft as YAML: the head of a device, its groups and points, and `# ?` wherever a person must decide.
+
+Whatever a cell holds stays a text, or stays inside its comment.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING
+import re
+import unicodedata
+from dataclasses import dataclass, field
+from itertools import chain, count
+from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.importing import yaml_text
-from fieldscribe.importing.naming import Names, snake
+from fieldscribe.families import family
+from fieldscribe.language.scalars import as_yaml
+from fieldscribe.text import line
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
-    from fieldscribe.importing import Drafted
-    from fieldscribe.importing.drafts import DraftErratum, DraftGroup, DraftPoint
-
-    Titled = Callable[[str], str]
-
-_MEANINGS = ("range_in_units", "resolution", "choices")
+_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "ae", "Ö": "oe", "Ü": "ue", "ß": "ss", "%": " percent "})
+_SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+": " plus ", ">": " above ", "<": " below "}
+_ARTICLES = re.compile(r"the|an?|of|and|for|d(?:er|ie|as|em|en)|und|fuer|zu[rm]|von")
+_LONGEST_NAME, _LONGEST_COMMENT = 48, 400
+_KEYS = (
+    *("at", "bits", "access", "type", "length", "range", "range_in_units", "scale", "unit", "default"),
+    *("default_in_units", "enum", "flags", "reserved"),
+)
+"""The order of a point's facts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """What the draft says of the device, and of the file that it was made from."""
+    """What the draft says of the device, and of the file that it was made from; the language is that of its titles."""
 
     device: str
     file: str
     sha256: str
     family: str
+    language: str
 
 
-def draft_text(drafted: Drafted, head: Head | None) -> str:
-    """The whole draft: the head of a device if there is one, then a document for each group."""
-    points = [point for group in drafted.groups for point in group.points]
-    asked = sum(len(point.questions) for point in points)
-    said = f"{_counted(len(points), 'point')} from tables, with {_counted(asked, 'question')} at points"
-    lines = [f"# A draft of {said}: settle what `# ?` asks, then take it out."]
-    if drafted.language != "en":
-        lines.append(
-            yaml_text.question(f"names and titles are in the manual's language ({drafted.language}): give English ones")
-        )
-    if not any(point.type for point in points):
-        lines.append(yaml_text.question("no types are printed: a point is u16 unless it says otherwise"))
-    if head is not None:
-        lines += _head(head, drafted)
-    for group in drafted.groups:
-        lines += ["---"] * (head is not None or group is not drafted.groups[0])
-        lines += _group(group, drafted.language)
-    return "\n".join(lines) + "\n"
+@dataclass(slots=True)
+class DraftPoint:
+    """A point of the draft: its facts as YAML text by key, and the questions that a person must settle."""
+
+    line: int
+    space: str
+    title: str
+    code: str = ""
+    name: str = ""
+    section: str = ""
+    facts: dict[str, str] = field(default_factory=lambda: {"at": "~"})
+    wire: int | None = None
+    reference: tuple[int, str] | None = None
+    """The base of a printed reference, and the number as it is printed."""
+    flags: dict[str, str] = field(default_factory=dict)
+    questions: list[str] = field(default_factory=list)
+
+    def withdraw(self, key: str, reason: str) -> None:
+        """Replace a fact that does not compile by a question; where there is none to replace, all facts."""
+        value = self.facts.get(key, "~")
+        if key == "printed" and self.reference:
+            value, self.reference = self.reference[1], None
+        elif key == "name" and not self.name.endswith(f"_line_{self.line}"):
+            value, self.name = self.name, f"{self.name}_line_{self.line}"
+        elif key == "code" and self.code:
+            value, self.code = self.code, ""
+        elif value != "~":
+            self._leave_open(key)
+        else:
+            key, value = "the row", "; ".join(f"{name}: {text}" for name, text in self.facts.items() if text != "~")
+            self.facts, self.reference = {"at": "~"}, None
+        self.questions.append(f"{key}: {value}? {reason}")
+
+    def _leave_open(self, key: str) -> None:
+        del self.facts[key]
+        if key in ("at", "type", "scale"):
+            self.facts[key] = "~"
+        if key == "at":
+            self.wire = None
 
 
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'s' * (count != 1)}"
+@dataclass(slots=True)
+class DraftGroup:
+    """The points below one heading in one space, and comments about its tables."""
+
+    title: str
+    space: str
+    section: str
+    points: list[DraftPoint] = field(default_factory=list)
+    comments: list[str] = field(default_factory=list)
+    name: str = ""
 
 
-def _head(head: Head, drafted: Drafted) -> list[str]:
-    title = yaml_text.text(head.device.replace("_", " ").capitalize())
-    return [
-        "fieldscribe: 1",
-        f"device: {head.device}",
-        "version: 0.1.0",
-        f"vendor: Unknown  {yaml_text.question('who makes it')}",
-        f"model: Unknown  {yaml_text.question('how the maker calls it')}",
-        f"title: {title}  {yaml_text.question('what it is')}",
-        f"family: {head.family}",
-        "documents:",
-        f"  manual:  {yaml_text.question('its title')}",
-        f"    title: {yaml_text.text(head.file)}",
-        f"    language: {drafted.language}",
-        f"    file: {yaml_text.text(head.file)}",
-        f"    sha256: {head.sha256}",
-        f"bus:  {yaml_text.question('framings, unit addresses and functions, with the most of each request')}",
-        *(f"  {line}" for line in _bus(head.family, {group.space for group in drafted.groups})),
-    ]
+class Line(NamedTuple):
+    """A line of the draft, with the point and the key that it belongs to."""
+
+    text: str
+    point: DraftPoint | None = None
+    key: str = ""
 
 
-def _bus(family_name: str, spaces: set[str]) -> list[str]:
-    """What the family starts with; one that has nothing to start with is left to `check`."""
-    from fieldscribe.families import family
-
-    bus_of = getattr(family(family_name).part("description"), "bus_of", None)
-    return list(bus_of(spaces)) if bus_of is not None else ["units: 1..31"]
+def scalar(value: str) -> str:
+    """Return a text from a file as a YAML scalar: one line, without control characters."""
+    return as_yaml(line(value))
 
 
-def _group(group: DraftGroup, language: str) -> list[str]:
-    section = group.section or group.title
-    access = _usual([point.access for point in group.points])
-    lines = [
-        f"group: {group.name}",
-        f"title: {_titled(group.title, language)}",
-        f"space: {group.space}",
-        *([f"access: {access}"] if access else [yaml_text.question("access is not printed; without the key it is rw")]),
-        f"source: {{document: manual, section: {yaml_text.text(section)}}}",
-    ]
-    if group.numberings:
-        said = ", ".join(f"{name}: wire + {offset}" for name, offset in group.numberings.items())
-        lines.append(f"numbering: {{{said}}}")
-    if all(point.at is None for point in group.points):
-        lines.append(yaml_text.question("no addresses are printed: which follow from the codes?"))
-    lines.append("points:")
-    for point in group.points:
-        lines += point_lines(point, access, group.section, partial(_titled, language=language))
-    errata = [(point, erratum) for point in group.points for erratum in point.errata]
-    if errata:
-        lines += [yaml_text.question("misprints, as other printed numbers show them: is that so?"), "errata:"]
-        names = Names()
-        for point, erratum in errata:
-            lines += _erratum(point, erratum, names)
-    return lines
+def comment(value: str) -> str:
+    """Return a question as a comment of one line."""
+    cleaned = line(value)
+    return f"# ? {cleaned if len(cleaned) <= _LONGEST_COMMENT else cleaned[:_LONGEST_COMMENT] + ' …'}"
 
 
-def _usual(said: list[str | None]) -> str | None:
-    known = [access for access in said if access]
-    return max(sorted(set(known)), key=known.count) if known else None
+def snake(title: str, otherwise: str) -> str:
+    """Return a title as a short name in snake_case; `otherwise` if it holds no letter, and before a digit."""
+    text = title.translate(_GERMAN)
+    for symbol, word in _SYMBOLS.items():
+        text = text.replace(symbol, word)
+    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
+    words = re.findall(r"[a-z0-9]+", plain)
+    name = ""
+    for word in [word for word in words if not _ARTICLES.fullmatch(word)] or words:
+        if name and len(name) + len(word) >= _LONGEST_NAME:
+            break
+        name = f"{name}_{word}" if name else word[:_LONGEST_NAME]
+    if not name:
+        return otherwise
+    return name if name[0].isalpha() else f"{otherwise}_{name}"[:_LONGEST_NAME].rstrip("_")
 
 
-def _titled(title: str, language: str) -> str:
-    words = yaml_text.text(title)
+class Names:
+    """Gives names that are unique."""
+
+    def __init__(self) -> None:
+        self._taken: set[str] = set()
+
+    def give(self, name: str, suffix: str = "") -> str:
+        """Return the name; if it is taken, with the suffix or else a number behind it."""
+        candidates = chain((name, f"{name}_{suffix}") if suffix else (name,), (f"{name}_{n}" for n in count(2)))
+        given = next(candidate for candidate in candidates if candidate not in self._taken)
+        self._taken.add(given)
+        return given
+
+
+def label_map(labels: Mapping[str, str], key: str, language: str) -> str:
+    """Return numbers or bits with their names as the block of an `enum` (no `key`) or of `flags` (`title`)."""
+    names = Names()
+    lines = []
+    for number, label in labels.items():
+        name = scalar(names.give(snake(label, "number"), number.replace("..", "_")))
+        titles = _titles(label, language)
+        lines.append(f"\n  {number}: {{name: {name}, {f'{key}: {titles}}}' if key else titles[1:]}")
+    return "".join(lines)
+
+
+def _titles(title: str, language: str) -> str:
+    words = scalar(title)
     return f"{{en: {words}}}" if language == "en" else f"{{en: {words}, {language}: {words}}}"
 
 
-def point_lines(point: DraftPoint, access: str | None, section: str, titled: Titled) -> list[str]:
-    """A point of a group that has this access and section; `titled` writes the titles of a text of the table."""
-    lines = list(_facts(point, access, section, titled))
-    return [f"- {lines[0]}", *(f"  {line}" for line in lines[1:])]
+def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], list[Line], list[Line]]:
+    """Return the comments at the top, the head of a device, and a document for each group."""
+    points = [point for group in groups for point in group.points]
+    questions = sum(len(point.questions) for point in points)
+    counts = f"{_counted(len(points), 'point')} from tables, with {_counted(questions, 'question')} at points"
+    top = [f"# A draft of {counts}: settle what `# ?` asks, then take it out."]
+    if head.language != "en":
+        top.append(comment(f"titles are in the manual's language ({head.language}): give English names and titles"))
+    if not any("type" in point.facts for point in points):
+        top.append(comment("no types are printed: a point is u16 unless it says otherwise"))
+    body = [line for group in groups for line in (Line("---"), *_group_lines(group, head.language))]
+    return [Line(text) for text in top], [Line(text) for text in _head_lines(head, groups)], body
 
 
-def _facts(point: DraftPoint, access: str | None, section: str, titled: Titled) -> Iterator[str]:
-    """The lines of a point, in the order of our descriptions; its questions come last."""
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
+def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:
+    """Yield the head of the device, with a bus that reaches the spaces of its groups."""
+    yield from ("fieldscribe: 1", f"device: {head.device}", "version: 0.1.0")
+    yield f"vendor: Unknown  {comment('who makes it')}"
+    yield f"model: Unknown  {comment('its name at the maker')}"
+    yield f"title: {scalar(head.device.replace('_', ' ').capitalize())}  {comment('what it is')}"
+    yield f"family: {head.family}"
+    yield "documents:"
+    yield f"  manual:  {comment('its title')}"
+    yield f"    title: {scalar(head.file)}"
+    yield f"    language: {head.language}"
+    yield f"    file: {scalar(head.file)}"
+    yield f"    sha256: {head.sha256}"
+    yield comment("framings, unit addresses and functions, with the most of each request")
+    yield from family(head.family).part("description").bus_of({group.space for group in groups}).splitlines()
+
+
+def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
+    accesses = [point.facts.get("access", "") for point in group.points]
+    access = "" if "" in accesses else max(sorted(set(accesses)), key=accesses.count)
+    yield Line(f"group: {group.name}")
+    yield Line(f"title: {_titles(group.title, language)}")
+    yield Line(f"space: {group.space}")
+    yield Line(f"access: {access}" if access else comment("not every row prints an access; without the key it is rw"))
+    yield Line(f"source: {{document: manual, section: {scalar(group.section or group.title)}}}")
+    references = {_numbering(*point.reference): point.reference[0] for point in group.points if point.reference}
+    if references:
+        numberings = ", ".join(f"{name}: wire + {base}" for name, base in references.items())
+        yield Line(f"numbering: {{{numberings}}}")
+    yield from (Line(comment(text)) for text in group.comments)
+    yield Line("points:")
+    for point in group.points:
+        for number, (key, text) in enumerate(_point_lines(point, group, access, language)):
+            yield Line(f"{'  ' if number else '- '}{text}", point, key)
+
+
+def _numbering(base: int, printed: str) -> str:
+    """Return the name of a numbering: references of six digits have one of their own beside those of five."""
+    return "long_reference" if base > 1 and len(printed) > 5 else "reference"
+
+
+def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: str) -> Iterator[tuple[str, str]]:
+    """Yield the key and the text of each line of a point; its questions come last."""
     if point.code:
-        yield f"code: {yaml_text.text(point.code)}"
-    yield f"name: {point.name}"
-    yield f"title: {titled(point.title or point.name)}"
-    yield f"at: {point.shown}"
-    if point.index is not None:
-        yield f"index: {point.index}"
-    if point.bits:
-        yield f"bits: {point.bits}"
-    if point.access and point.access != access:
-        yield f"access: {point.access}"
-    if point.reserved:
-        yield "reserved: yes"
-    else:
-        yield from _meaning(point, titled)
-    if point.section and point.section != section:
-        yield f"section: {yaml_text.text(point.section)}"
-    yield f"line: {point.line}"
-    if point.lines:
-        cited = (f"{key}: {lines[0] if len(lines) == 1 else lines}" for key, lines in point.lines.items())
-        yield f"lines: {{{', '.join(cited)}}}"
-    if printed := _printed(point):
-        yield f"printed: {{{printed}}}"
-    yield from map(yaml_text.question, point.questions)
-
-
-def _meaning(point: DraftPoint, titled: Titled) -> Iterator[str]:
-    facts = {
-        "type": point.type,
-        "length": point.length,
-        "words": point.words,
-        "range": point.range,
-        "range_in_units": point.range_in_units,
-        "scale": point.scale,
-        "unit": point.unit if point.unit.startswith("°") else point.unit and yaml_text.text(point.unit),
-        "default": point.default,
-        "default_in_units": point.default_in_units,
-    }
-    yield from (f"{key}: {value}" for key, value in facts.items() if value)
-    if point.special:
-        codes = (f"{number}: {_writable(label, titled)}" for number, label in point.special.items())
-        yield f"special: {{{', '.join(codes)}}}"
-    for key, told in (("enum", point.labels), ("flags", point.flags)):
-        if told:
-            yield f"{key}:"
-            yield from (f"  {line}" for line in _names(told, "title" if key == "flags" else "", titled))
-
-
-def _names(told: Mapping[int, str] | Mapping[str, str], key: str, titled: Titled) -> Iterator[str]:
-    """A line for each number or bit with a name."""
-    names = Names()
-    for number, label in told.items():
-        name, titles = yaml_text.text(names.give(snake(label, "number"), str(number))), titled(label)
-        yield f"{number}: {{name: {name}, {f'{key}: {titles}}}' if key else titles[1:]}"
-
-
-def _writable(label: str, titled: Titled) -> str:
-    """A special code that may be written."""
-    return f"{{name: {yaml_text.text(snake(label, 'code'))}, writable: yes, {titled(label)[1:]}"
-
-
-def _printed(point: DraftPoint) -> str:
-    """What is printed twice: addresses by numbering, then ranges and steps. Without an address no number of it."""
-    parts = []
-    for key, values in point.printed.items():
-        if point.reserved and key in _MEANINGS:
-            continue
-        if key not in _MEANINGS and point.at is None:
-            continue
-        shown = [yaml_text.printed(value) for value in values]
-        parts.append(f"{key}: {shown[0] if len(shown) == 1 else '[' + ', '.join(shown) + ']'}")
-    return ", ".join(parts)
-
-
-def _erratum(point: DraftPoint, erratum: DraftErratum, names: Names) -> list[str]:
-    return [
-        f"- id: {names.give('_'.join((snake(point.code or point.name), erratum.fact or 'scale')))}",
-        f"  point: {point.name}",
-        f"  line: {point.line}",
-        f"  printed: {_told(erratum.fact, erratum.printed)}",
-        f"  taken: {_told(erratum.fact, erratum.taken)}",
-        f"  why: {yaml_text.text(erratum.why)}",
-        "  certainty: likely",
-    ]
-
-
-def _told(fact: str, value: str) -> str:
-    return f"{{{fact}: {yaml_text.printed(value)}}}" if fact else yaml_text.text(value)
+        yield "code", f"code: {scalar(point.code)}"
+    yield "name", f"name: {point.name}"
+    yield "title", f"title: {_titles(point.title or point.name, language)}"
+    for key in _KEYS:
+        value = point.facts.get(key)
+        if value is not None and not (key == "access" and value == access):
+            first, *further = f"{key}: {value}".replace(": \n", ":\n").split("\n")
+            yield key, first
+            yield from ((key, text) for text in further)
+    if point.section and point.section != group.section:
+        yield "section", f"section: {scalar(point.section)}"
+    yield "line", f"line: {point.line}"
+    if point.reference and point.facts["at"] != "~":
+        yield "printed", f"printed: {{{_numbering(*point.reference)}: {point.reference[1]}}}"
+    yield from (("", comment(question)) for question in point.questions)

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
 from fieldscribe.language.keys.shapes import DIRECTION, NAMED
 from fieldscribe.schema_types import Key, Shape, Text, Whole, by
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 KEYS = (
     Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),
@@ -41,7 +46,7 @@ KEYS = (
 
 
 SERVES = "a maker's own messages on CAN, laid out byte by byte"
-DEVICE = """\
+_BUS = """\
 bus: {bitrate: 125000, identifier_bits: 11, units: 0..30}
 messages:
 - name: read_request
@@ -53,11 +58,25 @@ messages:
   answers: read_request
   can_id: 320h + unit
   layout: {0: FFh, 1: unit, 2..3: address, 4..5: raw, 6..7: xor 0..5}
+"""
+_WRITING = """\
+- name: write_request
+  direction: request
+  can_id: 33Fh
+  layout: {0: EEh, 1: unit, 2..3: address, 4..5: raw, 6..7: xor 0..5}
+- name: write_answer
+  direction: response
+  answers: write_request
+  can_id: 320h + unit
+  layout: {0: EEh, 1: unit, 2..3: address, 4..5: raw, 6..7: xor 0..5}
+"""
+_FRAMES = """\
 frames:                            # frames that the manual prints: each is held against the messages and points
 - {name: read_first, direction: request, can_id: 33Fh, bytes: FF 05 00 01 00 00 FF 04}
 - {name: read_first_answer, direction: response, can_id: 325h, answers: read_first,
    bytes: FF 05 00 01 01 F4 FE F0, says: {first_value: 50.0}}
 """
+DEVICE = _BUS + _FRAMES
 GROUP = """\
 group: main
 title: {en: Main}
@@ -72,3 +91,8 @@ points:
   scale: value = raw * 0.1
   unit: "%"
 """
+
+
+def bus_of(_spaces: Collection[str]) -> str:
+    """Return the `bus` of a draft, with messages that read and write."""
+    return _BUS + _WRITING

@@ -59,8 +59,10 @@ _FUNCTIONS = {
 }
 
 
-def bus_of(spaces: Collection[str]) -> list[str]:
-    """The lines below `bus` of a draft, with the functions that reach points of these spaces."""
+def bus_of(spaces: Collection[str]) -> str:
+    """Return the `bus` of a draft, with the functions that reach points of these spaces."""
     wanted = _FUNCTIONS.keys() & spaces or {"holding"}
     functions = sorted(line for space in wanted for line in _FUNCTIONS[space])
-    return ["framings: [rtu]", "units: 1..247", "functions:", *(f"  {line}" for line in functions)]
+    return "\n".join(
+        ("bus:", "  framings: [rtu]", "  units: 1..247", "  functions:", *(f"    {line}" for line in functions))
+    )

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.language.keys.bus import CODES
 from fieldscribe.language.keys.places import BUS, FRAME
 from fieldscribe.schema_types import Items, Key, Shape, Text, Whole
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 PKW = Whole(choices=(0, 3, 4, 127))
 
@@ -35,7 +40,7 @@ KEYS = (
 
 
 SERVES = "parameters and process data in USS telegrams"
-DEVICE = """\
+_BUS = """\
 bus:
   units: 0..30
   broadcast: 32
@@ -49,10 +54,13 @@ bus:
     7: {name: cannot_execute, answers: [1, 2]}
   exceptions:                      # the error values, with their tasks
     0: {name: illegal_parameter_number, answers: [1, 2]}
+"""
+_FRAMES = """\
 frames:                            # tasks and answers that the manual prints: each is held against the points
 - {name: read_first, framing: pkw, direction: request, bytes: 1001 0000 0000 0000}
 - {name: read_first_answer, framing: pkw, answers: read_first, bytes: 1001 0000 01F4, says: {P0001: 50.0}}
 """
+DEVICE = _BUS + _FRAMES
 GROUP = """\
 group: main
 title: {en: Main}
@@ -68,3 +76,8 @@ points:
   scale: value = raw * 0.1
   unit: "%"
 """
+
+
+def bus_of(_spaces: Collection[str]) -> str:
+    """Return the `bus` of a draft, with tasks that read and write."""
+    return _BUS
