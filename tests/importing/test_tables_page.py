@@ -7,7 +7,7 @@ import shlex
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli import main
-from fieldscribe.importing.head_words import ROLES
+from fieldscribe.importing.headings import ROLES
 from support.places import ROOT
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from fieldscribe.importing.draft_text import Head
 from fieldscribe.importing.headings import ROLES
 from fieldscribe.importing.readers import FORMATS, read_tables
 from fieldscribe.importing.tables import MOST_BYTES, MissingExtraError, UnreadableError
-from fieldscribe.safe_files import read_regular
 from fieldscribe.report import visible
+from fieldscribe.safe_files import read_regular
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

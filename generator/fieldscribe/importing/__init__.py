@@ -22,9 +22,9 @@ from fieldscribe.importing.headings import columns_of, is_column_number, same_he
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
-    from fieldscribe.families.contract import Family
+    from fieldscribe.families import Family
     from fieldscribe.importing.draft_points import Options
     from fieldscribe.importing.draft_text import DraftPoint, Head, Line
     from fieldscribe.importing.headings import Columns

@@ -212,7 +212,7 @@ class Range(NamedTuple):
 def range_in(cell: str) -> Range | None:
     """Return the range of a cell that holds one range (`0-4000`, `0,0 bis 50,0 Hz`) or one list (`0, 1, 3`)."""
     plain = one_line(cell).strip(" ,;")
-    if _LIST.fullmatch(plain):
+    if _LIST.fullmatch(plain) and not re.fullmatch(r"[-+]?\d+,\d+", plain):  # `0,1` is a tenth
         numbers = [int(number) for number in re.findall(r"[-+]?\d+", plain)]
         return Range(", ".join(map(str, numbers)), "", in_units=False)
     match = _RANGE.fullmatch(plain)
@@ -236,12 +236,12 @@ def quantity_in(cell: str) -> tuple[Fraction, str] | None:
 
 def labels_in(cell: str) -> dict[str, str]:
     """Return the names of numbers: `0 = off, 1 = on`, `00 (off), 01 (on)`, or a line for each; else empty."""
-    lines = [line for line in cell.split("\n") if line.strip()]
     whole = one_line(cell)
-    found = [_LABEL_LINE.fullmatch(line) for line in lines]
-    if len(found) < 2 or None in found:
-        form = _LABELS_IN_BRACKETS if re.fullmatch(f"(?:{_unnamed(_LABELS_IN_BRACKETS)})+", whole) else _LABELS_IN_LINE
-        found = list(form.finditer(whole))
+    found = [_LABEL_LINE.fullmatch(line) for line in cell.split("\n") if line.strip()]
+    if _LABELS_IN_BRACKETS.sub("", whole) == "":
+        found = list(_LABELS_IN_BRACKETS.finditer(whole))
+    elif len(found) < 2 or None in found:
+        found = list(_LABELS_IN_LINE.finditer(whole))
     labels: dict[str, str] = {}
     for match in found:
         number = str(int(match["number"], 16 if match["number"].startswith("0x") else 10)) if match else ""
@@ -250,10 +250,6 @@ def labels_in(cell: str) -> dict[str, str]:
             return {}
         labels[number] = label
     return labels if len(labels) >= 2 else {}
-
-
-def _unnamed(pattern: re.Pattern[str]) -> str:
-    return re.sub(r"\?P<\w+>", "?:", pattern.pattern)
 
 
 def _label(text: str) -> str:

@@ -119,6 +119,7 @@ class _RowReader:
             if named is None:
                 _ask_about(point, "space", cells)
         self._read_address(point, row)
+        _read_access(point, cells)
         if read.is_reserved(point.title):
             point.facts["reserved"] = "yes"
             return point
@@ -188,6 +189,9 @@ def _read_type(point: DraftPoint, cells: Mapping[str, str]) -> None:
         point.questions.append(f"the value has {length[0]} words: of which type, and which word comes first?")
     elif length and length[0] != _WORDS_OF_TYPES.get(kind or "", length[0]):
         _ask_about(point, "length", cells)
+
+
+def _read_access(point: DraftPoint, cells: Mapping[str, str]) -> None:
     if "access" in cells:
         access = read.access_in(cells["access"])
         if access:

@@ -45,7 +45,7 @@ _HEADINGS = {
         r"r ?/ ?w|r ?/ ?o|rw|w ?/ ?r|access( type| mode| right| rights)?|read ?/ ?write|permission|attr(ibute)?s?|"
         r"rights|zugriff(sart|srecht)?|lesen ?/ ?schreiben"
     ),
-    "unit": r"units?|dim(ension)?|uom|eng(ineering)? units?|(maß|mess)?einheit(en)?",
+    "unit": r"units?|dim(ension)?|uom|eng(ineering)? units?|(mass|mess)?einheit(en)?",
     "type": r"(data )?(type|format)|(daten)?typ|datenformat|datenart|variablentyp|art",
     "length": (
         r"(number|no) of (registers?|words)|length|size|words|count|qty|anzahl( der)? (register|worte|wörter)|"

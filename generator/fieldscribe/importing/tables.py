@@ -78,7 +78,9 @@ class TableCollector:
         self._count = 0
 
     def add(self, line: int, cells: list[str]) -> None:
-        """Add a row to the current table. Raises UnreadableError beyond a limit."""
+        """Add a row to the current table, without empty cells at its end. Raises UnreadableError beyond a limit."""
+        while cells and not cells[-1]:
+            cells.pop()
         self._count += 1
         if self._count > MOST_ROWS:
             raise UnreadableError(f"there are more than {MOST_ROWS} rows; import the tables one by one", line)
