@@ -55,7 +55,7 @@ def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.M
     hours = iter(at / 4 for at in range(1000))
     monkeypatch.setattr(time, "monotonic", lambda: next(hours))
     monkeypatch.setattr(time, "sleep", lambda _: None)
-    monkeypatch.setattr(lock, "_tried", lambda _: None)
+    monkeypatch.setattr(lock, "_try_lock", lambda _: None)
     with (
         pytest.raises(TimeoutError, match="for 60 seconds"),
         only_run(tmp_path, lambda: told.append(next(hours)), 60.0),
@@ -66,7 +66,7 @@ def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_a_second_run_waits_says_so_and_gives_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lock, "_TELL_AFTER", 0.0)
+    monkeypatch.setattr(lock, "_SILENCE", 0.0)
     process, told = holder(tmp_path), []
     with pytest.raises(TimeoutError, match="another run"), only_run(tmp_path, lambda: told.append(1), 0.2):
         raise AssertionError("two runs at once")
@@ -116,7 +116,7 @@ def test_the_lock_of_another_user_that_was_killed_can_be_taken(tmp_path: Path, m
     opened = os.open
 
     def denied(path: Any, flags: int, mode: int = 0o777) -> int:
-        if Path(path).name == NAME and flags & os.O_RDWR and not flags & os.O_CREAT:
+        if Path(path).name == NAME and flags & os.O_RDWR:
             raise PermissionError(13, "Permission denied", str(path))
         return opened(path, flags, mode)
 
