@@ -97,11 +97,11 @@ def test_check_asks_no_memory(project: Path, monkeypatch: pytest.MonkeyPatch) ->
 def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_compiled(
     project: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from fieldscribe import pipeline
+    from fieldscribe.output import generation
 
     assert main(["generate", "--target", "docs", "--out", "right"]) == 0
     place = project / "descriptions/jumo_controller/device.yaml"
-    text, before, load = place.read_bytes(), place.stat(), pipeline.load_models
+    text, before, load = place.read_bytes(), place.stat(), generation.load_models
 
     def meddling(*arguments: Any) -> Any:
         place.write_bytes(text.replace(b"version: 1.0.0", b"version: 6.6.6"))
@@ -111,9 +111,9 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
             place.write_bytes(text)
             os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
 
-    monkeypatch.setattr(pipeline, "load_models", meddling)
+    monkeypatch.setattr(generation, "load_models", meddling)
     assert main(["generate", "--target", "docs"]) == 0
-    monkeypatch.setattr(pipeline, "load_models", load)
+    monkeypatch.setattr(generation, "load_models", load)
     made = project / "generated/docs/jumo_controller.md"
     assert b"6.6.6" in made.read_bytes()
     assert main(["generate", "--target", "docs", "--check"]) == 1
@@ -208,17 +208,17 @@ def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
 def test_a_compiler_that_fails_on_one_device_writes_the_others(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from fieldscribe import pipeline
+    from fieldscribe.output import generation
 
     shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/a_broken_one")
-    load = pipeline.load_models
+    load = generation.load_models
 
     def failing(device_file: Path, *rest: Any) -> Any:
         if "broken" in str(device_file):
             raise KeyError("x")
         return load(device_file, *rest)
 
-    monkeypatch.setattr(pipeline, "load_models", failing)
+    monkeypatch.setattr(generation, "load_models", failing)
     assert main(["generate", "--target", "docs"]) == 1
     assert "docs/jumo_controller.md" in files(project / "generated")
     assert "internal error in the compiler: KeyError: 'x'" in capsys.readouterr().err
@@ -407,9 +407,9 @@ def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
 
 
 def test_where_no_device_is_sound_no_folder_is_made_or_locked(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from fieldscribe.output import lock
+    from fieldscribe.output import generation
 
-    monkeypatch.setattr(lock, "only_run", None)  # whoever called it would fail
+    monkeypatch.setattr(generation, "only_run", None)  # whoever called it would fail
     place = project / "descriptions/jumo_controller/device.yaml"
     place.write_text("nonsense: 1\n", "utf-8")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1

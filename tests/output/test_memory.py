@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.output.cache import cache_dir
+from fieldscribe.output.memory import cache_dir
 from fieldscribe.safe_files import state_of
 from support.places import TESTS
 
@@ -41,15 +41,15 @@ def memory(place: Path) -> Path:
 @pytest.fixture
 def compiled(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The devices that are compiled."""
-    from fieldscribe import pipeline
+    from fieldscribe.output import generation
 
-    load, seen = pipeline.load_models, []
+    load, seen = generation.load_models, []
 
     def counted(*arguments: object) -> object:
         seen.append(str(arguments[0]))
         return load(*arguments)  # type: ignore[arg-type]  # whatever it was called with
 
-    monkeypatch.setattr(pipeline, "load_models", counted)
+    monkeypatch.setattr(generation, "load_models", counted)
     return seen
 
 
@@ -205,10 +205,10 @@ def test_a_full_disk_of_the_cache_is_ignored(place: Path, monkeypatch: pytest.Mo
 
     replace = writing.replace
 
-    def full(path: Path, data: Iterable[bytes], *by_way_of: str) -> State:
+    def full(path: Path, data: Iterable[bytes], *temporary: str) -> State:
         if path.is_relative_to(place / "cache"):
             raise OSError(28, "No space left on device")
-        return replace(path, data, *by_way_of)
+        return replace(path, data, *temporary)
 
     memory(place).unlink()
     monkeypatch.setattr(writing, "replace", full)
@@ -241,7 +241,7 @@ def test_the_place_of_caches_is_that_of_the_specification(
     said: str, found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A relative XDG_CACHE_HOME is to be ignored."""
-    from fieldscribe.output.cache import cache_dir
+    from fieldscribe.output.memory import cache_dir
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
@@ -253,7 +253,7 @@ def test_the_place_of_caches_is_that_of_the_specification(
 
 def test_without_a_home_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And no folder that is called `~` is made."""
-    from fieldscribe.output.cache import cache_dir
+    from fieldscribe.output.memory import cache_dir
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)

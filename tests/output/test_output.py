@@ -8,9 +8,9 @@ from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.output.contents import Spool, contents_of
 from fieldscribe.output.manifests import Manifests
 from fieldscribe.output.plan import Plan, changed_since, plan_of
-from fieldscribe.output.spool import Spool, kept
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import state_of
 from support.strange_files import KINDS, put
@@ -30,7 +30,7 @@ def written(out: Path) -> dict[str, bytes]:
 
 
 def planned(out: Path, device: str, files: dict[str, dict[str, bytes]], *, force: bool = False) -> Plan:
-    held = {target: {path: kept(data) for path, data in named.items()} for target, named in files.items()}
+    held = {target: {path: contents_of(data) for path, data in named.items()} for target, named in files.items()}
     return plan_of(out, Manifests(out), device, held, force=force)
 
 

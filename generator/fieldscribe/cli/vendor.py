@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
     if arguments.list_outputs:
         return _list(deliveries)
     if not looks:
-        _keep_up(arguments, deliveries, inputs)
+        _update_depfile(arguments, deliveries, inputs)
     left = _left(orders) if arguments.language is None else []
     return say(deliveries, arguments.format, check=arguments.check, left=left)
 
@@ -105,12 +105,12 @@ def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check
 
 def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
     from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.generate import say_waiting
+    from fieldscribe.cli.generate import print_waiting
     from fieldscribe.user_errors import UnclearError
     from fieldscribe.vendoring.orders import compare, deliver
 
     try:
-        return compare(order) if check else deliver(order, say_waiting, force=force)
+        return compare(order) if check else deliver(order, print_waiting, force=force)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
@@ -129,13 +129,13 @@ def _left(orders: list[Order]) -> list[Path]:
     return dropped(orders, LANGUAGES)
 
 
-def _keep_up(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
+def _update_depfile(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
     """Write the rule for make that was asked for, if all is there. Raises OSError."""
-    from fieldscribe.output.depfile import keep_up
+    from fieldscribe.output.depfile import update_depfile
 
     if arguments.depfile and all(delivery.is_current for delivery in deliveries):
         outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
-        keep_up(arguments.depfile, outputs, inputs.digests)
+        update_depfile(arguments.depfile, outputs, inputs.digests)
 
 
 def _list(deliveries: list[Delivery]) -> int:

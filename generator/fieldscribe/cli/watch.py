@@ -37,7 +37,7 @@ def run(arguments: Namespace) -> int:
 
     from fieldscribe.cli import FINE, show_traceback
     from fieldscribe.cli.common import description_paths
-    from fieldscribe.cli.generate import say_waiting, targets_of
+    from fieldscribe.cli.generate import print_waiting, targets_of
     from fieldscribe.working.watching import Watch
 
     gc.enable()  # this run is not short
@@ -46,7 +46,7 @@ def run(arguments: Namespace) -> int:
         arguments.out,
         targets_of(arguments),
         show_traceback,
-        lambda: say_waiting(arguments.out),
+        lambda: print_waiting(arguments.out),
     )
     with _Stop() as stop:
         for outcome in watch.outcomes(stop.wait):

@@ -1,8 +1,8 @@
-"""A rule for make and ninja: the outputs depend on the inputs, and on the compiler itself.
+"""Writes a dependency file for make and ninja: the outputs depend on the inputs and on the compiler itself.
 
-Both compare times, and an output that did not change keeps its own: after a change of an input it would be older for
-ever. So outputs that are older than an input are touched. An input that is gone later has an empty rule, with which it
-counts as changed and stops nobody.
+Both tools compare times. An output whose contents did not change would stay older than a changed input, and would be
+built again each time; so outputs older than an input are touched. Each input has an empty rule, so that a build goes
+on after an input was removed.
 """
 
 from __future__ import annotations
@@ -24,15 +24,14 @@ if TYPE_CHECKING:
 _BREAK = " \\\n  "
 
 
-def keep_up(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Write the rule, with the compiler among the inputs, and touch outputs that are older than one. Raises OSError.
+def update_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Write the file, and touch outputs that are older than an input. Raises OSError.
 
-    Outputs are named as they were asked for, which is how a build knows them.
+    Outputs keep the paths that the user gave, because a build knows them by these.
     """
     made = list(outputs)
-    needed = [
-        Path(os.path.abspath(path)) for path in (*inputs, *map(Path, compiler_files()))
-    ]  # builds run elsewhere than we do
+    sources = [*inputs, *map(Path, compiler_files())]
+    needed = [Path(os.path.abspath(source)) for source in sources]  # a build may run in another folder
     write_depfile(place, made, needed)
     newest = max(path.stat().st_mtime_ns for path in needed)
     for path in made:
@@ -42,14 +41,14 @@ def keep_up(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> Non
 
 
 def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Write the rule atomically. Raises OSError."""
+    """Write the file atomically. Raises OSError."""
     names = list(dict.fromkeys(map(_escaped, inputs)))
     rules = [f"{' '.join(map(_escaped, outputs))}: {_BREAK.join(names)}", *(f"{name}:" for name in names)]
     _put(Path(os.path.realpath(place)), ("\n".join(rules) + "\n").encode("utf-8", "surrogateescape"))
 
 
 def _escaped(path: Path) -> str:
-    """The path with blanks, `#` and `$` escaped; a path that could end the line or the rule is refused."""
+    """Return the path with blanks, `#` and `$` escaped. Raises UnfitFileError for control characters."""
     text = str(path)
     if any(ord(char) < 0x20 or char == "\x7f" for char in text):
         raise UnfitFileError(EINVAL, f"make cannot name the path {text!a}: rename it")

@@ -1,6 +1,6 @@
-"""All devices of a run: loaded, then compared with the output folder or written to it, one after the other.
+"""Loads all devices of a run, then compares their files with the output folder, or writes them, device by device.
 
-The outputs of a device stay as they are if its description or a target has an error or a foreign file is in the way.
+A device with an error in its description or in a target, or with a foreign file in its way, keeps its old outputs.
 """
 
 from __future__ import annotations
@@ -9,23 +9,28 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.output.result import Result
+from fieldscribe.output.contents import Spool
+from fieldscribe.output.lock import only_run
+from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
+from fieldscribe.output.plan import changed_since, plan_of
+from fieldscribe.output.writing import Result, carry_out
+from fieldscribe.pipeline import TargetError, is_new, load_models, outputs
 from fieldscribe.safe_files import Inputs, shown_path
+from fieldscribe.targets import knows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from fieldscribe.model import Device
-    from fieldscribe.output.manifests import Manifests
     from fieldscribe.output.memory import Memory
-    from fieldscribe.output.plan import Made, Plan
+    from fieldscribe.output.plan import Plan, TargetFiles
     from fieldscribe.pipeline import Models
 
 
 @dataclass(slots=True)
 class Generation:
-    """One run: which targets, into which folder, from which descriptions."""
+    """One run: its targets, output folder and descriptions, and what it did."""
 
     out: Path
     targets: tuple[str, ...]
@@ -33,21 +38,19 @@ class Generation:
     debug: Callable[[BaseException], None]
     """Called with each internal error."""
     known: dict[str, Path] = field(default_factory=dict)
-    """The device.yaml of each device that was met, by its id."""
+    """The device.yaml of each loaded device, by its id."""
     strict: bool = False
-    """Whether changed facts under the same version are an error."""
+    """Changed facts under the same version are an error."""
     unreleased: bool = False
-    """Whether nobody has the present versions yet, so that their facts may change."""
+    """Nobody has the present versions yet, so their facts may change."""
     has_changed_version: bool = False
-    """Whether the facts of some device changed under the same version."""
+    """The facts of some device changed under the same version."""
     devices: dict[str, tuple[Path, Models]] = field(default_factory=dict)
     inputs: Inputs = field(default_factory=Inputs)
     result: Result = field(default_factory=Result)
 
     def load(self, device_files: list[Path]) -> None:
         """Load the devices without errors; two descriptions of the same device are an error."""
-        from fieldscribe.pipeline import is_new, load_models
-
         for device_file in device_files:
             try:
                 models = load_models(device_file, self.report, self.inputs)
@@ -58,17 +61,14 @@ class Generation:
                 self.devices[models.whole.id] = device_file, models
 
     def list_outputs(self) -> None:
-        """Note all outputs, without a look at the folder."""
-        for device, files in self._made():
+        """Collect the paths of all outputs without reading the folder."""
+        for device, files in self._compiled():
             self.result.wanted.update(_paths(device, files))
 
     def compare(self) -> None:
-        """Note what is stale. Files that changed while we compared are stale too: somebody is writing them."""
-        from fieldscribe.output.manifests import Manifests
-        from fieldscribe.output.plan import changed_since, plan_of
-
+        """Collect what is stale. A file that changed during the comparison is stale too: somebody is writing it."""
         manifests, result = Manifests(self.out), self.result
-        for device, files in self._made():
+        for device, files in self._compiled():
             self._record_version(manifests, device, files)
             plan = plan_of(self.out, manifests, device.id, files)
             result.wanted.update(_paths(device, files))
@@ -79,22 +79,17 @@ class Generation:
 
     def write(self, waiting: Callable[[], None], memory: Memory | None, *, force: bool) -> None:
         """Write what changed, under the lock of the folder. Raises OSError."""
-        from fieldscribe.output.lock import only_run
-
         if not self.devices:
             return
         with only_run(self.out, waiting):
             self._write_all(force=force)
-            if memory and not (self.report.has_errors or self.has_changed_version):  # which is reported in each run
+            if memory and not (self.report.has_errors or self.has_changed_version):  # that warning is to come again
                 memory.keep(self.inputs, self.result.states, self.result.digests)
 
     def _write_all(self, *, force: bool) -> None:
-        from fieldscribe.output.manifests import Manifests
-        from fieldscribe.output.plan import plan_of
-        from fieldscribe.output.writing import carry_out
 
         manifests, result = Manifests(self.out), self.result
-        for device, files in self._made():
+        for device, files in self._compiled():
             self._record_version(manifests, device, files)
             plan = plan_of(self.out, manifests, device.id, files, force=force)
             if plan.refused:
@@ -107,18 +102,14 @@ class Generation:
             result.removed.update(plan.remove)
             result.kept.update(plan.kept)
 
-    def _made(self) -> Iterator[tuple[Device, Made]]:
-        """Each device with all its files; a device with a failing target is left out and gets a finding."""
-        from fieldscribe.output.spool import Spool
-        from fieldscribe.pipeline import TargetError, outputs
-        from fieldscribe.targets import knows
-
+    def _compiled(self) -> Iterator[tuple[Device, TargetFiles]]:
+        """Yield each device with its files; a device with a failing target is left out and gets a finding."""
         for device_file, models in self.devices.values():
             device = models.whole
             if unknown := [target for target in self.targets if not knows(target, device)]:
                 self._report_unknown(device_file, device, unknown)
                 continue
-            files: Made = {target: {} for target in self.targets}
+            files: TargetFiles = {target: {} for target in self.targets}
             with Spool() as spool:
                 try:
                     for target, path, text in outputs(device, self.targets, models.plain):
@@ -129,10 +120,9 @@ class Generation:
                     continue
                 yield device, files
 
-    def _record_version(self, manifests: Manifests, device: Device, files: Made) -> None:
+    def _record_version(self, manifests: Manifests, device: Device, files: TargetFiles) -> None:
         """Record the version with the digest of its facts; the same version with other facts is a finding instead."""
         from fieldscribe.facts.digest import facts_digest
-        from fieldscribe.output.manifests import FOLDER, Record
 
         before, now = manifests.record(device.id), Record(device.version, facts_digest(device))
         if before is None or before.version != now.version or self.unreleased:
@@ -140,7 +130,7 @@ class Generation:
         elif before != now:
             self._report_changed_version(device)
         if FOLDER in manifests.of(device.id):
-            files[FOLDER] = {}  # an earlier compiler kept the facts there: they go
+            files[FOLDER] = {}  # earlier compilers recorded the facts there: remove them
 
     def _report_changed_version(self, device: Device) -> None:
         """Report that the facts changed and the version did not."""
@@ -166,7 +156,7 @@ class Generation:
         self.report.error("unknown-family", message, Span(shown_path(device_file), 1, 1), hint)
 
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
-        """An internal error is a finding of its device."""
+        """Report an internal error as a finding of its device."""
         self.debug(error)
         bug = f"{type(error).__name__}: {str(error)[:120]}"
         message = f"internal error in {where}: {bug}; nothing of this device was written"
@@ -174,8 +164,7 @@ class Generation:
         self.report.error("internal-error", message, Span(shown_path(device_file), 1, 1), hint)
 
 
-def _paths(device: Device, files_of_targets: Made) -> Iterator[str]:
-    from fieldscribe.output.manifests import GENERATED
+def _paths(device: Device, files_of_targets: TargetFiles) -> Iterator[str]:
 
     yield GENERATED.manifest(device.id)
     for files in files_of_targets.values():

@@ -1,8 +1,8 @@
 """Remembers what the last run read and wrote, so that a run on unchanged input ends before the compiler is imported.
 
-The user's cache folder holds the states and checksums of the inputs as they were compiled, of the outputs as they were
-left, and the states of the compiler's own files. A file is read only where its state cannot be trusted. Any difference
-means that the run is done in full. `generate --check` never asks it.
+The user's cache folder records the state and digest of each input and output, and the state of each file of the
+compiler. A file is read only if its state is too new to be trusted. Any difference means a full run. `generate --check`
+does not use the record. The cache holds plain data; nothing in it is executed.
 """
 
 from __future__ import annotations
@@ -11,38 +11,39 @@ import json
 import os
 import sys
 from contextlib import suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
 from fieldscribe import __version__
-from fieldscribe.output.cache import cache_dir
 from fieldscribe.resources import compiler_files
 from fieldscribe.safe_files import read_regular, state_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-    from pathlib import Path
 
     from fieldscribe.safe_files import Inputs, State
 
 _MOST_BYTES = 64 << 20
 _SETTLED = 2_000_000_000
-"""Nanoseconds after which a file's times are trusted: two changes within one tick of the clock look like one."""
+"""Nanoseconds after which the times of a file are trusted: two changes within one tick of the clock look like one."""
 
 
 class Memory:
-    """The memory of runs with these targets, descriptions and output folder."""
+    """The record of the last run with these targets, descriptions and output folder."""
 
     def __init__(self, out: Path, targets: Iterable[str], device_files: Iterable[Path]) -> None:
         self._out = out
-        asked = [os.path.realpath(out), *targets, *map(os.path.abspath, device_files)]
-        self._run = [*map(ascii, asked), *_compiler()]
+        named = [os.path.realpath(out), *targets, *map(os.path.abspath, device_files)]
+        self._run = [*map(ascii, named), *_compiler()]
         folder = cache_dir("runs")
-        name = crc32("\0".join(asked).encode("utf-8", "surrogateescape"))  # two runs of one name forget each other
+        name = crc32(
+            "\0".join(named).encode("utf-8", "surrogateescape")
+        )  # runs with the same name overwrite each other's record
         self._place = folder and folder / f"{name:08x}.json"
 
     def outputs(self) -> list[str] | None:
-        """The outputs of the last run, if its inputs are unchanged and no output was touched since; else None."""
+        """Return the outputs of the last run, or None if an input or output changed since."""
         if self._place is None:
             return None
         try:
@@ -64,7 +65,7 @@ class Memory:
         return list(outputs)
 
     def keep(self, inputs: Inputs, states: Mapping[str, State], digests: Mapping[str, str]) -> None:
-        """Remember inputs and outputs; does nothing without a cache folder, or if the compiler was edited meanwhile."""
+        """Record inputs and outputs; do nothing without a cache folder, or if the compiler was edited meanwhile."""
         from fieldscribe.output.writing import replace
 
         compiler = _compiler()
@@ -83,7 +84,7 @@ class Memory:
 
 
 def _is_as_left(path: str, left: list[int], settled: int) -> bool:
-    """Whether a file's state is the remembered one and old enough for its times to be trusted."""
+    """Return True if the state of a file is the recorded one and old enough to be trusted."""
     state = state_of(os.stat(path))
     return list(state) == left and max(state[2:]) <= settled
 
@@ -95,5 +96,23 @@ def _holds(path: str, digest: str) -> bool:
 
 
 def _compiler() -> list[str]:
-    """The versions and the states of the compiler's files: every edit changes one of them."""
+    """Return the versions and the states of the compiler's files: every edit changes one of them."""
     return [__version__, sys.version, *(f"{path!a} {state_of(os.stat(path))}" for path in compiler_files())]
+
+
+def cache_dir(name: str) -> Path | None:
+    """Return the cache folder for one purpose, created if missing; None unless only this user can write to it."""
+    base = os.environ.get("XDG_CACHE_HOME", "")
+    if not os.path.isabs(base):  # the XDG specification: a relative path is to be ignored
+        base = os.path.expanduser("~/.cache")
+    if not os.path.isabs(base):
+        return None  # no home folder
+    place = Path(base) / "fieldscribe" / name
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        status = place.lstat()
+    except OSError:
+        return None
+    # a record that others wrote could make stale outputs pass for unchanged
+    private = not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)
+    return place if private and os.access(place, os.W_OK) else None

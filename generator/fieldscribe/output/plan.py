@@ -1,4 +1,4 @@
-"""What writing a device would change in an output folder. Only looks, touches nothing."""
+"""Plans what writing a device would change in an output folder; reads the folder and writes nothing."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from fieldscribe.output.contents import Contents, contents_of
 from fieldscribe.output.manifests import carries_head, made_of, manifest_text
-from fieldscribe.output.spool import Kept, kept
 from fieldscribe.safe_files import kind_of, read_regular, state_of
 
 if TYPE_CHECKING:
@@ -17,20 +17,20 @@ if TYPE_CHECKING:
     from fieldscribe.output.manifests import Manifests, Targets
     from fieldscribe.safe_files import State
 
-Made = dict[str, dict[str, Kept]]
-"""The files of each target: path relative to the output folder, and contents."""
+TargetFiles = dict[str, dict[str, Contents]]
+"""By target the contents of its files, by path relative to the output folder."""
 
 _MOST_BYTES = 512 << 20
 _NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor the recorded checksum"
 
 
 class UnsafePathError(Exception):
-    """An output would land outside the output folder."""
+    """An output path leads out of the output folder."""
 
 
 @dataclass(slots=True)
 class Plan:
-    """What differs between what should be in the output folder and what is there; paths relative to it."""
+    """The differences between what should be in the output folder and what is there; paths are relative to it."""
 
     device: str
     record: str
@@ -38,43 +38,45 @@ class Plan:
     targets: Targets
     """The device's files as the manifest will record them."""
     pending: bytes
-    """The manifest that stands while the files are written."""
-    write: dict[str, Kept] = field(default_factory=dict)
+    """The manifest while the files are being written: it has old and new digests."""
+    write: dict[str, Contents] = field(default_factory=dict)
     remove: list[str] = field(default_factory=list)
     unchanged: dict[str, State] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
-    """Foreign files in the way, with the reason why they may not be replaced."""
+    """Foreign files in the way, each with the reason why it may not be replaced."""
     forcible: set[str] = field(default_factory=set)
-    """Those of them that `force` would replace."""
+    """Those that `force` would replace."""
     kept: list[str] = field(default_factory=list)
-    """Files that are no longer generated, but stay because somebody edited them, or because they are not ours."""
+    """Files that are no longer generated but stay, because somebody edited them or they are not ours."""
     further_keys: Mapping[str, object] = field(default_factory=dict)
     """What the manifest holds beside the files."""
 
     def advice(self, path: str) -> str:
-        """What to do about a refused file."""
+        """Return what to do about a refused file."""
         other = "replace it with `--force`" if path in self.forcible else "choose another folder or name"
         return f"move it away, or {other}; nothing of {self.device} was written"
 
     @property
     def digests(self) -> dict[str, str]:
-        """The checksums of all files, with the manifest's, by path."""
+        """The digests of all files by path, the manifest included."""
         digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
-        return {**digest_of_path, self.record: kept(self.manifest).digest}
+        return {**digest_of_path, self.record: contents_of(self.manifest).digest}
 
     @property
     def manifest(self) -> bytes:
-        """The manifest as it will stand."""
+        """The final manifest."""
         return manifest_text(self.device, self.targets, self.further_keys).encode()
 
     @property
     def stale(self) -> list[str]:
-        """All paths that are missing, differ or should be gone."""
+        """All paths that are missing, differ or should be removed."""
         return sorted({*self.write, *self.remove, *self.refused})
 
 
-def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made, *, force: bool = False) -> Plan:
-    """What writing these targets of a device would change; `force` allows to replace foreign files."""
+def plan_of(
+    out: Path, manifests: Manifests, device: str, files_of_targets: TargetFiles, *, force: bool = False
+) -> Plan:
+    """Return the plan for these targets of a device; `force` allows it to replace foreign files."""
     before = manifests.of(device)
     now: Targets = {
         target: {path: (contents.digest,) for path, contents in files.items()}
@@ -88,17 +90,17 @@ def plan_of(out: Path, manifests: Manifests, device: str, files_of_targets: Made
         for path, contents in files.items():
             planner.add(path, contents)
     planner.add_left_over(files_of_targets)
-    planner.add(plan.record, kept(plan.manifest))
+    planner.add(plan.record, contents_of(plan.manifest))
     return plan
 
 
 def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
-    """The files that were touched after they had been found up to date."""
+    """Return the files that changed after these states were taken."""
     return [path for path, state in states.items() if _state(out / path) != state]
 
 
 def inside(out: Path, path: str) -> Path:
-    """The full path of an output. Raises UnsafePathError if it lies outside the output folder."""
+    """Return the full path of an output. Raises UnsafePathError if it lies outside the output folder."""
     place, root = out / path, os.path.realpath(out)
     folder = os.path.realpath(place.parent)
     if place.name == ".." or not f"{folder}{os.sep}".startswith(f"{root.rstrip(os.sep)}{os.sep}"):
@@ -107,7 +109,7 @@ def inside(out: Path, path: str) -> Path:
 
 
 class _Planner:
-    """Compares the outputs, one by one, with the files in the folder."""
+    """Compares the outputs one by one with the files in the folder."""
 
     def __init__(self, out: Path, manifests: Manifests, plan: Plan, force: bool) -> None:
         self._out = out
@@ -115,8 +117,8 @@ class _Planner:
         self._plan = plan
         self._force = force
 
-    def add(self, path: str, contents: Kept) -> None:
-        """Plan a file that should be there."""
+    def add(self, path: str, contents: Contents) -> None:
+        """Plan a file that should be in the folder."""
         try:
             place = inside(self._out, path)
             state = _same(place, contents)
@@ -125,7 +127,7 @@ class _Planner:
             self._plan.refused[path] = str(error)
             return
         except NotADirectoryError:
-            self._plan.refused[path] = "a folder on its way is none"
+            self._plan.refused[path] = "part of its path is a file, not a folder"
             return
         if state:
             self._plan.unchanged[path] = state
@@ -135,8 +137,8 @@ class _Planner:
             self._plan.refused[path] = reason
             self._plan.forcible.update({path} if _is_replaceable(place) else ())
 
-    def add_left_over(self, files_of_targets: Made) -> None:
-        """Plan to remove what an earlier run wrote for these targets, unless it is generated again or shared."""
+    def add_left_over(self, files_of_targets: TargetFiles) -> None:
+        """Plan to remove files of earlier runs for these targets that are neither generated again nor shared."""
         device = self._plan.device
         wanted = {path for files in files_of_targets.values() for path in files}
         known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
@@ -145,7 +147,7 @@ class _Planner:
                 (self._plan.remove if self._may_go(path) else self._plan.kept).append(path)
 
     def _may_go(self, path: str) -> bool:
-        """Whether it is ours, by more than the word of a manifest that somebody may have edited."""
+        """Return True if the file is ours by its name or head; a manifest alone may have been edited."""
         device = self._plan.device
         try:
             place = inside(self._out, path)
@@ -157,7 +159,7 @@ class _Planner:
             return False
 
     def _in_the_way(self, path: str, place: Path) -> str | None:
-        """Why the present file may not be replaced; None if it may, or if there is none."""
+        """Return why the present file may not be replaced; None if it may, or if there is none."""
         try:
             kind = kind_of(os.lstat(place))
             if kind is not None:
@@ -176,7 +178,7 @@ class _Planner:
 
 
 def _is_replaceable(place: Path) -> bool:
-    """Whether something lies there that a file can take the place of."""
+    """Return True if something is there that a file can replace."""
     return os.path.lexists(place) and not os.path.isdir(place)
 
 
@@ -187,8 +189,8 @@ def _state(place: Path) -> State | None:
         return None
 
 
-def _same(place: Path, contents: Kept) -> State | None:
-    """The state of the file if it has exactly these contents."""
+def _same(place: Path, contents: Contents) -> State | None:
+    """Return the state of the file if it has exactly these contents."""
     try:
         if os.stat(place).st_size != contents.size:
             return None
@@ -197,11 +199,11 @@ def _same(place: Path, contents: Kept) -> State | None:
         raise
     except OSError:
         return None
-    return present.state if kept(present.data).digest == contents.digest else None
+    return present.state if contents_of(present.data).digest == contents.digest else None
 
 
 def _both(before: Targets, now: Targets) -> Targets:
-    """The files with their present and their future checksums."""
+    """Return the files with their present and their future digests."""
     merged = {target: dict(files) for target, files in before.items()}
     for target, files in now.items():
         known = merged.setdefault(target, {})

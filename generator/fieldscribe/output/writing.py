@@ -1,4 +1,4 @@
-"""Carries out a plan: each file is replaced atomically, and at every moment a manifest knows which files are ours."""
+"""Carries out a plan: replaces each file atomically; at every moment a manifest records which files are ours."""
 
 from __future__ import annotations
 
@@ -22,8 +22,29 @@ for _name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
     _FLAGS |= getattr(os, _name, 0)
 
 
+class Result:
+    """What a run did: the relative paths of its outputs by what happened to them.
+
+    `wanted` are all outputs; `states` and `digests` belong to those that are up to date.
+    """
+
+    def __init__(self, wanted: Iterable[str] = ()) -> None:
+        self.wanted = set(wanted)
+        self.written: set[str] = set()
+        self.removed: set[str] = set()
+        self.stale: set[str] = set()
+        self.kept: set[str] = set()
+        self.states: dict[str, State] = {}
+        self.digests: dict[str, str] = {}
+
+    @property
+    def left(self) -> int:
+        """The number of files that were up to date; a shared file that one device wrote does not count for another."""
+        return len(self.wanted - self.written - self.stale)
+
+
 def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
-    """Write and remove what the plan says; returns the final state of each file. Raises OSError."""
+    """Write and remove what the plan says, and return the final state of each file. Raises OSError."""
     for folder in {(out / path).parent for path in (*plan.unchanged, *plan.write)}:
         (folder / _NEW).unlink(missing_ok=True)  # left by a killed run
     states = dict(plan.unchanged)
@@ -37,13 +58,13 @@ def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
     return states
 
 
-def replace(place: Path, pieces: Iterable[bytes], by_way_of: str = _NEW, *, mode: int | None = None) -> State:
-    """Replace a file atomically by way of a temporary file beside it; returns its state. Raises OSError.
+def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode: int | None = None) -> State:
+    """Replace a file atomically through a temporary file beside it, and return its state. Raises OSError.
 
-    `mode` says what may be done with it, in place of the user's habits.
+    `mode` is the file's mode; without it the user's umask decides.
     """
     place.parent.mkdir(parents=True, exist_ok=True)
-    new = place.parent / by_way_of
+    new = place.parent / temporary
     new.unlink(missing_ok=True)
     try:
         with open(os.open(new, _FLAGS, 0o666), "wb") as stream:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing import Protocol
 
     from fieldscribe.model import Device
-    from fieldscribe.output.plan import Made, Plan
+    from fieldscribe.output.plan import Plan, TargetFiles
 
     class Wanted(Protocol):
         """What a project wants of a device."""
@@ -141,24 +141,24 @@ def dropped(orders: Collection[Order], languages: Collection[str]) -> list[Path]
     return sorted(paths)
 
 
-def _made(order: Order) -> Made:
-    from fieldscribe.output.spool import kept
+def _made(order: Order) -> TargetFiles:
+    from fieldscribe.output.contents import contents_of
 
-    return {order.wish.language: {path: kept(data) for path, data in order.wish.contents(order.device)}}
+    return {order.wish.language: {path: contents_of(data) for path, data in order.wish.contents(order.device)}}
 
 
-def _plan(order: Order, manifests: Manifests, made: Made, *, force: bool) -> Plan:
+def _plan(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> Plan:
     manifests.ask(order.name, order.wish.language, order.wish.as_data(order.device.id))
     return plan_of(order.out, manifests, order.name, made, force=force)
 
 
-def _delivery(order: Order, plan: Plan, made: Made) -> Delivery:
+def _delivery(order: Order, plan: Plan, made: TargetFiles) -> Delivery:
     """What is to be delivered, and what hinders that."""
     refused = dict(sorted(plan.refused.items()))
     return Delivery(order, _paths(plan, made), refused=refused, advice={path: plan.advice(path) for path in refused})
 
 
-def _paths(plan: Plan, made: Made) -> list[str]:
+def _paths(plan: Plan, made: TargetFiles) -> list[str]:
     return sorted([plan.record, *(path for files in made.values() for path in files)])
 
 

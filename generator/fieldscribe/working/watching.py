@@ -20,7 +20,7 @@ from fieldscribe.safe_files import state_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from fieldscribe.output.result import Result
+    from fieldscribe.output.writing import Result
     from fieldscribe.safe_files import State
 
 INTERVAL, SETTLING = 0.25, 0.08

@@ -1,4 +1,4 @@
-"""The contents of the files of one device until all are made: large ones wait on disk and not in memory."""
+"""Holds the contents of a device's files until all are made: large ones on disk, not in memory."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 _LARGE = 1 << 20
 
 
-class Kept(NamedTuple):
-    """The contents of a file: checksum, size, and the bytes, or where they wait."""
+class Contents(NamedTuple):
+    """The contents of a file: digest, size, and the bytes or their place in a spool."""
 
     digest: str
     size: int
@@ -23,7 +23,7 @@ class Kept(NamedTuple):
     start: int = 0
 
     def pieces(self) -> Iterator[bytes]:
-        """All bytes, a piece after the other."""
+        """Yield all bytes, piece by piece."""
         if self.spool is None:
             yield self.data
             return
@@ -32,13 +32,13 @@ class Kept(NamedTuple):
             yield self.spool.read(min(_LARGE, self.size - at))
 
 
-def kept(data: bytes) -> Kept:
-    """Bytes that stay in memory."""
-    return Kept(sha256(data).hexdigest(), len(data), data)
+def contents_of(data: bytes) -> Contents:
+    """Return the contents for bytes that stay in memory."""
+    return Contents(sha256(data).hexdigest(), len(data), data)
 
 
 class Spool:
-    """A nameless temporary file, made for the first large contents; it is gone when the run ends, however it ends."""
+    """An unnamed temporary file, created for the first large text; it disappears with the run, however the run ends."""
 
     def __init__(self) -> None:
         self._file: IO[bytes] | None = None
@@ -50,17 +50,17 @@ class Spool:
         if self._file is not None:
             self._file.close()
 
-    def keep(self, text: str) -> Kept:
-        """Keep this text. Raises UnicodeEncodeError."""
+    def keep(self, text: str) -> Contents:
+        """Return the contents for a text; a large one goes to the file. Raises UnicodeEncodeError."""
         if len(text) < _LARGE:
-            return kept(text.encode())
+            return contents_of(text.encode())
         spool, digest, size = self._opened(), sha256(), 0
         start = spool.seek(0, SEEK_END)
         for at in range(0, len(text), _LARGE):
             data = text[at : at + _LARGE].encode()
             digest.update(data)
             size += spool.write(data)
-        return Kept(digest.hexdigest(), size, b"", spool, start)
+        return Contents(digest.hexdigest(), size, b"", spool, start)
 
     def _opened(self) -> IO[bytes]:
         if self._file is None:
