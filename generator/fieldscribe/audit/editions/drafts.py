@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.audit.editions.findings import Draft
 from fieldscribe.audit.editions.likeness import Described, like
 from fieldscribe.audit.editions.new_groups import new_group
+from fieldscribe.audit.editions.tables import Wishes, draft
+from fieldscribe.audit.editions.tables.draft_text import point_lines
+from fieldscribe.audit.editions.tables.tables import UnreadableError
+from fieldscribe.audit.editions.tables.text_tables import read_text
 from fieldscribe.audit.editions.titles import Titles
-from fieldscribe.importing import Wishes, draft
-from fieldscribe.importing.draft_text import point_lines
-from fieldscribe.importing.tables import UnreadableError
-from fieldscribe.importing.text_tables import read_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.audit.editions.changes import Editions
     from fieldscribe.audit.editions.holding import Pair
-    from fieldscribe.importing import Seen
-    from fieldscribe.importing.drafts import DraftPoint
+    from fieldscribe.audit.editions.tables import Seen
+    from fieldscribe.audit.editions.tables.drafts import DraftPoint
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.points import ResolvedPoint
 

@@ -9,13 +9,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.audit.citing import OWN_PRINTED
-from fieldscribe.importing.yaml_text import printed as written
+from fieldscribe.audit.editions.tables.yaml_text import printed as written
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from fieldscribe.importing.drafts import DraftPoint
+    from fieldscribe.audit.editions.tables.drafts import DraftPoint
     from fieldscribe.language.nodes import Map as Node
     from fieldscribe.resolve.points import ResolvedPoint
 

@@ -6,17 +6,17 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.importing import yaml_text
-from fieldscribe.importing.naming import snake
+from fieldscribe.audit.editions.tables import yaml_text
+from fieldscribe.audit.editions.tables.naming import snake
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.audit.editions.likeness import Described
+    from fieldscribe.audit.editions.tables import Seen
+    from fieldscribe.audit.editions.tables.drafts import DraftPoint
     from fieldscribe.audit.editions.titles import Titles
-    from fieldscribe.importing import Seen
-    from fieldscribe.importing.drafts import DraftPoint
     from fieldscribe.resolve.analysis import Analysis
 
 _WORD = re.compile(r"[^\W_]+(?:[.-][^\W_]+)*")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.importing import yaml_text
-from fieldscribe.importing.naming import Names, snake
+from fieldscribe.audit.editions.tables import yaml_text
+from fieldscribe.audit.editions.tables.naming import Names, snake
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
