@@ -208,10 +208,11 @@ def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
 def test_a_compiler_that_fails_on_one_device_writes_the_others(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    from fieldscribe import pipeline
     from fieldscribe.output import generation
 
     shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/a_broken_one")
-    load = generation.load_models
+    load = pipeline.load_models
 
     def failing(device_file: Path, *rest: Any) -> Any:
         if "broken" in str(device_file):
