@@ -14,7 +14,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.depfile import write_depfile
-from fieldscribe.pipeline import find_devices
+from fieldscribe.pipeline import find_devices, load_models
 from fieldscribe.safe_files import UnfitFileError
 from support.places import ROOT
 from support.strange_files import KINDS, put
@@ -101,7 +101,7 @@ def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_comp
 
     assert main(["generate", "--target", "docs", "--out", "right"]) == 0
     place = project / "descriptions/jumo_controller/device.yaml"
-    text, before, load = place.read_bytes(), place.stat(), generation.load_models
+    text, before, load = place.read_bytes(), place.stat(), load_models
 
     def meddling(*arguments: Any) -> Any:
         place.write_bytes(text.replace(b"version: 1.0.0", b"version: 6.6.6"))
@@ -208,11 +208,10 @@ def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
 def test_a_compiler_that_fails_on_one_device_writes_the_others(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from fieldscribe import pipeline
     from fieldscribe.output import generation
 
     shutil.copytree(project / "descriptions/jumo_controller", project / "descriptions/a_broken_one")
-    load = pipeline.load_models
+    load = load_models
 
     def failing(device_file: Path, *rest: Any) -> Any:
         if "broken" in str(device_file):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.output.memory import cache_dir
+from fieldscribe.pipeline import load_models
 from fieldscribe.safe_files import state_of
 from support.places import TESTS
 
@@ -43,7 +44,7 @@ def compiled(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The devices that are compiled."""
     from fieldscribe.output import generation
 
-    load, seen = generation.load_models, []
+    load, seen = load_models, []
 
     def counted(*arguments: object) -> object:
         seen.append(str(arguments[0]))
