@@ -14,8 +14,8 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.output.manifests import VENDORED, carries_head
 from fieldscribe.pipeline import load_device
 from fieldscribe.user_errors import UnclearError
-from fieldscribe.vendoring.choosing import chosen
-from fieldscribe.vendoring.files import LANGUAGES, LICENCE, Wish, files_of
+from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
+from fieldscribe.vendoring.selection import select
 from support.c_device import WARNINGS
 from support.described import described, made, shipped, write
 from support.places import ROOT
@@ -38,7 +38,7 @@ def vendor(*words: str | Path) -> int:
 
 def names(device: Device, *words: str) -> list[str]:
     """The points that are left of a device."""
-    return [point.item for point in chosen(device, words).points]
+    return [point.item for point in select(device, words).points]
 
 
 @pytest.mark.parametrize(
@@ -69,10 +69,10 @@ def test_points_are_chosen_with_what_they_need(device: str, words: tuple[str, ..
 
 def test_a_command_is_chosen_by_its_name() -> None:
     device = shipped("hitachi_l200")
-    with_command = chosen(device, ["A020", "enter"])
+    with_command = select(device, ["A020", "enter"])
     assert [command.name for command in with_command.commands] == ["enter"]
     assert {"base_frequency", "data_write"} == {point.name for point in with_command.points}  # it says when it is done
-    assert not chosen(device, ["A020"]).commands
+    assert not select(device, ["A020"]).commands
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_command_is_chosen_by_its_name() -> None:
 )
 def test_words_that_mean_nothing(device: str, word: str, message: str, hint: str) -> None:
     with pytest.raises(UnclearError) as refused:
-        chosen(shipped(device), [word])
+        select(shipped(device), [word])
     assert message in refused.value.message
     assert hint in refused.value.hint
 
@@ -99,7 +99,7 @@ def test_all_wrong_words_are_told_at_once(capsys: pytest.CaptureFixture[str], tm
     assert "`A02O`; hitachi_l200 has no point, group or command `Q1`" in said
     assert "for `A02O`, did you mean `A020`" in said
     with pytest.raises(UnclearError, match="and 10 more"):
-        chosen(shipped("hitachi_l200"), [f"none{number}" for number in range(30)])
+        select(shipped("hitachi_l200"), [f"none{number}" for number in range(30)])
 
 
 def test_a_point_that_is_documented_only_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
@@ -140,12 +140,12 @@ def test_all_of_a_device_is_what_generate_makes(device: str, tmp_path: Path) -> 
 def test_lines_of_a_choice_are_lines_of_the_whole(device: str) -> None:
     """Nothing of a point changes its name or its bytes because others are left out."""
     whole = shipped(device)
-    known = {line for _, text in files_of(whole, Wish("c")) for line in text.split("\n")}
+    known = {line for _, text in files_of(whole, CodeRequest("c")) for line in text.split("\n")}
     alone = [point.item for point in whole.points if point.generated and not (point.arguments or point.changes_with)]
     every_third = tuple(alone[::3])
     new = [
         line
-        for name, text in files_of(whole, Wish("c", every_third))
+        for name, text in files_of(whole, CodeRequest("c", every_third))
         if name.startswith(device)
         for line in text.split("\n")
         if line not in known
@@ -165,8 +165,8 @@ def test_each_point_alone_compiles(device: str, tmp_path: Path) -> None:
     headers = []
     for number, point in enumerate(whole.points):
         if point.generated or point.raw_only:
-            wish = Wish("c", (f"name:{point.item}",), f"alone_{number}")
-            for path, text in files_of(whole, wish):
+            request = CodeRequest("c", (f"name:{point.item}",), f"alone_{number}")
+            for path, text in files_of(whole, request):
                 (tmp_path / path).write_text(text, "utf-8")
             headers.append(f"alone_{number}_{whole.family}.h")
     compiles(tmp_path, *headers)
@@ -212,7 +212,7 @@ def test_the_command_in_a_head_can_be_pasted(code: str, in_head: dict[str, str],
     assert device is not None
     for language, points in in_head.items():
         wanted = f"fieldscribe vendor {language} made_up --points {points}\n"
-        texts = [text for path, text in files_of(device, Wish(language, (code,))) if "made_up" in path]
+        texts = [text for path, text in files_of(device, CodeRequest(language, (code,))) if "made_up" in path]
         heads = [text for text in texts if "egenerate" in text]
         assert heads
         assert all(wanted in text for text in heads)
@@ -306,7 +306,7 @@ def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pyte
 
 
 def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
-    """All that is left of one wish goes when another takes its place."""
+    """All that is left of one request goes when another takes its place."""
     for language in ("c", "python", "rust", "csv", "markdown"):
         if language in LANGUAGES:
             assert vendor(language, "hitachi_l200", "--out", tmp_path / language, "--points", "A020") == 0

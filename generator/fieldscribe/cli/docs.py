@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.vendoring.orders import Order
+    from fieldscribe.vendoring.deliveries import Order
 
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
@@ -23,7 +23,7 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_descriptions, some_path
-    from fieldscribe.vendoring.documents import FORMATS
+    from fieldscribe.vendoring.requests import FORMATS
 
     parser.add_argument(
         "devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml"
@@ -52,8 +52,8 @@ def _orders(arguments: Namespace) -> tuple[list[Order], int]:
 
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device
-    from fieldscribe.vendoring.documents import DocumentsWish
-    from fieldscribe.vendoring.orders import Order
+    from fieldscribe.vendoring.deliveries import Order
+    from fieldscribe.vendoring.requests import DocumentRequest
 
     orders, code = [], FINE
     for asked in arguments.devices:
@@ -62,5 +62,5 @@ def _orders(arguments: Namespace) -> tuple[list[Order], int]:
         except StopError as stop:
             code = max(code, stop.tell())
         else:
-            orders.append(Order(device, DocumentsWish(arguments.format), arguments.out))
+            orders.append(Order(device, DocumentRequest(arguments.format), arguments.out))
     return orders, code

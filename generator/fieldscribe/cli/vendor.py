@@ -11,9 +11,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.safe_files import Inputs
-    from fieldscribe.vendoring.files import Wish
-    from fieldscribe.vendoring.orders import Delivery, Order
-    from fieldscribe.vendoring.project import Wanted
+    from fieldscribe.vendoring.deliveries import Delivery, Order
+    from fieldscribe.vendoring.project_file import ProjectDevice
+    from fieldscribe.vendoring.requests import CodeRequest
 
 EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers
@@ -32,7 +32,7 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_descriptions, add_format, some_path
-    from fieldscribe.vendoring.files import LANGUAGES
+    from fieldscribe.vendoring.requests import LANGUAGES
 
     parser.add_argument("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
     parser.add_argument(
@@ -86,11 +86,11 @@ def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check
     """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.orders import refuse_doubles
+    from fieldscribe.vendoring.deliveries import refuse_duplicates
 
     deliveries: list[Delivery] = []
     try:
-        refuse_doubles(orders)
+        refuse_duplicates(orders)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     for order in orders:
@@ -107,7 +107,7 @@ def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bo
     from fieldscribe.cli.common import StopError
     from fieldscribe.cli.generate import print_waiting
     from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.orders import compare, deliver
+    from fieldscribe.vendoring.deliveries import compare, deliver
 
     try:
         return compare(order) if check else deliver(order, print_waiting, force=force)
@@ -123,10 +123,10 @@ def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bo
 
 def _left(orders: list[Order]) -> list[Path]:
     """Files of what the project file names no more."""
-    from fieldscribe.vendoring.files import LANGUAGES
-    from fieldscribe.vendoring.orders import dropped
+    from fieldscribe.vendoring.deliveries import leftovers
+    from fieldscribe.vendoring.requests import LANGUAGES
 
-    return dropped(orders, LANGUAGES)
+    return leftovers(orders, LANGUAGES)
 
 
 def _update_depfile(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
@@ -149,12 +149,12 @@ def _list(deliveries: list[Delivery]) -> int:
 def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:
     """What the command line, or the project file, asks for. Raises StopError."""
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.project import NAME, read_project
+    from fieldscribe.vendoring.project_file import NAME, read_project
 
     if arguments.language is not None:
         if arguments.project is not None:
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
-        return [_order(arguments, _wish(arguments, inputs), arguments.device, arguments.out, inputs)]
+        return [_order(arguments, _request(arguments, inputs), arguments.device, arguments.out, inputs)]
     of_one = (arguments.out, arguments.points, arguments.name)
     if any(said is not None for said in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
@@ -168,13 +168,15 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
     return _orders_of_project(arguments, wanted, report, inputs)
 
 
-def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Report, inputs: Inputs) -> list[Order]:
+def _orders_of_project(
+    arguments: Namespace, project: list[ProjectDevice], report: Report, inputs: Inputs
+) -> list[Order]:
     from fieldscribe.cli.common import StopError
 
     orders: list[Order] = []
     for wanted in project:
         try:
-            orders.append(_order(arguments, wanted.wish, wanted.device, wanted.out, inputs))
+            orders.append(_order(arguments, wanted.request, wanted.device, wanted.out, inputs))
         except StopError as error:
             if not error.message:
                 raise  # the description's own findings are told
@@ -182,7 +184,7 @@ def _orders_of_project(arguments: Namespace, project: list[Wanted], report: Repo
     return orders
 
 
-def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inputs: Inputs) -> Order:
+def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | None, inputs: Inputs) -> Order:
     """One order, its device loaded and its points known to be there. Raises StopError."""
     import re
     from argparse import Namespace as Asked
@@ -191,34 +193,34 @@ def _order(arguments: Namespace, wish: Wish, device: str, out: Path | None, inpu
     from fieldscribe.cli.common import StopError, open_device, usage_error
     from fieldscribe.language.keys.forms import ID
     from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.choosing import chosen, only_raw
-    from fieldscribe.vendoring.orders import Order
+    from fieldscribe.vendoring.deliveries import Order
+    from fieldscribe.vendoring.selection import address_only_messages, select
 
     if device is None or out is None:
         raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
-    if wish.name is not None:
-        bad = None if re.fullmatch(ID.pattern, wish.name) else "is no name: small letters, digits and _ make one"
-        taken = bad or next(reasons(wish.name), None)
+    if request.name is not None:
+        bad = None if re.fullmatch(ID.pattern, request.name) else "is no name: small letters, digits and _ make one"
+        taken = bad or next(reasons(request.name), None)
         if taken:
-            raise StopError(f"`{wish.name}` {taken}")
+            raise StopError(f"`{request.name}` {taken}")
     asked = Asked(device=device, descriptions=arguments.descriptions, format=arguments.format)
     opened = open_device(asked, inputs)
     try:
-        chosen(opened, wish.points)
+        select(opened, request.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    for said in only_raw(opened, wish.points):
+    for said in address_only_messages(opened, request.points):
         usage_error(said)
-    return Order(opened, wish, out)
+    return Order(opened, request, out)
 
 
 _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 
 
-def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
+def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
     """What the options ask for. Raises StopError."""
     from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
+    from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
     language = arguments.language
     if language not in LANGUAGES:
@@ -232,7 +234,7 @@ def _wish(arguments: Namespace, inputs: Inputs) -> Wish:
     points = _points(arguments.points, inputs)
     if arguments.points is not None and not points:
         raise StopError("--points names no point", "leave it out for all of them")
-    return Wish(language, points, arguments.name, **switches)
+    return CodeRequest(language, points, arguments.name, **switches)
 
 
 def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:

@@ -1,1 +1,1 @@
-"""What leaves the repository: a device, or some points of it, as exactly the files that a project needs."""
+"""Delivers a device, or chosen points of it, to a project: exactly the files that the project needs."""

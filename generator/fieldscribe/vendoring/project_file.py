@@ -1,11 +1,11 @@
-"""`fieldscribe.toml`: what a project takes of which devices, so that nobody types it twice.
+"""Reads `fieldscribe.toml`: which devices a project uses, with which points, in which languages.
 
-out = "drivers"              # below this file's folder; of each device, if it says no other
-targets = ["c"]              # c, python, rust; likewise
+out = "drivers"              # below this file's folder; a device may name another one
+targets = ["c"]              # c, python, rust; a device may name others
 
 [[devices]]
 device = "hitachi_l200"      # an id, or the path of a description below this file's folder
-points = ["A001", "status"]  # codes, names, groups, patterns; without it all
+points = ["A001", "status"]  # codes, names, groups, patterns (default: all)
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import read_regular, shown_path
 from fieldscribe.user_errors import did_you_mean, quoted
-from fieldscribe.vendoring.files import LANGUAGE_OF, LANGUAGES, Wish
+from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -36,19 +36,19 @@ _COMMON = {"out", "targets"}
 _WHERE = re.compile(r"at line (\d+), column (\d+)")
 
 
-class Wanted(NamedTuple):
-    """A device as the project file names it, where it does, what is wanted of it, and the folder for it."""
+class ProjectDevice(NamedTuple):
+    """A device of the project file: its name there, the place of that, the request, and the output folder."""
 
     device: str
     place: Span
-    wish: Wish
+    request: CodeRequest
     out: Path
 
 
-def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> list[Wanted]:
-    """All that a project wants; what is wrong with the file is in the report. Raises OSError.
+def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> list[ProjectDevice]:
+    """Return the devices of a project file; errors in it go to the report. Raises OSError.
 
-    `inputs` remembers the file.
+    `inputs` records the file.
     """
     import tomllib
 
@@ -66,9 +66,9 @@ def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> li
         report.error("bad-project", "lists or tables are nested too deeply", Span(shown_path(file), 1, 1))
         return []
     except ValueError as error:  # of tomllib, or of a number or a date in it
-        report.error("bad-project", f"this is no TOML: {quoted(_said(error))}", _span_of(error, file, text))
+        report.error("bad-project", f"this is no TOML: {quoted(_message(error))}", _span_of(error, file, text))
         return []
-    return list(_Reader(file, text, report).wanted(document))
+    return list(_Reader(file, text, report).devices(document))
 
 
 class _Reader:
@@ -77,10 +77,10 @@ class _Reader:
     def __init__(self, file: Path, text: str, report: Report) -> None:
         self._file, self._report = file, report
         self._lines = text.split("\n")
-        self._heads = [number for number, line in enumerate(self._lines) if _is_head(line)]
+        self._heads = [number for number, line in enumerate(self._lines) if _is_device_head(line)]
 
-    def wanted(self, document: Mapping[str, Any]) -> Iterator[Wanted]:
-        """Everything under `devices`."""
+    def devices(self, document: Mapping[str, Any]) -> Iterator[ProjectDevice]:
+        """Yield what stands under `devices`, once for each language."""
         common = {key: value for key, value in document.items() if key != "devices"}
         self._check(common, None, _COMMON)
         devices = document.get("devices")
@@ -93,30 +93,35 @@ class _Reader:
             if not self._report.has_errors:
                 yield from self._of_device({**common, **entry}, number, entry)
 
-    def _of_device(self, said: Mapping[str, Any], number: int, entry: Mapping[str, Any]) -> Iterator[Wanted]:
+    def _of_device(self, settings: Mapping[str, Any], number: int, entry: Mapping[str, Any]) -> Iterator[ProjectDevice]:
         for key in ("device", "out", "targets"):
-            if not said.get(key):
+            if not settings.get(key):
                 hint = f"write `{key} = {_EXAMPLES[key]}`"
                 self._report.error("bad-project", f"`{key}` is missing", self._span(number, key), hint)
         if self._report.has_errors:
             return
-        out = self._inside(said["out"], self._span(number if "out" in entry else None, "out"))
+        out = self._inside(settings["out"], self._span(number if "out" in entry else None, "out"))
         place = self._span(number, "device")
-        path = self._inside(said["device"], place)
-        is_id = re.fullmatch(ID.pattern, said["device"]) is not None
-        device = said["device"] if is_id and not (path / DEVICE_FILE).is_file() else str(path)
-        for key in LANGUAGE_OF.keys() & said.keys():
-            if LANGUAGE_OF[key] not in said["targets"]:
+        path = self._inside(settings["device"], place)
+        is_id = re.fullmatch(ID.pattern, settings["device"]) is not None
+        device = settings["device"] if is_id and not (path / DEVICE_FILE).is_file() else str(path)
+        for key in LANGUAGE_OF.keys() & settings.keys():
+            if LANGUAGE_OF[key] not in settings["targets"]:
                 message = f"`{key}` is for {LANGUAGE_OF[key]}, which is not among the targets"
                 self._report.error("bad-project", message, self._span(number, key), "leave it out")
-        for language in dict.fromkeys(said["targets"]):
-            switches = {key: said[key] for key in LANGUAGE_OF if key in said and LANGUAGE_OF[key] == language}
-            yield Wanted(device, place, Wish(language, tuple(said.get("points", ())), said.get("as"), **switches), out)
+        for language in dict.fromkeys(settings["targets"]):
+            switches = {key: settings[key] for key in LANGUAGE_OF if key in settings and LANGUAGE_OF[key] == language}
+            yield ProjectDevice(
+                device,
+                place,
+                CodeRequest(language, tuple(settings.get("points", ())), settings.get("as"), **switches),
+                out,
+            )
 
-    def _check(self, said: Mapping[str, Any], number: int | None, known: set[str]) -> None:
+    def _check(self, settings: Mapping[str, Any], number: int | None, known: set[str]) -> None:
         from difflib import get_close_matches
 
-        for key, value in said.items():
+        for key, value in settings.items():
             span = self._span(number, key)
             if key not in known:
                 hint = did_you_mean(get_close_matches(key, sorted(known), 1)) or f"there are {', '.join(sorted(known))}"
@@ -124,11 +129,11 @@ class _Reader:
             elif not _fits(key, value):
                 self._report.error("bad-project", f"`{key}` {_kind(key)}", span, f"write `{key} = {_EXAMPLES[key]}`")
             elif key == "targets" and (unknown := [name for name in value if name not in LANGUAGES]):
-                message = f"`{quoted(unknown[0])}` is no language to take a device in"
+                message = f"`{quoted(unknown[0])}` is not a language for code"
                 self._report.error("bad-project", message, span, f"there are {', '.join(LANGUAGES)}")
 
     def _inside(self, path: str, span: Span) -> Path:
-        """What the path names, which lies below the file's folder."""
+        """Return the full path; one that leads out of the file's folder is an error."""
         root = os.path.realpath(self._file.parent)
         if os.path.commonpath([root, os.path.realpath(os.path.join(root, path))]) != root:
             message = f"`{quoted(path)}` leads out of the folder of {self._file.name}"
@@ -136,7 +141,7 @@ class _Reader:
         return self._file.parent / path
 
     def _span(self, number: int | None, key: str) -> Span:
-        """Where a key of the n-th device stands, or one of the file; the head, or the first line, if there is none."""
+        """Return the place of a key, of the n-th device or of the file (None); its first line if the key is missing."""
         first = 0 if number is None or number >= len(self._heads) else self._heads[number]
         ends = [head for head in self._heads if number is None or head > first]
         for line in range(first, ends[0] if ends else len(self._lines)):
@@ -156,7 +161,7 @@ _EXAMPLES = {
 }
 
 
-def _is_head(line: str) -> bool:
+def _is_device_head(line: str) -> bool:
     return "".join(line.split("#", maxsplit=1)[0].split()) == "[[devices]]"
 
 
@@ -172,12 +177,12 @@ def _kind(key: str) -> str:
     return "is true or false" if key in _SWITCHES else "is a list of words" if key in _LISTS else "is a text"
 
 
-def _said(error: ValueError) -> str:
+def _message(error: ValueError) -> str:
     return _WHERE.sub("", str(error)).removesuffix("()").strip().removesuffix("(").strip()
 
 
 def _span_of(error: ValueError, file: Path, text: str) -> Span:
-    """Where TOML is broken; Python tells it in words alone before 3.14, and of the end of the file nothing."""
+    """Return the place of a TOML error: from its message, or the end of the file."""
     match = _WHERE.search(str(error))
     lines = text.rstrip().split("\n")
     line, column = (int(match[1]), int(match[2])) if match else (len(lines), len(lines[-1]) + 1)

@@ -1,4 +1,4 @@
-"""A device with some of its points: those that a person names, and those that they cannot do without."""
+"""Reduces a device to chosen points, and to the points that these depend on."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Block, Command, Device, Enum, Point
 
 _GLOB = frozenset("*?[")
-_TOLD = 20
+_MOST_NAMED = 20
 """How many wrong words a message names."""
 
 
-def chosen(device: Device, words: Sequence[str]) -> Device:
-    """The device with these points and commands, what they need, and a digest of just that.
+def select(device: Device, words: Sequence[str]) -> Device:
+    """Return the device reduced to these points and commands, and to what they depend on, with its own digest.
 
     A word is a code, a name, `group:NAME` or the name of a group, or a pattern such as `d0*`. Raises UnclearError.
     """
@@ -33,7 +33,7 @@ def chosen(device: Device, words: Sequence[str]) -> Device:
     unclear: dict[str, UnclearError] = {}
     for word in words:
         try:
-            points, commands_of_word = _meant(device, word)
+            points, commands_of_word = _matches(device, word)
         except UnclearError as error:
             unclear[word] = error
             continue
@@ -42,12 +42,12 @@ def chosen(device: Device, words: Sequence[str]) -> Device:
     if unclear:
         raise _all_of(unclear)
     kept_commands = tuple(command for command in device.commands if command.name in commands)
-    needed = _with_needed(device, items, (command.busy for command in kept_commands if command.busy is not None))
+    needed = _with_dependencies(device, items, (command.busy for command in kept_commands if command.busy is not None))
     return _reduced(device, tuple(needed), kept_commands)
 
 
-def only_raw(device: Device, words: Iterable[str]) -> Iterator[str]:
-    """What to say of words that name a point of which code has the address alone."""
+def address_only_messages(device: Device, words: Iterable[str]) -> Iterator[str]:
+    """Yield a message for each word that names a point of which code has only the address."""
     for word in words:
         reason = next((point.reason for point in _named(device, word) if point.raw_only), None)
         if reason is not None:
@@ -55,22 +55,22 @@ def only_raw(device: Device, words: Iterable[str]) -> Iterator[str]:
 
 
 def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
-    """What is wrong with all of these words, told at once."""
+    """Return one error for all of these words."""
     if len(unclear) == 1:
         return next(iter(unclear.values()))
-    told = list(unclear.items())[:_TOLD]
-    more = [f"and {len(unclear) - _TOLD} more"] if len(unclear) > _TOLD else []
-    hints = [f"for `{quoted(word)}`, {error.hint}" for word, error in told if error.hint]
-    return UnclearError("; ".join([*(error.message for _, error in told), *more]), "; ".join(hints))
+    shown = list(unclear.items())[:_MOST_NAMED]
+    more = [f"and {len(unclear) - _MOST_NAMED} more"] if len(unclear) > _MOST_NAMED else []
+    hints = [f"for `{quoted(word)}`, {error.hint}" for word, error in shown if error.hint]
+    return UnclearError("; ".join([*(error.message for _, error in shown), *more]), "; ".join(hints))
 
 
-def _meant(device: Device, word: str) -> tuple[list[Point], list[Command]]:
-    """The points and commands that a word means. Raises UnclearError."""
+def _matches(device: Device, word: str) -> tuple[list[Point], list[Command]]:
+    """Return the points and commands that a word selects. Raises UnclearError."""
     groups = {group.name for group in device.groups}
     if word.startswith("group:") and word.removeprefix("group:") in groups:
         return _of_group(device, word.removeprefix("group:")), []
     if _GLOB.intersection(word) and not _named(device, word):
-        points = [point for point in device.points if _is_like(point, word.lower()) and _is_made(point)]
+        points = [point for point in device.points if _is_like(point, word.lower()) and _is_in_code(point)]
         commands = [command for command in device.commands if fnmatchcase(command.name, word.lower())]
     else:
         points = _named(device, word)
@@ -82,7 +82,7 @@ def _meant(device: Device, word: str) -> tuple[list[Point], list[Command]]:
         points = points or _of_group(device, word)
     if not points and not commands:
         raise UnclearError(f"{device.id} has no point, group or command `{quoted(word)}`", _hint(device, word))
-    missing = [point for point in points if not _is_made(point)]
+    missing = [point for point in points if not _is_in_code(point)]
     if missing:
         reason = missing[0].reason or "it is documented only"
         raise UnclearError(f"`{quoted(word)}` cannot be used in code: {reason}", "leave it out")
@@ -90,19 +90,19 @@ def _meant(device: Device, word: str) -> tuple[list[Point], list[Command]]:
 
 
 def _named(device: Device, word: str) -> list[Point]:
-    """The points with this code or name, or this element of an array; a number is no name."""
+    """Return the points with this code or name, or this element of an array; a number is not a name."""
     points = [point for point in device.points if point.code is not None and point.code.lower() == word.lower()]
-    for asked in () if points else (word,) if word.startswith(("code:", "name:")) else (f"code:{word}", f"name:{word}"):
-        points += [match.point for match in find(device, asked)]
+    for query in () if points else (word,) if word.startswith(("code:", "name:")) else (f"code:{word}", f"name:{word}"):
+        points += [match.point for match in find(device, query)]
     return list({point.item: point for point in points}.values())
 
 
 def _of_group(device: Device, group: str) -> list[Point]:
-    return [point for point in device.points if point.group == group and _is_made(point)]
+    return [point for point in device.points if point.group == group and _is_in_code(point)]
 
 
-def _is_made(point: Point) -> bool:
-    """Whether code has anything of the point."""
+def _is_in_code(point: Point) -> bool:
+    """Return True if code has the point, or at least its address."""
     return point.generated or point.raw_only
 
 
@@ -111,7 +111,7 @@ def _is_like(point: Point, glob: str) -> bool:
 
 
 def _hint(device: Device, word: str) -> str:
-    """Near points, groups and commands."""
+    """Return a hint with similar names of points, groups and commands."""
     from difflib import get_close_matches
 
     others = [*(group.name for group in device.groups), *(command.name for command in device.commands)]
@@ -119,25 +119,25 @@ def _hint(device: Device, word: str) -> str:
     return did_you_mean(list(dict.fromkeys(names))) or f"`fieldscribe list {device.id}` shows them all"
 
 
-def _with_needed(device: Device, items: set[str], named: Iterable[str]) -> list[Point]:
-    """These points, and all that their scales, limits and conditions ask for: those are only read."""
+def _with_dependencies(device: Device, items: set[str], named: Iterable[str]) -> list[Point]:
+    """Return these points and all points that they depend on; the latter can only be read."""
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
         for name in dict.fromkeys((point.item, point.name)):
             by_name.setdefault(name, []).append(point)
     read: dict[str, Point] = {}
-    asked = [name for point in device.points if point.item in items for name in _needs(point)]
-    asked += named
-    while asked:
-        for point in by_name.get(asked.pop(), ()):
+    pending = [name for point in device.points if point.item in items for name in _dependencies(point)]
+    pending += named
+    while pending:
+        for point in by_name.get(pending.pop(), ()):
             if point.item not in items and point.item not in read:
                 read[point.item] = _only_read(point)
-                asked += _needs(read[point.item])
+                pending += _dependencies(read[point.item])
     return [read.get(point.item, point) for point in device.points if point.item in items or point.item in read]
 
 
-def _needs(point: Point) -> Iterator[str]:
-    """The names of the points without which this one cannot be converted, or be known to exist."""
+def _dependencies(point: Point) -> Iterator[str]:
+    """Yield the names of the points that scale, limits and existence of this one depend on."""
     yield from point.arguments
     if point.when is not None:
         yield from point.when.names
@@ -146,7 +146,7 @@ def _needs(point: Point) -> Iterator[str]:
 
 
 def _only_read(point: Point) -> Point:
-    """The point without its writing, which would need more points for its limits."""
+    """Return the point without writing, whose limits may depend on further points."""
     if not (point.readable and point.writable):
         return point
     outermost = tuple(Interval(*interval.outer) for interval in point.allowed.intervals)
@@ -157,7 +157,7 @@ def _only_read(point: Point) -> Point:
 def _reduced(device: Device, points: tuple[Point, ...], commands: tuple[Command, ...]) -> Device:
     names = {point.name for point in points}
     groups = {point.group for point in points}
-    things = {f"command:{command.name}" for command in device.commands if command not in commands}
+    command_places = {f"command:{command.name}" for command in device.commands if command not in commands}
     reduced = replace(
         device,
         points=points,
@@ -169,7 +169,7 @@ def _reduced(device: Device, points: tuple[Point, ...], commands: tuple[Command,
         errata=tuple(
             erratum
             for erratum in device.errata
-            if (names.intersection(erratum.points) or not erratum.points) and str(erratum.where) not in things
+            if (names.intersection(erratum.points) or not erratum.points) and str(erratum.where) not in command_places
         ),
     )
     return with_digest(reduced, for_code(reduced))[0]
@@ -181,7 +181,7 @@ def _enums_of(device: Device, points: Iterable[Point]) -> tuple[Enum, ...]:
 
 
 def _blocks(device: Device, points: Sequence[Point]) -> Mapping[str, tuple[Block, ...]]:
-    """The reads of each group, planned anew for the points that are left."""
+    """Return the reads of each group, planned for the points that remain."""
     reading = family(device.family).part("reading")
     if reading is None:
         return {}

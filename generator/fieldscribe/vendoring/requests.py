@@ -1,0 +1,167 @@
+"""The requests of projects, code in a language or documentation in a format, and the files that answer them."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from fieldscribe.code_view import for_code
+from fieldscribe.targets.heads import LEFT_OUT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.model import Device
+
+LANGUAGES = ("c", "python", "rust")
+"""The languages of code requests."""
+
+LANGUAGE_OF = {"frames": "c", "single_file": "c", "wheel": "python"}
+"""The switches of code requests, each with its language."""
+
+LICENCE = "LICENSE-fieldscribe.txt"
+_POINTS_IN_A_HEAD = 60
+"""Characters; a longer list of points is in the manifest only."""
+
+
+FORMATS = {
+    "csv": "the points and their meanings as tables",
+    "markdown": "the reference as a page",
+    "xlsx": "the tables, and the errata, as a workbook",
+}
+"""The formats of documentation, with what each holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class CodeRequest:
+    """A request for code: its language, the chosen points (empty: all), and switches.
+
+    `name` is the device's name in code if it is not the id. `frames` and `single_file` are for C, `wheel` for Python.
+    """
+
+    language: str
+    points: tuple[str, ...] = ()
+    name: str | None = None
+    frames: bool = True
+    single_file: bool = False
+    wheel: bool = False
+
+    def command(self, device: str) -> tuple[str, ...]:
+        """Return the command that makes the files again, word by word."""
+        words = ["fieldscribe", "vendor", self.language, device]
+        if self.name is not None:
+            words += ["--as", self.name]
+        if self.points:
+            points = ",".join(self.points)
+            fits = len(points) <= _POINTS_IN_A_HEAD and not any("," in point for point in self.points)
+            words += ["--points", points if fits else LEFT_OUT]
+        words += ["--single-file"] if self.single_file else []
+        words += [] if self.frames else ["--no-frames"]
+        words += ["--wheel"] if self.wheel else []
+        return tuple(words)
+
+    def as_data(self, device: str) -> dict[str, object]:
+        """Return what the manifest records of the request."""
+        data: dict[str, object] = {"device": device, "points": list(self.points)}
+        data |= {} if self.frames else {"frames": False}
+        return data | {key: True for key in ("single_file", "wheel") if getattr(self, key)}
+
+    def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
+        """Yield the files: path below the folder, and bytes.
+
+        Raises UnclearError, and ModuleNotFoundError for wheels without hatchling.
+        """
+        texts = dict(files_of(device, self))
+        if self.wheel:
+            yield from _wheels_of(texts)
+            texts = {LICENCE: texts[LICENCE]}
+        for path, text in texts.items():
+            yield path, text.encode()
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentRequest:
+    """A request for documentation; `language` is its format."""
+
+    language: str
+    name: None = None
+
+    def command(self, device: str) -> tuple[str, ...]:
+        """Return the command that makes the files again, word by word."""
+        return "fieldscribe", "docs", device, "--format", self.language
+
+    def as_data(self, device: str) -> dict[str, object]:
+        """Return what the manifest records of the request."""
+        return {"device": device}
+
+    def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
+        """Yield the files: path below the folder, and bytes.
+
+        Raises ModuleNotFoundError for a workbook without XlsxWriter.
+        """
+        from fieldscribe.render import render
+        from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
+        from fieldscribe.targets.docs.subjects import scope_of
+
+        scope = scope_of(replace(device, asked=self.command(device.id)))
+        if self.language == "xlsx":
+            yield from xlsx_files(scope)
+            return
+        texts = csv_files(scope) if self.language == "csv" else markdown_files(scope, render)
+        for path, text in texts:
+            yield path, text.encode()
+
+
+def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
+    """Yield the files of a code request: path below the folder, and text. Raises UnclearError."""
+    from fieldscribe.render import render
+    from fieldscribe.resources import templates_dir
+    from fieldscribe.targets import target
+    from fieldscribe.vendoring.selection import select
+
+    reduced = select(device, request.points) if request.points else device
+    named = replace(for_code(reduced), id=request.name or device.id, asked=request.command(device.id))
+    language = target(request.language)
+    files = {path: (templates_dir() / source).read_text("utf-8") for path, source in language.vendored_runtime(named)}
+    files |= language.vendored(named, render)
+    if not request.frames:
+        files = {path: text for path, text in files.items() if path not in _of_frames(named)}
+    if request.single_file:
+        from fieldscribe.targets.c.header import joined
+
+        files = {f"{named.id}.h": joined(files, named)}
+    yield from files.items()
+    yield LICENCE, (templates_dir() / LICENCE).read_text("utf-8")
+
+
+def _of_frames(device: Device) -> frozenset[str]:
+    """Return the C headers that only frames need."""
+    return frozenset((f"fieldscribe_{device.family}.h", f"{device.id}_{device.family}.h"))
+
+
+def _wheels_of(texts: Mapping[str, str]) -> Iterator[tuple[str, bytes]]:
+    """Yield name and bytes of a wheel for each package in these files. Raises ModuleNotFoundError without hatchling."""
+    with TemporaryDirectory() as folder:
+        root = Path(folder)
+        for path, text in texts.items():
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_text(text, "utf-8", newline="\n")
+        for project in sorted(root.glob("*/pyproject.toml")):
+            built = _build_wheel(project.parent, root)
+            yield built.name, built.read_bytes()
+
+
+def _build_wheel(project: Path, out: Path) -> Path:
+    """Build the wheel of a package, with hatchling's constant date, so that the bytes are always the same."""
+    from hatchling.builders.wheel import WheelBuilder
+
+    before = os.environ.pop("SOURCE_DATE_EPOCH", None)
+    try:
+        [built] = WheelBuilder(str(project)).build(directory=str(out), versions=["standard"])
+    finally:
+        if before is not None:
+            os.environ["SOURCE_DATE_EPOCH"] = before
+    return Path(built)
