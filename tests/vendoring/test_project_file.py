@@ -95,7 +95,7 @@ TOP = 'out = "d"\ntargets = ["c"]\n'
         (f'{TOP}{DEVICE}point = ["A001"]\n', "5:1", "did you mean `points`"),
         (f'{TOP}{DEVICE}points = "A001"\n', "5:1", "`points` is a list of words"),
         (f"{TOP}{DEVICE}single_file = 1\n", "5:1", "`single_file` is true or false"),
-        (f'{TOP}{DEVICE}targets = ["c", "go"]\n', "5:1", "`go` is no language"),
+        (f'{TOP}{DEVICE}targets = ["c", "go"]\n', "5:1", "`go` is not a language"),
         (f'{TOP}{DEVICE}  out = "../elsewhere"\n', "5:3", "leads out of the folder"),
         (f'out = "/"\ntargets = ["c"]\n{DEVICE}', "1:1", "leads out of the folder"),
         (f'{TOP}[[devices]]\n\ndevice = "hitachi_l2000"\n', "5:1", "did you mean `hitachi_l200`"),
@@ -126,7 +126,7 @@ def test_what_is_wrong_is_told_with_its_place(
 def test_the_same_files_twice_are_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (project / "fieldscribe.toml").write_text(TOP + DEVICE + DEVICE, "utf-8")
     assert main(["vendor"]) == 2
-    assert "asked for twice" in capsys.readouterr().err
+    assert "requested twice" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("make", "said"), [("mkdir", "it is a folder"), ("fifo", "a pipe"), ("link", "leads nowhere")])
