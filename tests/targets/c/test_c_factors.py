@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.numbers import quotient
-from fieldscribe.targets.vectors.oracle import Oracle, Ratio
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, quotient
 from support.c_device import SANITIZERS, WARNINGS, conformance_source, floating_factors, rare_device, write_c
 from support.toolchains import compiled, run
 

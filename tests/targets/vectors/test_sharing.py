@@ -7,12 +7,10 @@ from typing import Any
 
 import pytest
 from fieldscribe.code_view import for_code
-from fieldscribe.families.modbus.targets.vectors import ModbusWire
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
-from fieldscribe.targets.vectors.computations import Computations
-from fieldscribe.targets.vectors.identity import Form, Identities
+from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled
 from fieldscribe.targets.vectors.shared_vectors import SharedVectors
 from support.described import DEVICES, made, shipped
@@ -77,12 +75,9 @@ def forgetting(monkeypatch: pytest.MonkeyPatch, owner: type, method: str, memory
 
 @pytest.mark.parametrize("device", ALL, ids=lambda device: device.id)
 def test_each_point_by_itself_has_the_same_vectors(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
-    forgetting(monkeypatch, Identities, "add", "_parts")
-    forgetting(monkeypatch, Identities, "add", "_shared")
-    forgetting(monkeypatch, Computations, "of", "_met")
-    forgetting(monkeypatch, SharedVectors, "of_bits", "_parts")
+    forgetting(monkeypatch, PointEncodings, "of", "_known")
+    forgetting(monkeypatch, SharedVectors, "beside_limits", "_beside_limits")
     forgetting(monkeypatch, Scaled, "_of", "_conversions")
-    forgetting(monkeypatch, ModbusWire, "script", "_first")
     assert text_of(device) == SOUND[device.id]
 
 
@@ -130,31 +125,15 @@ def differs(device: Device, sound: str) -> bool:
         return True
 
 
-IMPLIED = {"words"}
-"""What follows from other parts: from the type, and for a text from its addresses."""
-
-
-@pytest.mark.parametrize("part", sorted(set(Form._fields) - IMPLIED))
-def test_a_forgotten_part_of_the_form_of_an_identity_is_caught(part: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Identities, "_parts", Form._fields.index(part))
-    assert caught()
-
-
 @pytest.mark.parametrize("part", range(5), ids=["shape", "allowed", "bits", "order", "symbol"])
-def test_a_forgotten_part_of_a_meaning_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Computations, "_met", part)
+def test_a_forgotten_part_of_an_encoding_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    sharing_more(monkeypatch, PointEncodings, "_known", part)
     assert caught()
 
 
 @pytest.mark.parametrize("part", range(3), ids=["shape", "entries", "closed"])
 def test_a_forgotten_part_of_what_makes_shapes_alike_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Computations, "_alike", part)
-    assert caught()
-
-
-@pytest.mark.parametrize("part", range(2), ids=["shape", "terms"])
-def test_a_forgotten_part_of_what_identities_share_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, Identities, "_shared", part)
+    sharing_more(monkeypatch, PointEncodings, "_alike", part)
     assert caught()
 
 

@@ -17,8 +17,7 @@ from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
 from fieldscribe.targets.vectors.kinds import KINDS, table
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.numbers import bits32, half_away, quotient
-from fieldscribe.targets.vectors.oracle import Oracle, Ratio, fixed_ratio
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, bits32, fixed_ratio, half_away, quotient
 from fieldscribe.targets.vectors.samples import halves
 from hypothesis import given as property_of
 from hypothesis import strategies as st
@@ -107,7 +106,7 @@ def test_any_text_comes_back(text: str) -> None:
 
 def test_a_line_that_the_table_does_not_know_is_refused() -> None:
     lines = Lines()
-    with pytest.raises(TypeError, match="'x' is no integer"):
+    with pytest.raises(TypeError, match="'x' is no int"):
         lines.add("check", "x", "ok")
     with pytest.raises(ValueError, match="check lacks status"):
         lines.add("check", 1)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.family_vectors import add_limits
-
 from toy_family import of_bus
 from toy_family.frames import strike
 
@@ -19,7 +17,7 @@ KINDS = {"strike": "unit:int tone:int bytes:bytes"}
 
 def limits(lines: Lines, bus: Bus) -> None:
     """How often a bell may be struck."""
-    add_limits(lines, strikes=of_bus(bus).strikes)
+    lines.add_limits(strikes=of_bus(bus).strikes)
 
 
 def frames(lines: Lines, device: Device) -> None:

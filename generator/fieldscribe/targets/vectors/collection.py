@@ -1,72 +1,137 @@
-"""All vectors of a device, with those of its family."""
+"""All vectors of a device: its identity point by point, conversions and exchanges, then those of its family."""
 
 from __future__ import annotations
 
 from operator import attrgetter
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.vectors.computations import Computations
+from fieldscribe.model import item_of
 from fieldscribe.targets.vectors.exchanges import Exchanges
-from fieldscribe.targets.vectors.family_vectors import FamilyVectors, add_limits
-from fieldscribe.targets.vectors.identity import Identities
-from fieldscribe.targets.vectors.lines import Lines, rows
-from fieldscribe.targets.vectors.oracle import Oracle
+from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
+from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.shared_vectors import SharedVectors
+from fieldscribe.text import line
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device
+    from collections.abc import Mapping, Sequence
+
+    from fieldscribe.conditions import Condition
+    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.targets.vectors.exchanges import Wire
+
+
+class OfFamily:
+    """The part `targets.vectors` of a family. These are the defaults."""
+
+    KINDS: Mapping[str, str] = MappingProxyType({})
+    """The kinds of vectors that only this family has, with the fields of their lines."""
+
+    def limits(self, lines: Lines, bus: Bus) -> None:
+        """Add the vectors of the constants of the bus."""
+
+    def frames(self, lines: Lines, device: Device) -> None:
+        """Add the vectors of the frames of a device."""
+
+    def wires(self, device: Device) -> Sequence[Wire]:
+        """Return the ways in which points travel, the usual way first."""
+        del device
+        return ()
 
 
 def collect(device: Device) -> Lines:
     """Return all vectors of a device: its points by address, then its frames and blocks.
 
-    Of points that are computed by the same rules, only the first is tried in depth and with bad answers.
+    Of all points that are computed in the same way, the first is tried in depth and with bad answers.
     """
-    family_part: FamilyVectors = family(device.family).part("targets.vectors") or FamilyVectors()
-    lines = Lines(rows(family_part.KINDS))
+    part: OfFamily = family(device.family).part("targets.vectors") or OfFamily()
+    lines = Lines(part.KINDS)
     oracle = Oracle({point.name: point for point in reversed(device.points)})
-    computations = Computations()
-    shared_vectors = SharedVectors(lines, oracle, computations)
-    identities = Identities(lines, device.variants)
+    encodings = PointEncodings()
+    shared = SharedVectors(lines, oracle, encodings)
     points = {point.item: point for point in sorted(device.points, key=attrgetter("rank")) if point.generated}
-    exchanges = [Exchanges(lines, oracle, computations, points, wire) for wire in family_part.wires(device)]
+    exchanges = [Exchanges(lines, oracle, encodings, points, wire) for wire in part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
-    for collector in usual:
-        collector.open()
+    for exchange in usual:
+        exchange.open()
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
-    _limits(lines, device, family_part)
+    lines.add_limits(first_unit=device.bus.units[0], last_unit=device.bus.units[1])
+    part.limits(lines, device.bus)
+    for telegram in device.telegrams:
+        lines.add("size", "words", telegram.name, telegram.words)
     for point in points.values():
-        computation = computations.of(point)
-        identities.add(point)
-        lines.include(shared_vectors.of(computation))
-        lines.include(shared_vectors.of_bits(computation))
-        for collector in usual:
-            collector.of(point, computation)
-        lines.gather(_MANY)
-    for collector in others:
-        collector.open()
-        collector.of_each_space()
-        lines.gather()
+        encoding = encodings.of(point)
+        identity(lines, point, device.variants)
+        lines.include(shared.within_limits(encoding))
+        lines.include(shared.beside_limits(encoding))
+        for exchange in usual:
+            exchange.of(point, encoding)
+    for exchange in others:
+        exchange.open()
+        exchange.of_each_space()
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.space, point.address, point.words, point.index)
     if left_out := [point for point in device.points if not point.generated]:
-        lines.add(
-            "left_out", tuple(point.item for point in left_out), tuple(point.code or "none" for point in left_out)
-        )
-    family_part.frames(lines, device)
+        codes = tuple(point.code or "none" for point in left_out)
+        lines.add("left_out", tuple(point.item for point in left_out), codes)
+    part.frames(lines, device)
     return lines
 
 
-_MANY = 200
-"""The number of new lines that are joined at once."""
+_WITHOUT_LIMITS = ("float", "text", "digits")
 
 
-def _limits(lines: Lines, device: Device, family_part: FamilyVectors) -> None:
-    """Add the vectors of constants."""
-    add_limits(lines, first_unit=device.bus.units[0], last_unit=device.bus.units[1])
-    family_part.limits(lines, device.bus)
-    for telegram in device.telegrams:
-        lines.add("size", "words", telegram.name, telegram.words)
+def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
+    """Name the point for the vectors that follow, and add the vectors of its facts."""
+    shape, terms, place = point.shape, point.terms, point.place
+    lines.set("point", point.item)
+    elsewhere = None if point.write_place is None else point.write_place.addresses
+    if place.addresses:
+        low, high = outer_bounds(shape, point.allowed) if shape.form not in _WITHOUT_LIMITS else (None, None)
+        code = None if point.code is None else line(point.code)
+        decimals = shape.decimals if shape.form == "scaled" else None
+        references = {key: line(str(number)) for key, number in place.references.items()}
+        lines.add("address", terms.space, min(place.addresses), shape.words, code, low, high, decimals, references)
+        if elsewhere is not None:
+            lines.add("write_address", min(elsewhere))
+        if point.index is not None or terms.telegram is not None or shape.text is not None:
+            lines.add("place", place.addresses, point.index, terms.telegram)
+        if terms.unit.symbol:
+            lines.add("symbol", terms.unit.symbol)
+        if shape.display is not None:
+            lines.add("display", shape.display)
+    lines.add(
+        "facts",
+        terms.group,
+        point.name,
+        shape.type,
+        terms.unit.symbol or None,
+        None if point.default is None else float(point.default),
+        None if terms.changes == "always" else terms.changes,
+        terms.changes_with,
+        None if point.variant is None else str(point.variant),
+        None if terms.when is None else _only_for(terms.when, variants),
+        *(() if elsewhere is None else (terms.space, elsewhere)),
+    )
+    for old in point.was:
+        lines.add("alias", item_of(old, point.variant), point.item)
+
+
+def _only_for(when: Condition, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
+    """Return the axis that decides whether the point exists, followed by the values for which it can exist."""
+    for axis in when.names:
+        left = [value for value in variants.get(axis, ()) if _possible_for(when, axis, value)]
+        if len(left) < len(variants.get(axis, ())):
+            return (axis, *left)
+    return None
+
+
+def _possible_for(condition: Condition, axis: str, value: str) -> bool:
+    """Return True if some clause of the condition can hold for this value of the axis."""
+    return any(
+        all(comparison.of != axis or comparison.holds(value) for comparison in clause) for clause in condition.clauses
+    )

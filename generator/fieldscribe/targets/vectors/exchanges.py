@@ -2,165 +2,175 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.computations import ascending
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
-from fieldscribe.targets.vectors.kinds import Written, line_of, script_text
-from fieldscribe.targets.vectors.numbers import as_raw, bits32, bits64
-from fieldscribe.targets.vectors.oracle import Oracle, admit, code_of, outer_bounds
+from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits32, bits64, code_of, outer_bounds
+from fieldscribe.targets.vectors.samples import ascending
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Point, Shape
-    from fieldscribe.targets.vectors.computations import Computation, Computations
-    from fieldscribe.targets.vectors.family_vectors import Script, Wire
+    from fieldscribe.model import Code, Point
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
+
+Script = list[tuple[bytes, bytes]]
+"""The requests of an exchange with their answers."""
 
 
-class _Exchange(NamedTuple):
-    """One exchange, shared by all points with one computation; only the script differs."""
+class Wire(Protocol):
+    """A way in which a family reads and writes the words of a point."""
 
-    kind: str
-    raw: int
-    words: tuple[int, ...]
-    """The words of the number, where the point is read."""
-    result: str
-    """The rest of the line after the script."""
+    def opens(self, lines: Lines) -> None:
+        """Set what all exchanges share: the unit and the settings of the line."""
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """Return the exchange that reads these words, in ascending order of address; None if no request can."""
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """Return the exchange that writes these words; with `keep` permanently, if another request does that."""
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """Yield the exchange with bad answers, each with the status that it gives."""
 
 
-class _Usual(NamedTuple):
-    """The exchanges that all points with one computation share."""
+class _Typical(NamedTuple):
+    """What the exchanges of all points with one encoding carry: raw numbers with their words, and other points' reads.
 
+    `needs` reads the points that these need. Whole words that need no other point can be tried with bad answers.
+    """
+
+    encoding: PointEncoding
     settings: dict[str, int]
-    read: _Exchange | None
-    written: tuple[_Exchange, ...]
-    alone: bool
-    """True for whole words that need no other point: these are also tried with bad answers."""
+    needs: Script
+    received: tuple[int, ...]
+    sent: list[tuple[int, tuple[int, ...]]]
 
 
 class Exchanges:
-    """The exchanges of one device."""
+    """The exchanges of one device over one wire."""
 
     def __init__(
-        self, lines: Lines, oracle: Oracle, computations: Computations, points: Mapping[str, Point], wire: Wire
+        self, lines: Lines, oracle: Oracle, encodings: PointEncodings, points: Mapping[str, Point], wire: Wire
     ) -> None:
-        self.lines, self.oracle, self.computations, self.points, self.wire = lines, oracle, computations, points, wire
+        self.lines, self.oracle, self.encodings, self.points, self.wire = lines, oracle, encodings, points, wire
         self.spoiled: set[tuple[str, str]] = set()
-        """The kinds and spaces that already have vectors with bad answers."""
-        self._usual: dict[Computation, _Usual | None] = {}
+        """The kinds and spaces that have vectors with bad answers already."""
+        self._typical: dict[PointEncoding, _Typical | None] = {}
 
     def open(self) -> None:
-        """Set the unit and the line of all exchanges."""
+        """Set the unit and the line for all exchanges."""
         self.wire.opens(self.lines)
 
     def of_each_space(self) -> None:
         """Add exchanges for the first readable and the first writable point of each space."""
-        complete: set[tuple[str, str]] = set()
         for point in self.points.values():
-            access, space = point.shape.access, point.terms.space
-            if (access, space) in complete:
-                continue
             kinds = (("read", point.readable), ("write", point.writable))
-            new = {(kind, space) for kind, does in kinds if does} - self.spoiled
-            if not new:
-                complete.add((access, space))
-            elif point.bits is None and point.text is None and not point.arguments:
+            new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
+            if new and point.bits is None and point.text is None and not point.arguments:
                 self.lines.set("point", point.item)
-                self.of(point, self.computations.of(point))
+                self.of(point, self.encodings.of(point))
 
-    def of(self, point: Point, computation: Computation) -> None:
+    def of(self, point: Point, encoding: PointEncoding) -> None:
         """Add the exchanges of the point that is set: read, write, and write permanently."""
-        if computation not in self._usual:
-            self._usual[computation] = self._of_meaning(computation)
-        usual = self._usual[computation]
-        if usual is None:
+        if encoding not in self._typical:
+            self._typical[encoding] = self._of_encoding(encoding)
+        typical = self._typical[encoding]
+        if typical is None:
             return
-        if usual.settings:
-            self.lines.set("with", usual.settings)
-        if usual.read is not None:
-            script = self.wire.reads(point, usual.read.words)
-            if script is not None:
-                self._add(usual.read, point, usual, script)
-        for exchange in usual.written:
-            kind, raw, words, _ = exchange
-            if point.write_place is not None:  # where the words may lie in another order
-                words = words_of(computation, ascending(computation.shape, point.write_place.addresses), raw)
-            script = self.wire.writes(point, words, keep=kind == "store")
-            if script is not None and computation.bits is not None:
-                script = self._beside(point, computation, raw, script)
-            if script is not None:
-                self._add(exchange, point, usual, script)
+        if typical.settings:
+            self.lines.set("with", typical.settings)
+        if encoding.shape.readable:
+            self._add("read", point, typical, typical.sent[0], self.wire.reads(point, typical.received))
+        for kind in ("write", "store") if encoding.shape.writable else ():
+            for raw, words in typical.sent:
+                put = words
+                if point.write_place is not None:  # where the words may lie in another order
+                    put = words_of(encoding, ascending(encoding.shape, point.write_place.addresses), raw)
+                script = self.wire.writes(point, put, keep=kind == "store")
+                if script is not None and encoding.bits is not None:
+                    script = self._beside(point, encoding, raw, script)
+                self._add(kind, point, typical, (raw, words), script)
 
-    def _of_meaning(self, computation: Computation) -> _Usual | None:
-        """Return the shared exchanges; None without an address, or if a point that it needs cannot be read."""
-        if computation.order is None:
+    def _of_encoding(self, encoding: PointEncoding) -> _Typical | None:
+        """Return what exchanges carry; None without an address, or if what the point needs cannot be read."""
+        if encoding.order is None:
             return None
-        settings = samples.settings(self.oracle, computation)[0]
+        settings = samples.settings(self.oracle, encoding)[0]
         needs = self._needs(settings)
-        raw = None if needs is None else typical(self.oracle, computation, settings)
+        raw = None if needs is None else typical(self.oracle, encoding, settings)
         if needs is None or raw is None:
             return None
-        shape, order = computation.shape, computation.order
-        switch = shape.type == "bit" and outer_bounds(shape, computation.allowed) == (0, 1)
-        sent = [(put, words_of(computation, order, put)) for put in ((raw, 0) if switch else (raw,))]
-        told = [(put, words, _result(shape, put, words, needs)) for put, words in sent]
-        received = sent[0][1] if shape.fixed is None else words_of(computation, order, raw, received=True)
-        return _Usual(
-            settings,
-            _Exchange("read", raw, received, told[0][2]) if shape.readable else None,
-            tuple([_Exchange(kind, *write) for kind in _WRITING for write in told]) if shape.writable else (),
-            shape.text is None and computation.bits is None and not needs,
-        )
+        shape, order = encoding.shape, encoding.order
+        switch = shape.type == "bit" and outer_bounds(shape, encoding.allowed) == (0, 1)
+        sent = [(put, words_of(encoding, order, put)) for put in ((raw, 0) if switch else (raw,))]
+        return _Typical(encoding, settings, needs, words_of(encoding, order, raw, received=True), sent)
 
-    def _beside(self, point: Point, computation: Computation, raw: int, script: Script) -> Script | None:
-        """Return the exchange that writes a bit group: it reads the word first."""
-        if not computation.shape.readable:
+    def _beside(self, point: Point, encoding: PointEncoding, raw: int, script: Script) -> Script | None:
+        """Return the exchange that writes a bit group: its word is read before."""
+        if not encoding.shape.readable:
             return None
-        other = as_raw(computation.shape, ~raw)
-        before = self.wire.reads(point, words_of(computation, (0,), other, received=True))
+        other = as_raw(encoding.shape, ~raw)
+        before = self.wire.reads(point, words_of(encoding, (0,), other, received=True))
         return None if before is None else before + script
 
     def _needs(self, settings: dict[str, int]) -> Script | None:
-        """Return the exchanges that read the points in `settings`; None if one of them cannot be read this way."""
+        """Return the exchanges that read the points that another needs; None if one cannot be read this way."""
         script: Script = []
         for name, raw in settings.items():
             other = self.points.get(name)
             if other is None or not other.readable or not other.addresses or other.scale_arguments:
                 return None
-            computation = self.computations.of(other)
-            read = self.wire.reads(other, words_of(computation, computation.order or (), raw))
+            encoding = self.encodings.of(other)
+            read = self.wire.reads(other, words_of(encoding, encoding.order or (), raw))
             if read is None:
                 return None
             script += read
         return script
 
-    def _add(self, exchange: _Exchange, point: Point, usual: _Usual, script: Script) -> None:
-        kind, raw, _, result = exchange
-        self.lines.add_written(kind, [f"{kind}\t{script_text(script)}{result}"])
-        if not usual.alone or (kind, point.terms.space) in self.spoiled:
+    def _add(
+        self, kind: str, point: Point, typical: _Typical, sent: tuple[int, tuple[int, ...]], script: Script | None
+    ) -> None:
+        """Add an exchange, and if it is the first of its kind and space, also with bad answers."""
+        if script is None:
             return
-        self.spoiled.add((kind, point.terms.space))
+        is_text, first = typical.encoding.shape.text is not None, (kind, point.space)
+        raw, words = (None, sent[1]) if is_text else (sent[0], None)
+        self.lines.add(kind, script, "ok", raw, words, typical.needs or None)
+        if is_text or typical.encoding.bits is not None or typical.needs or first in self.spoiled:
+            return
+        self.spoiled.add(first)
         for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
             self.lines.add(kind, bad, status, None if kind == "read" else raw)
 
 
-_WRITING = ("write", "store")
+def with_flipped(data: bytes, place: int, bits: int = 1) -> bytes:
+    """Return the bytes with these bits of one byte turned over."""
+    return data[:place] + bytes((data[place] ^ bits,)) + data[place + 1 :]
 
 
-def _result(shape: Shape, raw: int, words: tuple[int, ...], needs: Script) -> str:
-    """Return the fields after the script: status, raw number or words of a text, and the reads before it."""
-    if shape.text is None and not needs:
-        return f"\tok\t{raw}"
-    told = (None, words) if shape.text is not None else (raw, None)
-    return line_of("read", Written(""), "ok", *told, needs).removeprefix("read\t")
+def single_bit_errors(data: bytes) -> Iterator[bytes]:
+    """Yield the bytes with each bit turned over."""
+    for bit in range(8 * len(data)):
+        yield with_flipped(data, bit >> 3, 1 << (bit & 7))
 
 
-def typical(oracle: Oracle, computation: Computation, settings: dict[str, int]) -> int | None:
-    """A typical raw number to write: two thirds up the range, odd if possible."""
-    shape = computation.shape
+def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
+    """Add vectors for named numbers of the protocol: a `code` that is received, or a `constant` for callers."""
+    for code in numbers:
+        lines.add(kind, what, code.number, code.name)
+
+
+def writing_addresses(point: Point) -> tuple[int, ...]:
+    """Return the addresses where a point is written."""
+    return point.addresses if point.write_place is None else point.write_place.addresses
+
+
+def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -> int | None:
+    """Return a typical raw number to write: two thirds up the range, odd if possible; None if it has no limits."""
+    shape = encoding.shape
     if shape.text is not None:
         return int.from_bytes(bytes(0x41 + place % 26 for place in range(shape.text.characters)), "big")
     if shape.digits is not None:
@@ -168,21 +178,21 @@ def typical(oracle: Oracle, computation: Computation, settings: dict[str, int]) 
         digits = [known[place % len(known)] for place in range(shape.digits.count)]
         return int("".join(map(str, digits))) & 0xFFFF
     if shape.form == "float":
-        return _typical_pattern(computation)
+        return _typical_pattern(encoding)
     ratio = oracle.ratio(shape, settings) if shape.scale is not None else None
-    limits = oracle.limits(shape, computation.allowed, settings)
+    limits = oracle.limits(shape, encoding.allowed, settings)
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
     low, high = limits[0] if len(limits) == 1 else max(limits, key=lambda limit: limit[1] - limit[0])
     upper = high - (high - low) // 3
     for raw in (upper | 1, upper, *(raw for interval in limits for raw in interval)):
-        put = with_fixed(computation, raw)
+        put = with_fixed(encoding, raw)
         if admit(shape, put, limits) == "ok" and code_of(shape, put) is None:
             return put
     return None
 
 
-def _typical_pattern(computation: Computation) -> int:
-    low, high = computation.allowed.units[0] if computation.allowed.units else (0, 100)
+def _typical_pattern(encoding: PointEncoding) -> int:
+    low, high = encoding.allowed.units[0] if encoding.allowed.units else (0, 100)
     value = float(low) + (float(high) - float(low)) / 3
-    return bits64(value) if computation.shape.width == 64 else bits32(value) or 0
+    return bits64(value) if encoding.shape.width == 64 else bits32(value) or 0

@@ -5,14 +5,13 @@ from __future__ import annotations
 from math import inf, isfinite, isnan, nan, nextafter
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.numbers import bits32, bits64, float_of_bits
-from fieldscribe.targets.vectors.oracle import code_of
+from fieldscribe.targets.vectors.oracle import bits32, bits64, code_of, float_of_bits
 from fieldscribe.targets.vectors.samples import codes
 
 if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Shape
-    from fieldscribe.targets.vectors.computations import Computation
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.samples import PointEncoding
 
 _PATTERNS_32 = (
     0,
@@ -45,9 +44,9 @@ _GREATEST_32 = 2.0**128 - 2.0**104
 _GREATEST_64 = 1.7976931348623157e308
 
 
-def floats(lines: Lines, computation: Computation, *, deep: bool) -> None:
+def floats(lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
     """Vectors of decoding, encoding and checking; limits are compared after conversion to the type."""
-    shape, allowed = computation.shape, computation.allowed
+    shape, allowed = encoding.shape, encoding.allowed
     wide = shape.width == 64
     limits = _limits(allowed, wide)
     if shape.readable:
@@ -56,7 +55,7 @@ def floats(lines: Lines, computation: Computation, *, deep: bool) -> None:
         for bits in patterns:
             lines.add("decode", bits, *_decoded(shape, bits))
     if shape.writable:
-        for value in dict.fromkeys(map(_Same, _values(computation, limits, wide, deep=deep))):
+        for value in dict.fromkeys(map(_Same, _values(encoding, limits, wide, deep=deep))):
             lines.add("encode", value.value, *_encoded(shape, value.value, limits))
         for bits in dict.fromkeys((*_patterns_to_check(limits, wide), *codes(shape))):
             code = code_of(shape, bits)
@@ -98,21 +97,19 @@ def _typed(value: float, wide: bool) -> float:
     return (inf if value > 0 else -inf) if pattern is None else float_of_bits(pattern, 32)
 
 
-def _values(computation: Computation, limits: list[tuple[float, float]], wide: bool, *, deep: bool) -> list[float]:
+def _values(encoding: PointEncoding, limits: list[tuple[float, float]], wide: bool, *, deep: bool) -> list[float]:
     values = [0.0, -0.0, 0.1, -1.5]
     if not deep:
         return [
             0.1,
             *(value for low, high in limits for value in (low, high, nextafter(low, -inf), nextafter(high, inf))),
         ]
-    values += [
-        value for raw in codes(computation.shape) if isfinite(value := float_of_bits(raw, computation.shape.width))
-    ]
-    for low, high in computation.allowed.units:
+    values += [value for raw in codes(encoding.shape) if isfinite(value := float_of_bits(raw, encoding.shape.width))]
+    for low, high in encoding.allowed.units:
         for limit in (float(low), float(high)):
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
     if not wide:
-        if computation.allowed.units:
+        if encoding.allowed.units:
             # For each limit: the middle between it and each neighbour in the type, and the values beside that middle.
             for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
                 for beside in _neighbours(limit, wide):

@@ -1,41 +1,40 @@
-"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of names, bit groups and words."""
+"""Vectors of points whose raw number is the value (integers, enums, flags, bits), names and bit groups."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.kinds import line_of
-from fieldscribe.targets.vectors.numbers import as_raw
-from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, code_of, quantity_at_most
+from fieldscribe.targets.vectors.lines import text
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, as_raw, code_of, quantity_at_most
 
 if TYPE_CHECKING:
     from fieldscribe.model import Shape
-    from fieldscribe.targets.vectors.computations import Computation
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.samples import PointEncoding
 
 
-def whole(lines: Lines, oracle: Oracle, computation: Computation, *, deep: bool) -> None:
+def whole(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
     """Add vectors of decoding, encoding and checking a point without a scale, for each setting of other points."""
-    shape = computation.shape
-    for settings in samples.settings(oracle, computation, deep=deep):
-        limits = oracle.limits(shape, computation.allowed, settings)
+    shape = encoding.shape
+    for settings in samples.settings(oracle, encoding, deep=deep):
+        limits = oracle.limits(shape, encoding.allowed, settings)
         if settings:
             lines.set("with", settings)
         if isinstance(limits, str):
-            raw = quantity_at_most(shape, samples.limits_of(computation.allowed)[0].greatest)
+            raw = quantity_at_most(shape, samples.limits_of(encoding.allowed)[0].greatest)
             if shape.writable:
                 lines.add("encode_count", raw, limits)
                 lines.add("check", raw, limits)
         else:
-            _sheet(lines, computation, limits, deep=deep)
+            _sheet(lines, encoding, limits, deep=deep)
 
 
-def _sheet(lines: Lines, computation: Computation, limits: samples.Limits, *, deep: bool) -> None:
-    shape = computation.shape
+def _sheet(lines: Lines, encoding: PointEncoding, limits: samples.Limits, *, deep: bool) -> None:
+    shape = encoding.shape
     top = INT64 if shape.width > 16 else 1 << 31
-    checked = _raws(computation, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
-    decoded = _raws(computation, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
+    checked = _raws(encoding, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
+    decoded = _raws(encoding, samples.raws_to_decode(shape, limits, deep=deep), deep=deep)
     if deep:
         checked = decoded = {**checked, **decoded}
     if shape.readable:
@@ -45,38 +44,38 @@ def _sheet(lines: Lines, computation: Computation, limits: samples.Limits, *, de
     ends = (shape.least - 1, shape.greatest + 1, top - 1, -top) if deep else ()
     counts = {**decoded, **samples.edges(limits if deep else samples.limits_to_try(limits)), **dict.fromkeys(ends)}
     fitting = [count for count in counts if -top <= count < top]
-    lines.add_written("encode_count", [_encoded(computation, count, limits) for count in fitting])
-    lines.add_written("check", [f"check\t{raw}\t{_checked(computation, raw, limits)}" for raw in checked])
+    lines.add_written("encode_count", [_encoded(encoding, count, limits) for count in fitting])
+    lines.add_written("check", [f"check\t{raw}\t{_checked(encoding, raw, limits)}" for raw in checked])
 
 
 def _decoded(shape: Shape, raw: int) -> str:
-    """Return the line with status and count."""
+    """The line that tells status and count."""
     code = code_of(shape, raw) if shape.specials else None
     if code is not None:
-        return line_of("decode_count", raw, "special", None, code.name)
+        return f"decode_count\t{raw}\tspecial\t-\t{text(code.name)}"
     return f"decode_count\t{raw}\tok\t{raw}"
 
 
-def _encoded(computation: Computation, count: int, limits: samples.Limits) -> str:
-    """Return the line with the status of a count, and its raw number if it may be written."""
-    put = count if computation.shape.fixed is None else with_fixed(computation, count)
-    status = admit(computation.shape, put, limits, by_value=True)
+def _encoded(encoding: PointEncoding, count: int, limits: samples.Limits) -> str:
+    """The line that tells the status of a count, and its raw number if it may be written."""
+    put = count if encoding.shape.fixed is None else with_fixed(encoding, count)
+    status = admit(encoding.shape, put, limits, by_value=True)
     return f"encode_count\t{count}\tok\t{put}" if status == "ok" else f"encode_count\t{count}\t{status}"
 
 
-def _checked(computation: Computation, raw: int, limits: samples.Limits) -> str:
-    """Return the status of writing a raw number unchanged."""
-    shape = computation.shape
-    fits = shape.fixed is None or with_fixed(computation, raw) == raw or code_of(shape, raw) is not None
+def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
+    """The status of a raw number that is written as it is."""
+    shape = encoding.shape
+    fits = shape.fixed is None or with_fixed(encoding, raw) == raw or code_of(shape, raw) is not None
     return admit(shape, raw, limits) if fits else "out_of_range"
 
 
-def _raws(computation: Computation, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """Return these raw numbers, those with the constant bits set, enum numbers (all if `deep`), and each flag alone."""
-    shape = computation.shape
+def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, None]:
+    """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    shape = encoding.shape
     raws_to_try = dict.fromkeys(raws)
     if shape.fixed is not None:
-        raws_to_try.update({with_fixed(computation, raw): None for raw in raws})
+        raws_to_try.update({with_fixed(encoding, raw): None for raw in raws})
     if shape.enum is not None:
         raws_to_try.update({entry.raw: None for entry in (shape.enum.entries if deep else shape.enum.entries[-1:])})
     for flag in shape.flags:
@@ -84,10 +83,10 @@ def _raws(computation: Computation, raws: list[int], *, deep: bool) -> dict[int,
     return raws_to_try
 
 
-def with_fixed(computation: Computation, raw: int) -> int:
+def with_fixed(encoding: PointEncoding, raw: int) -> int:
     """A raw number with the constant bits set; unchanged if the type cannot hold it."""
-    shape, fixed = computation.shape, computation.shape.fixed
-    if fixed is None or computation.bits is not None or not shape.least <= raw <= shape.greatest:
+    shape, fixed = encoding.shape, encoding.shape.fixed
+    if fixed is None or encoding.bits is not None or not shape.least <= raw <= shape.greatest:
         return raw
     return as_raw(shape, raw & ~fixed.mask | fixed.bits)
 
@@ -142,12 +141,12 @@ def fixed(lines: Lines, shape: Shape) -> None:
         lines.add("fixed", shape.fixed.mask, shape.fixed.bits)
 
 
-def bits(lines: Lines, computation: Computation) -> None:
+def bits(lines: Lines, encoding: PointEncoding) -> None:
     """Add vectors of a bit group: taken out of its word, and replaced in it."""
-    shape = computation.shape
-    if computation.bits is None:
+    shape = encoding.shape
+    if encoding.bits is None:
         return
-    low, ones = computation.bits[1], (1 << shape.width) - 1
+    low, ones = encoding.bits[1], (1 << shape.width) - 1
     patterns = (0, ones, 1, ones >> 1, ones ^ ones >> 1)
     tries = [(0, ones), (0xFFFF, 0), (0x5A3C, 0x5555 & ones), (0xA5C3, 0xAAAA & ones)]
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
@@ -162,16 +161,16 @@ OTHER_BITS = 0xA5C3
 """The bits of a shared word around those of the point."""
 
 
-def words(lines: Lines, computation: Computation) -> None:
+def words(lines: Lines, encoding: PointEncoding) -> None:
     """Add vectors of the words of a number, in ascending order of the addresses."""
-    shape, order = computation.shape, computation.order
-    if order is None or computation.bits is not None or shape.text is not None:
+    shape, order = encoding.shape, encoding.order
+    if order is None or encoding.bits is not None or shape.text is not None:
         return
     count = shape.words
     if count < 2 and not shape.info.signed:
         return
     raws = [as_raw(shape, pattern) for pattern in (_wide_patterns(count) if count > 1 else _NARROW)]
-    lines.add_all("words", [(raw, words_of(computation, order, raw)) for raw in raws])
+    lines.add_all("words", [(raw, words_of(encoding, order, raw)) for raw in raws])
 
 
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
@@ -185,20 +184,20 @@ def _wide_patterns(count: int) -> tuple[int, ...]:
     return (0, 1, ascending, top, top + 1, top - 1, mixed, (1 << 16 * count) - 1, 0xFFFF)
 
 
-def words_of(computation: Computation, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
+def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
     """The words of a raw number as they travel, in ascending order of address: `order` says which is which.
 
     A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
     """
-    if computation.bits is not None:
-        return (_shared_word(computation, computation.bits[1], raw, received=received),)
+    if encoding.bits is not None:
+        return (_shared_word(encoding, encoding.bits[1], raw, received=received),)
     count = len(order)
     pattern = raw & (1 << 16 * count) - 1
     return tuple([pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order])
 
 
-def _shared_word(computation: Computation, low: int, raw: int, *, received: bool) -> int:
-    ones, fixed = (1 << computation.shape.width) - 1, computation.shape.fixed
+def _shared_word(encoding: PointEncoding, low: int, raw: int, *, received: bool) -> int:
+    ones, fixed = (1 << encoding.shape.width) - 1, encoding.shape.fixed
     word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
     if fixed is None:
         return word

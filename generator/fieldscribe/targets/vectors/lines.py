@@ -3,128 +3,194 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from struct import Struct
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.targets.vectors.kinds import ROWS, SETS, Row, table
+from fieldscribe.targets.vectors.kinds import KINDS, SETS, table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+
+    from fieldscribe.targets.vectors.kinds import Kind
 
 FORMAT = 2
+ABSENT = "-"
+NO_BROADCAST = 0xFFFF
+"""The unit number for devices without broadcast: larger than any other."""
+_MANY = 500
+"""So many new lines are joined at once: one long string takes less memory."""
+_BINARY64 = Struct(">d").pack
 
 
-def rows(further: Mapping[str, str] = MappingProxyType({})) -> dict[str, Row]:
-    """Return the writer of each kind's lines; `further` are the kinds of the device's family."""
-    return ROWS | {name: Row(name, kind) for name, kind in table(further).items()}
+def text(value: str) -> str:
+    """Return a text; unprintable characters, `%`, `,` and `=` become `%` and two hexadecimal digits a byte of UTF-8."""
+    if value.isalnum():
+        return value
+    if value in ("", ABSENT):
+        return "%" + "2D" * len(value)
+    return "".join(
+        character if character.isprintable() and character not in "%,=" else _escaped(character) for character in value
+    )
 
 
+def _escaped(character: str) -> str:
+    return "".join(f"%{byte:02X}" for byte in character.encode("utf-8", "surrogatepass"))
+
+
+def word(value: str) -> str:
+    """Return a name; identifiers need no escape."""
+    return value if value.isidentifier() and value.isascii() else text(value)
+
+
+def real(value: float) -> str:
+    """Return the pattern of a binary64 in hexadecimal, without zeros at its end; at least one digit."""
+    return _BINARY64(value).hex().rstrip("0") or "0"
+
+
+def _pairs(value: Mapping[str, object]) -> str:
+    return ",".join([f"{text(key)}={text(str(part))}" for key, part in value.items()])
+
+
+_FORMS: dict[str, tuple[tuple[type, ...], Callable[[Any], str]]] = {
+    "int": ((int,), str),
+    "word": ((str,), word),
+    "note": ((str,), word),
+    "text": ((str,), text),
+    "bytes": ((bytes,), bytes.hex),
+    "real": ((float,), real),
+    "ints": ((tuple, list), lambda numbers: ",".join(map(str, numbers))),
+    "names": ((tuple,), lambda names: ",".join(map(text, names))),
+    "pairs": ((dict,), _pairs),
+    "frames": ((tuple, list), lambda frames: ",".join([f"{number}={data.hex()}" for number, data in frames])),
+    "script": ((tuple, list), lambda script: ",".join([f"{sent.hex()}={answer.hex()}" for sent, answer in script])),
+}
+"""Each form of field: the types of its values and their notation; lists have commas, items of two parts have `=`."""
+
+
+def _refuse(value: object, types: tuple[type, ...]) -> str:
+    raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
+
+
+class Row:
+    """Writes the lines of one kind or set, and checks each value against its field."""
+
+    def __init__(self, name: str, kind: Kind) -> None:
+        self.name, self.kind = name, kind
+        self._forms = [_FORMS[form] for _, form in kind.fields]
+        self._needed = [(place, key) for place, (key, _) in enumerate(kind.fields) if key not in kind.optional]
+
+    def line(self, values: Sequence[object]) -> str:
+        """Return the line of one vector; fields without a value are absent, and left out at the end."""
+        words = [
+            ABSENT if value is None else write(value) or ABSENT if type(value) in types else _refuse(value, types)
+            for (types, write), value in zip(self._forms, values, strict=False)
+        ]
+        if len(values) > len(self._forms):
+            raise ValueError(f"{self.name} has no more than {len(self._forms)} fields")
+        while words and words[-1] == ABSENT:
+            words.pop()
+        for place, key in self._needed:
+            if place >= len(words) or words[place] == ABSENT:
+                raise ValueError(f"{self.name} lacks {key}")
+        return "\t".join((self.name, *words))
+
+
+_ROWS = {name: Row(name, kind) for name, kind in KINDS.items()}
 _SETS = {name: Row(name, kind) for name, kind in SETS.items()}
-_BEHIND = {name: tuple(SETS)[place + 1 :] for place, name in enumerate(SETS)}
+_LATER_SETS = {name: tuple(SETS)[place + 1 :] for place, name in enumerate(SETS)}
 
 
 class Lines:
-    """Collects vectors in order, and counts them."""
+    """Collects vectors in order, and counts them; `kinds` are those that only the device's family has."""
 
-    def __init__(self, rows_of_kinds: Mapping[str, Row] | None = None) -> None:
-        self._rows = rows() if rows_of_kinds is None else rows_of_kinds
+    def __init__(self, kinds: Mapping[str, str] = MappingProxyType({})) -> None:
+        self._rows = _ROWS | {name: Row(name, kind) for name, kind in table(kinds).items()}
         self._numbers: defaultdict[str, int] = defaultdict(int)
-        self._held: dict[str, str] = {}
+        self._in_force: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
-        self._open: list[str] = []
+        self._lines: list[str] = []
         self._chunks: list[str] = []
-        self._included: list[Lines] = []
-        self._joined: str | None = None
+        self._included: Counter[Lines] = Counter()
 
     def set(self, name: str, *values: object) -> None:
-        """Set what the following vectors share; the line is written when a vector follows and the set has changed."""
+        """Set what the vectors from here on share; a line is written only when a vector follows and it changed."""
         line = _SETS[name].line(values)
-        if self._wanted or line != self._held.get(name, name):
+        if self._wanted or line != self._in_force.get(name, name):
             self._wanted[name] = line
 
     def add(self, kind: str, *values: object) -> None:
         """Add a vector: the fields of its kind in their order."""
-        if self._wanted:
-            self._settle()
-        self._open.append(self._rows[kind].line(values))
-        self._numbers[kind] += 1
+        self.add_written(kind, (self._rows[kind].line(values),))
 
-    def add_all(self, kind: str, rows_of_fields: Sequence[tuple[object, ...]]) -> None:
+    def add_all(self, kind: str, rows: Iterable[tuple[object, ...]]) -> None:
         """Add vectors of one kind."""
-        self.add_written(kind, [*map(self._rows[kind].line, rows_of_fields)])
+        self.add_written(kind, [*map(self._rows[kind].line, rows)])
 
-    def add_written(self, kind: str, lines: list[str]) -> None:
+    def add_written(self, kind: str, lines: Sequence[str]) -> None:
         """Add vectors of one kind whose lines are finished."""
         if self._wanted and lines:
-            self._settle()
-        self._open += lines
+            self._write_sets()
+        self._lines += lines
         self._numbers[kind] += len(lines)
 
-    def apart(self) -> Lines:
-        """Return an empty collection of the same kinds, for vectors that are included in several places."""
-        return Lines(self._rows)
+    def add_limits(self, **numbers: int) -> None:
+        """Add a vector for each constant of the bus."""
+        self.add_all("limit", numbers.items())
 
-    def include(self, part: Lines, text: str | None = None) -> None:
-        """Add all vectors of a part. A part may override inner sets only. `text` replaces its lines."""
-        if part.joined:
+    def part(self) -> Lines:
+        """Return an empty collection with the same kinds, for vectors that are included in several places."""
+        part = Lines()
+        part._rows = self._rows
+        return part
+
+    def include(self, part: Lines) -> None:
+        """Add all vectors of a finished part; it may set only what comes after the sets in force."""
+        if joined := part._joined():
             if self._wanted:
-                self._settle()
-            self._open.append(part.joined if text is None else text)
-            self._included.append(part)
-        if part._held or part._wanted:
-            for name in part._held:
-                for key in _BEHIND[name]:
-                    self._held.pop(key, None)
-            self._held.update(part._held)
-            self._wanted.update(part._wanted)
+                self._write_sets()
+            self._lines.append(joined)
+            self._included[part] += 1
+        for name in part._in_force:
+            for later in _LATER_SETS[name]:
+                self._in_force.pop(later, None)
+        self._in_force |= part._in_force
+        self._wanted |= part._wanted
+        if len(self._lines) > _MANY:
+            self._joined()
 
-    @property
-    def joined(self) -> str:
-        """The text of a complete part."""
-        if self._joined is None:
-            self._joined = "\n".join(self._open)
-            self._open.clear()
-        return self._joined
+    def _joined(self) -> str:
+        """Join the lines so far, and return the last chunk of them: of a part, all its lines."""
+        if self._lines:
+            self._chunks.append("\n".join(self._lines))
+            self._lines.clear()
+        return self._chunks[-1] if self._chunks else ""
 
-    def _counts(self) -> Counter[str]:
-        """Return the number of vectors of each kind."""
-        counts = Counter(self._numbers)
-        for part, times in Counter(self._included).items():
-            for kind, number in part._numbers.items():
-                counts[kind] += number * times
-        return counts
-
-    def _settle(self) -> None:
+    def _write_sets(self) -> None:
         """Write the sets that changed; each ends the sets after it in the table."""
-        wanted = self._wanted
-        for name in wanted if len(wanted) == 1 else [name for name in SETS if name in wanted]:
-            line = wanted[name]
-            if line != self._held.get(name, name):
-                self._open.append(line)
-                self._held[name] = line
-                for key in _BEHIND[name]:
-                    self._held.pop(key, None)
-        wanted.clear()
-
-    def gather(self, least: int = 1) -> None:
-        """Join the lines added since the last call if there are at least so many: one long string needs less memory."""
-        if len(self._open) >= least:
-            self._chunks.append("\n".join(self._open))
-            self._open.clear()
+        for name in [name for name in SETS if name in self._wanted]:
+            line = self._wanted[name]
+            if line != self._in_force.get(name, name):
+                self._lines.append(line)
+                self._in_force[name] = line
+                for later in _LATER_SETS[name]:
+                    self._in_force.pop(later, None)
+        self._wanted.clear()
 
     def text(self, device: str, version: str, digest: str) -> str:
-        """The whole file, with a head that describes its kinds and sets."""
-        self.gather()
-        chunks, self._chunks = self._chunks, []
-        return "\n".join([*self._head(device, version, digest), *chunks, ""])
+        """Return the whole file, with a head that describes its kinds and sets."""
+        self._joined()
+        return "\n".join([*self._head(device, version, digest), *self._chunks, ""])
 
     def _head(self, device: str, version: str, digest: str) -> Iterator[str]:
-        counts = self._counts()
+        counts = Counter(self._numbers)
+        for part, times in self._included.items():
+            for kind, number in part._numbers.items():
+                counts[kind] += number * times
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
         for name, row in _SETS.items():
             yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.kind.fields)))
         for name, row in self._rows.items():
             if number := counts[name]:
-                fields = (f"{key}:{form}" for key, form in row.kind.fields)
                 only = (f"only:{row.kind.only}",) if row.kind.only else ()
-                yield "\t".join(("kind", name, str(number), *only, *fields))
+                yield "\t".join(("kind", name, str(number), *only, *(f"{key}:{form}" for key, form in row.kind.fields)))

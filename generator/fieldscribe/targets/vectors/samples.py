@@ -1,14 +1,130 @@
-"""The numbers that a point is tried with: limits and their neighbours, halves, settings of other points."""
+"""What the raw numbers of a point mean, apart from the point's identity: points that mean the same share a sheet.
+
+The first of all that are computed alike is tried in depth, the others only with what is their own.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import gcd
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import Allowed, Factor, Limit, Shape
-from fieldscribe.targets.vectors.computations import MANY, Computation
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    from fieldscribe.model import Allowed, Bound, Enum, Interval, Point, Shape
+
+
+MANY = 3
+"""So many intervals of a list are tried for every point."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PointEncoding:
+    """All that the vectors of raw numbers follow from. They never see the point, so that nothing else can matter.
+
+    `bits` are those of a group in its word. `order` names the words in ascending order of address, the high one being
+    0; it is None if nobody knows the address. `symbol` is that of the unit where texts for people have it.
+    """
+
+    shape: Shape
+    allowed: Allowed
+    bits: tuple[int, int] | None
+    order: tuple[int, ...] | None
+    symbol: str
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
+        scale, limits = self.shape.scale_arguments, self.allowed.arguments
+        return tuple(dict.fromkeys((*scale, *limits))) if scale or limits else ()
+
+
+class PointEncodings:
+    """The encodings met so far, each once."""
+
+    def __init__(self) -> None:
+        self._known: dict[Hashable, PointEncoding] = {}
+        self._first: dict[int, Shape] = {}
+        self._alike: dict[Hashable, Shape] = {}
+        self._computed: set[Hashable] = set()
+        self._shapes: dict[int, int] = {}
+        self._facts: dict[Hashable, int] = {}
+
+    def of(self, point: Point) -> PointEncoding:
+        """The encoding of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
+        shape, terms, addresses = self._like(point.shape), point.terms, point.place.addresses
+        order = ascending(shape, addresses) if addresses else None
+        symbol = terms.unit.symbol if shape.display is not None else ""
+        key = id(shape), id(point.allowed), terms.bits, order, symbol
+        encoding = self._known.get(key)
+        if encoding is None:
+            encoding = self._known[key] = PointEncoding(shape, point.allowed, terms.bits, order, symbol)
+        return encoding
+
+    def _like(self, shape: Shape) -> Shape:
+        """The first shape that differs in nothing but the name of its enum, which no vector tells."""
+        first = self._first.get(id(shape))
+        if first is None:
+            facts = replace(shape, enum=None), _entries(shape.enum), shape.enum is not None and shape.enum.closed
+            first = self._alike.get(facts)
+            if first is None:
+                first = self._alike[facts] = shape
+            self._first[id(shape)] = first
+        return first
+
+    def is_new(self, encoding: PointEncoding) -> bool:
+        """Whether nothing was computed alike before."""
+        number = self._shapes.get(id(encoding.shape))
+        if number is None:
+            facts = _facts(encoding.shape)
+            number = self._shapes[id(encoding.shape)] = self._facts.setdefault(facts, len(self._facts))
+        computed = number, _limits(encoding.allowed.intervals), len(encoding.allowed.units)
+        new = computed not in self._computed
+        self._computed.add(computed)
+        return new
+
+
+def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
+    """The words of a number in ascending order of address; those that share one address have the high one first."""
+    if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
+        return _ONE
+    count = shape.words if shape.text is None else len(addresses)
+    if len(addresses) != count:
+        return tuple(range(count))
+    return tuple(sorted(range(count), key=addresses.__getitem__))
+
+
+_ONE = (0,)
+
+
+def _facts(shape: Shape) -> Hashable:
+    """The facts that decide how a point is computed, but for its limits: type, scale, special codes."""
+    specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
+    kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
+    enum = _entries(shape.digits.enum if shape.digits is not None else shape.enum)
+    return (*kind, shape.display, shape.scale, specials, enum, bool(shape.flags))
+
+
+def _entries(enum: Enum | None) -> tuple[tuple[int, str], ...] | None:
+    return None if enum is None else tuple([(entry.raw, entry.name) for entry in enum.entries])
+
+
+def _limits(intervals: tuple[Interval, ...]) -> Hashable:
+    """The forms of the limits; a long list counts with its numbers."""
+    if len(intervals) > MANY:
+        return intervals
+    return tuple([(_form(interval.low), _form(interval.high)) for interval in intervals])
+
+
+def _form(bound: Bound) -> Hashable:
+    return bound if isinstance(bound, Limit) else bound < 0
+
 
 Limits = Sequence[tuple[int, int]]
 
@@ -29,7 +145,7 @@ _FACTORS_32 = (
 
 
 def edges(limits: Limits) -> dict[int, None]:
-    """Return each limit and the number beyond it, so that every hole of a list is tried."""
+    """Each limit and the number beyond it, so that every hole of a list is tried."""
     raws: dict[int, None] = {}
     for low, high in limits:
         for raw in (low, high, low - 1, high + 1):
@@ -38,12 +154,12 @@ def edges(limits: Limits) -> dict[int, None]:
 
 
 def limits_to_try(limits: Limits) -> Limits:
-    """Return the limits to try: all of a short list, the first and last of a long one."""
+    """The limits that are tried for each point of a shape: all of a few, the ends of a long list."""
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
 def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Return raw numbers to decode: limits; if `deep`, also special codes, the ends of the type and around zero."""
+    """Raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
     if not deep:
         return _held(shape, (limits[0][0], limits[-1][1]))
     raws = {raw: None for interval in limits for raw in interval}
@@ -121,33 +237,33 @@ def raw_telling_division(ratio: Ratio) -> int | None:
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
-def settings(oracle: Oracle, computation: Computation, *, deep: bool = True) -> list[dict[str, int]]:
+def settings(oracle: Oracle, encoding: PointEncoding, *, deep: bool = True) -> list[dict[str, int]]:
     """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
 
     Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
     which shows exchanged arguments, and each case is met once.
     """
-    names = computation.arguments
+    names = encoding.arguments
     if not names:
         return [{}]
-    base = {name: _typical(oracle, computation, name) for name in names}
+    base = {name: _typical(oracle, encoding, name) for name in names}
     if not deep:
-        cases = [(case.point, case.raw) for case in computation.shape.scale or () if case.point is not None]
-        last = [(name, raw) for name in names for raw in _choices(oracle, computation, name)[-2:] if raw != base[name]]
+        cases = [(case.point, case.raw) for case in encoding.shape.scale or () if case.point is not None]
+        last = [(name, raw) for name in names for raw in _choices(oracle, encoding, name)[-2:] if raw != base[name]]
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
-    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, computation, name))]
+    chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, encoding, name))]
     # Each case with all choices of its own factors, not only those of the first case.
-    for case in computation.shape.scale or ():
+    for case in encoding.shape.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
-                raws = _choices(oracle, computation, factor.point)
+                raws = _choices(oracle, encoding, factor.point)
                 chosen += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
     return list({tuple(setting.items()): setting for setting in chosen}.values())
 
 
-def _typical(oracle: Oracle, computation: Computation, name: str) -> int:
-    for case in computation.shape.scale or ():
+def _typical(oracle: Oracle, encoding: PointEncoding, name: str) -> int:
+    for case in encoding.shape.scale or ():
         if case.point == name and case.raw is not None:
             return case.raw
     if (source := oracle.points.get(name)) is not None and source.shape.info.floating:
@@ -157,11 +273,11 @@ def _typical(oracle: Oracle, computation: Computation, name: str) -> int:
     return middle or min(high, 1)
 
 
-def _choices(oracle: Oracle, computation: Computation, name: str) -> list[int]:
+def _choices(oracle: Oracle, encoding: PointEncoding, name: str) -> list[int]:
     """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
     bands = [
         band
-        for limit in limits_of(computation.allowed)
+        for limit in limits_of(encoding.allowed)
         for other, codes in limit.unless
         if other == name
         for band in codes[:4]
@@ -172,9 +288,9 @@ def _choices(oracle: Oracle, computation: Computation, name: str) -> list[int]:
     if source is not None and source.shape.info.floating:
         return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.shape.greatest]
     low, high = _bounds(oracle, name)
-    cases = [case.raw for case in computation.shape.scale or () if case.point == name and case.raw is not None]
+    cases = [case.raw for case in encoding.shape.scale or () if case.point == name and case.raw is not None]
     raws = [*cases, max(cases) + 1] if cases else [low, high]
-    for factor in _factors(computation):
+    for factor in _factors(encoding):
         if factor.point != name:
             continue
         if factor.ten_to:
@@ -183,17 +299,15 @@ def _choices(oracle: Oracle, computation: Computation, name: str) -> list[int]:
             raws.append(-factor.intercept // factor.slope)
     raws += lifting
     if source is not None and any(
-        factor.point == name for limit in limits_of(computation.allowed) for factor in limit.rule.factors
+        factor.point == name for limit in limits_of(encoding.allowed) for factor in limit.rule.factors
     ):
         raws.append(max(source.shape.least, 0) + 1)  # a computed limit beyond the outermost one
     return [raw for raw in dict.fromkeys(raws) if source is None or source.shape.least <= raw <= source.shape.greatest]
 
 
-def _factors(computation: Computation) -> list[Factor]:
+def _factors(encoding: PointEncoding) -> list[Factor]:
     """All factors of the scale and the limits."""
-    rules = [case.rule for case in computation.shape.scale or ()] + [
-        limit.rule for limit in limits_of(computation.allowed)
-    ]
+    rules = [case.rule for case in encoding.shape.scale or ()] + [limit.rule for limit in limits_of(encoding.allowed)]
     return [factor for rule in rules for factor in rule.factors]
 
 

@@ -1,7 +1,7 @@
-"""Vectors of points with a scale: values in binary64, and counts of 10^-decimals units.
+"""Raw numbers, values and counts of one shape under one ratio: each is worked out once, however many limits there are.
 
-Each raw number, value and count of a shape under one ratio is computed once, whatever the limits, and so are the lines
-that follow from it. What may be written is decided anew for each point.
+So are the lines that tell them, as far as they follow from them.
+Nothing here knows limits: what may be written is asked anew for every sheet.
 """
 
 from __future__ import annotations
@@ -12,22 +12,21 @@ from math import inf, nan, nextafter
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.kinds import line_of, real
-from fieldscribe.targets.vectors.numbers import quotient
-from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, admit, code_of, quantity_at_most
+from fieldscribe.targets.vectors.lines import real, text
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, admit, code_of, quantity_at_most, quotient
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Shape
-    from fieldscribe.targets.vectors.computations import Computation
     from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.samples import PointEncoding
 
 
 INT32 = 1 << 31
 
-Encoding = tuple[str, int | None, str]
-"""The line up to its status, the raw number or None, and the whole line if the number may be written."""
+EncodedLine = tuple[str, int | None, str]
+"""The line of a vector up to its status, the raw number (None if there is none), and the line if it may be written."""
 
 
 class Conversions:
@@ -37,7 +36,7 @@ class Conversions:
         self.shape, self.ratio, self._decimals = shape, ratio, shape.decimals or 0
         telling = samples.raw_telling_division(ratio)
         self.telling = () if telling is None or not shape.least <= telling <= shape.greatest else (telling,)
-        """The raw number that distinguishes a division from a multiplication by the reciprocal."""
+        """The raw number that tells a division from a product with the reciprocal."""
         self.value, self.decoded, self.encoded = cache(self._value), cache(self._decoded), cache(self.encode_anew)
         self.count, self.counted = cache(self._count), cache(self._counted)
         self.encoded_count, self.outside = cache(self._encoded_count), cache(self._outside)
@@ -52,18 +51,18 @@ class Conversions:
         return quotient(4 * self.ratio.numerator(raw) + side * step, 4 * self.ratio.denominator)
 
     def _decoded(self, raw: int) -> str:
-        """Return the line with status and value; empty if languages may differ in the last place."""
+        """The line that tells status and value; empty where languages may differ in the last place."""
         shape, ratio = self.shape, self.ratio
         if (code := code_of(shape, raw)) is not None:
-            return line_of("decode", raw, "special", None, code.name)
+            return f"decode\t{raw}\tspecial\t-\t{text(code.name)}"
         if self._is_too_large(raw):
-            return line_of("decode", raw, "overflow")
+            return f"decode\t{raw}\toverflow"
         if ratio.divides_exactly(raw) or not (shape.scale_arguments and shape.encodes_values):
             return f"decode\t{raw}\tok\t{real(ratio.numerator(raw) / ratio.denominator)}"
         return ""
 
-    def encode_anew(self, value: float) -> Encoding:
-        """Return the encoding of a finite value. Not cached: a cache takes 0 and -0 for the same."""
+    def encode_anew(self, value: float) -> EncodedLine:
+        """The lines of a finite value, without a raw number if a step overflows. To a cache, 0 and -0 are the same."""
         told, raw = f"encode\t{real(value)}\t", self.ratio.raw_of_float(value)
         return told, raw, f"{told}ok\t{raw}"
 
@@ -72,20 +71,20 @@ class Conversions:
         return self.ratio.count_of_raw(raw, self._decimals)
 
     def _counted(self, raw: int) -> str:
-        """Return the line with status and count."""
+        """The line that tells status and count."""
         if (code := code_of(self.shape, raw)) is not None:
-            return line_of("decode_count", raw, "special", None, code.name)
+            return f"decode_count\t{raw}\tspecial\t-\t{text(code.name)}"
         count = self.count(raw)
         fits = -INT64 <= count < INT64 and not self._is_too_large(raw)
-        return f"decode_count\t{raw}\tok\t{count}" if fits else line_of("decode_count", raw, "overflow")
+        return f"decode_count\t{raw}\tok\t{count}" if fits else f"decode_count\t{raw}\toverflow"
 
-    def _encoded_count(self, count: int) -> Encoding:
-        """Return the encoding of a count."""
+    def _encoded_count(self, count: int) -> EncodedLine:
+        """The lines of a count."""
         told, raw = f"encode_count\t{count}\t", self.ratio.raw_of_count(count, self._decimals)
         return told, raw, f"{told}ok\t{raw}"
 
     def _is_too_large(self, raw: int) -> bool:
-        """Return True if a raw number is too large to compute with."""
+        """Whether a raw number is too large to compute with."""
         return self.shape.most_raw is not None and abs(raw) > self.shape.most_raw
 
     @property
@@ -102,20 +101,20 @@ class Scaled:
         self._oracle = oracle
         self._conversions: dict[tuple[int, Ratio], Conversions] = {}
 
-    def add(self, lines: Lines, computation: Computation, *, deep: bool) -> None:
+    def add(self, lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
         """Add the vectors for each setting of the points that it depends on; fewer unless `deep`."""
-        full, oracle, shape = deep, self._oracle, computation.shape
-        for settings in samples.settings(oracle, computation, deep=deep):
+        full, oracle, shape = deep, self._oracle, encoding.shape
+        for settings in samples.settings(oracle, encoding, deep=deep):
             if settings:
                 lines.set("with", settings)
             ratio = oracle.ratio(shape, settings)
-            limits = oracle.limits(shape, computation.allowed, settings)
+            limits = oracle.limits(shape, encoding.allowed, settings)
             if isinstance(ratio, str):
                 _without_rule(lines, shape, ratio)
             elif isinstance(limits, str):
-                _without_limits(lines, computation, ratio, limits)
+                _without_limits(lines, encoding, ratio, limits)
             else:
-                _Vectors(lines, computation, self._of(shape, ratio), limits, deep, full).write()
+                _Vectors(lines, encoding, self._of(shape, ratio), limits, deep, full).write()
                 full = False
 
     def _of(self, shape: Shape, ratio: Ratio) -> Conversions:
@@ -141,12 +140,12 @@ def _without_rule(lines: Lines, shape: Shape, status: str) -> None:
             lines.add("encode", nan, "not_a_number")
 
 
-def _without_limits(lines: Lines, computation: Computation, ratio: Ratio, status: str) -> None:
+def _without_limits(lines: Lines, encoding: PointEncoding, ratio: Ratio, status: str) -> None:
     """Add the vectors for a setting under which values can be computed, but not the limits."""
-    shape = computation.shape
+    shape = encoding.shape
     if shape.writable:
         # Inside the outer bounds of the limit, so that only the limit itself can refuse it.
-        raw = quantity_at_most(shape, samples.limits_of(computation.allowed)[0].greatest)
+        raw = quantity_at_most(shape, samples.limits_of(encoding.allowed)[0].greatest)
         value = quotient(ratio.numerator(raw), ratio.denominator)
         if shape.encodes_values:
             lines.add("encode", value, status)
@@ -157,13 +156,13 @@ def _without_limits(lines: Lines, computation: Computation, ratio: Ratio, status
 
 @dataclass(frozen=True, slots=True)
 class _Vectors:
-    """A computation under one setting of the points that it needs.
+    """A encoding under one setting with which it can be computed.
 
-    `deep` is true for the first computation by the same rules, `full` for its first setting; others get fewer vectors.
+    `deep` for the first of all that are computed alike, and `full` for its first setting; all others get fewer vectors.
     """
 
     lines: Lines
-    computation: Computation
+    encoding: PointEncoding
     by: Conversions
     limits: samples.Limits
     deep: bool
@@ -171,7 +170,7 @@ class _Vectors:
 
     def write(self) -> None:
         """Add the vectors of all kinds, decoding first."""
-        shape = self.computation.shape
+        shape = self.encoding.shape
         if shape.readable:
             self._decode(samples.raws_to_decode(shape, self.limits, deep=self.deep))
         if shape.writable:
@@ -180,18 +179,18 @@ class _Vectors:
                 self._encode(edges)
             if shape.decimals is not None:
                 self._encode_count(edges, shape.decimals)
-            if self.full or not self.deep or self.computation.allowed.arguments:
+            if self.full or not self.deep or self.encoding.allowed.arguments:
                 self._check()
 
     def _decode(self, raws: list[int]) -> None:
         by, told = self.by, dict.fromkeys((*raws, *self.by.telling))
         self.lines.add_written("decode", [*filter(None, map(by.decoded, told))])
-        if self.computation.shape.decimals is not None:
+        if self.encoding.shape.decimals is not None:
             self.lines.add_written("decode_count", [*map(by.counted, raws)])
 
-    def _encoded(self, encodings: Iterable[Encoding]) -> list[str]:
+    def _encoded(self, encodings: Iterable[EncodedLine]) -> list[str]:
         """The lines of values or counts: each with its status, and its raw number if it may be written."""
-        shape, limits, lines = self.computation.shape, self.limits, []
+        shape, limits, lines = self.encoding.shape, self.limits, []
         for told, raw, written in encodings:
             status = "out_of_range" if raw is None else admit(shape, raw, limits, by_value=True)
             lines.append(written if status == "ok" else told + status)
@@ -201,7 +200,7 @@ class _Vectors:
         """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
         if not self.deep:
             return samples.edges(samples.limits_to_try(self.limits))
-        return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.computation.shape))}
+        return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.encoding.shape))}
 
     def _encode(self, edges: dict[int, None]) -> None:
         by = self.by
@@ -239,6 +238,6 @@ class _Vectors:
             yield from (below, below + 1) if rest else (below - 1, below + 1, below)
 
     def _check(self) -> None:
-        shape, limits = self.computation.shape, self.limits
+        shape, limits = self.encoding.shape, self.limits
         raws = samples.raws_to_check(shape, limits, deep=self.deep)
         self.lines.add_written("check", [f"check\t{raw}\t{admit(shape, raw, limits)}" for raw in raws])

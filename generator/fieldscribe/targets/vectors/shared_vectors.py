@@ -1,68 +1,67 @@
-"""The vectors of raw numbers, written once for all points with the same computation."""
+"""The vectors of the raw numbers of a point, written once for all points with the same encoding."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.displayed_texts import shown
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.integers import bits, fixed, flags, names, specials, whole, words
 from fieldscribe.targets.vectors.scaled import Scaled
-from fieldscribe.targets.vectors.texts_and_digits import digits, text
+from fieldscribe.targets.vectors.texts import digits, displayed, text
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-    from fieldscribe.targets.vectors.computations import Computation, Computations
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.oracle import Oracle
+    from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
 
 
 class SharedVectors:
-    """The shared vectors of one device."""
+    """The shared vectors of one device, in two parts: those that depend on limits, and the others."""
 
-    def __init__(self, lines: Lines, oracle: Oracle, computations: Computations) -> None:
-        self._lines, self._oracle, self._computations = lines, oracle, computations
+    def __init__(self, lines: Lines, oracle: Oracle, encodings: PointEncodings) -> None:
+        self._lines, self._oracle, self._encodings = lines, oracle, encodings
         self._scaled = Scaled(oracle)
-        self._written: dict[Computation, Lines] = {}
-        self._parts: dict[Hashable, Lines] = {}
+        self._within_limits: dict[PointEncoding, Lines] = {}
+        self._beside_limits: dict[Hashable, Lines] = {}
 
-    def of(self, computation: Computation) -> Lines:
-        """Return the vectors that depend on limits; in depth for the first computation by the same rules."""
-        sheet = self._written.get(computation)
-        if sheet is None:
-            deep = self._computations.is_new(computation)
-            sheet = self._lines.apart()
-            self._write(sheet, computation, deep=deep)
+    def within_limits(self, encoding: PointEncoding) -> Lines:
+        """Return conversions, checks and names; they are deep for the first point that is computed in this way."""
+        part = self._within_limits.get(encoding)
+        if part is None:
+            deep = self._encodings.is_new(encoding)
+            part = self._lines.part()
+            self._convert(part, encoding, deep=deep)
             if not deep:
-                self._written[computation] = sheet
-        return sheet
+                self._within_limits[encoding] = part
+        return part
 
-    def _write(self, lines: Lines, computation: Computation, *, deep: bool) -> None:
-        shape, oracle = computation.shape, self._oracle
+    def _convert(self, lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
+        shape, oracle = encoding.shape, self._oracle
         if shape.form == "scaled":
-            self._scaled.add(lines, computation, deep=deep)
+            self._scaled.add(lines, encoding, deep=deep)
         elif shape.form == "float":
-            floats(lines, computation, deep=deep)
+            floats(lines, encoding, deep=deep)
         elif shape.form == "text":
             text(lines, shape)
         elif shape.form == "digits":
             digits(lines, shape)
         else:
-            whole(lines, oracle, computation, deep=deep)
+            whole(lines, oracle, encoding, deep=deep)
         if shape.display is not None:
-            shown(lines, oracle, computation, deep=deep)
+            displayed(lines, oracle, encoding, deep=deep)
         names(lines, shape, deep=deep)
 
-    def of_bits(self, computation: Computation) -> Lines:
-        """Return the vectors that do not depend on limits: special codes, flags, bit groups, words."""
-        key = id(computation.shape), computation.bits, computation.order
-        sheet = self._parts.get(key)
-        if sheet is None:
-            sheet = self._parts[key] = self._lines.apart()
-            specials(sheet, computation.shape)
-            flags(sheet, computation.shape)
-            fixed(sheet, computation.shape)
-            bits(sheet, computation)
-            words(sheet, computation)
-        return sheet
+    def beside_limits(self, encoding: PointEncoding) -> Lines:
+        """Return what no limits decide about: special codes, flags, groups of bits, words."""
+        key = id(encoding.shape), encoding.bits, encoding.order
+        part = self._beside_limits.get(key)
+        if part is None:
+            part = self._beside_limits[key] = self._lines.part()
+            specials(part, encoding.shape)
+            flags(part, encoding.shape)
+            fixed(part, encoding.shape)
+            bits(part, encoding)
+            words(part, encoding)
+        return part

@@ -1,0 +1,190 @@
+"""Vectors of texts, and of words whose decimal digits each mean something."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.oracle import (
+    INT64,
+    Oracle,
+    Ratio,
+    bits32,
+    bits64,
+    code_of,
+    float_of_bits,
+    half_away,
+    outer_bounds,
+)
+from fieldscribe.targets.vectors.samples import codes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Digits, Shape
+    from fieldscribe.targets.vectors.lines import Lines
+    from fieldscribe.targets.vectors.samples import PointEncoding
+
+
+_WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range(0x20, 0x7F), *range(0xA0, 0x100)))}
+
+
+def text(lines: Lines, shape: Shape) -> None:
+    """Vectors of a text: full, shorter, empty, too long, ending in blanks, and with bytes that are no characters."""
+    if shape.text is None:
+        return
+    size = shape.text.characters
+    alphabet = bytes(0x41 + place % 26 for place in range(size))
+    received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
+    received += [
+        b"\xff\x80\0"[:size].ljust(size),
+        b"\0" * size,
+        bytes(0xA0 + place % 0x60 for place in range(size)),
+    ]
+    if shape.readable:
+        for data in dict.fromkeys(received):
+            lines.add("text_decode", _words(data.ljust(size)), data.rstrip(b" "))
+    if not shape.writable:
+        return
+    tried = [*received, alphabet + b"Z", alphabet + b" ", b" ~", b"\x7f", b"\x1f", b"A\0", b"\xe4", b"\xff"]
+    for data in dict.fromkeys(tried):
+        good = len(data) <= size and _WRITABLE[shape.text.encoding].issuperset(data)
+        lines.add("text_encode", data, *(("ok", _words(data.ljust(size))) if good else ("out_of_range",)))
+
+
+def _words(data: bytes) -> list[int]:
+    return [data[at] << 8 | data[at + 1] for at in range(0, len(data), 2)]
+
+
+def digits(lines: Lines, shape: Shape) -> None:
+    """Vectors of words of digits: each digit with all its numbers and some that it cannot have."""
+    layout = shape.digits
+    if layout is None:
+        return
+    allowed = {entry.raw for entry in layout.enum.entries}
+    places = [10**place for place in reversed(range(layout.count))]
+    numbers = _numbers(layout, allowed)
+    raws = dict.fromkeys(
+        sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
+        for digits_of_number in numbers
+    )
+    raws = {
+        raw: None
+        for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF, *codes(shape))
+        if raw <= 0xFFFF
+    }
+    for raw in raws:
+        rest, digits_of_raw = raw, []
+        for place in places:
+            digit, rest = divmod(rest, place)
+            digits_of_raw.append(digit)
+        code = code_of(shape, raw)
+        if shape.readable:
+            lines.add("digits", raw, *(("ok", digits_of_raw) if code is None else ("special", None, code.name)))
+        if shape.writable:
+            coded = None if code is None else "ok" if code.writable else "special"
+            lines.add("check", raw, coded or ("ok" if allowed.issuperset(digits_of_raw) else "unknown_value"))
+    for digits_of_number in numbers if shape.writable else ():
+        raw = sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
+        good = allowed.issuperset(digits_of_number) and raw <= 0xFFFF
+        status = "unknown_value" if not good else "ok" if code_of(shape, raw) is None else "special"
+        lines.add("digits_encode", digits_of_number, status, raw if status == "ok" else None)
+
+
+def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
+    """Digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
+    known = sorted(allowed)
+    strange = [next(digit for digit in range(256) if digit not in known), 10]
+    base = (known[0],) * layout.count
+    samples = [base, (known[-1],) * layout.count, tuple(known[place % len(known)] for place in range(layout.count))]
+    samples += [
+        (*base[:place], digit, *base[place + 1 :]) for place in range(layout.count) for digit in (*known, *strange)
+    ]
+    return list(dict.fromkeys(samples))
+
+
+_NEAR = range(-400, 401)
+"""Where halves of the last decimal are looked for."""
+
+_NO_NUMBERS = {32: (0x7F80_0000, 0xFF80_0000, 0x7FC0_0000), 64: (0x7FF0 << 48, 0xFFF0 << 48, 0x7FF8 << 48)}
+"""Patterns of infinities and of what is no number."""
+
+
+def displayed(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
+    """Add the texts of the values of a point that says how many decimals people see."""
+    shape = encoding.shape
+    if shape.display is None:
+        return
+    for settings in samples.settings(oracle, encoding, deep=deep):
+        if settings:
+            lines.set("with", settings)
+        if shape.info.floating:
+            _told(lines, encoding, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
+            continue
+        ratio = oracle.ratio(shape, settings) if shape.scale else Ratio(1, 1, 0, 1)
+        raws = [0, 1] if isinstance(ratio, str) else _raws(encoding, ratio, deep=deep)
+        _told(lines, encoding, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
+
+
+def _told(lines: Lines, encoding: PointEncoding, rows: Iterable[tuple[int, str, str]]) -> None:
+    """A line for each raw number, its status and its text; a special code is told by its name."""
+    unit = f" {encoding.symbol}" if encoding.symbol else ""
+    for raw, status, text in rows:
+        code = code_of(encoding.shape, raw)
+        told = f"{text}{unit}" if code is None else code.name
+        lines.add("told", raw, "ok" if code is not None else status, told if code is not None or text else None)
+
+
+def _raws(encoding: PointEncoding, ratio: Ratio, *, deep: bool) -> list[int]:
+    """The limits of what may be written; in depth the ends of the type, small numbers, halves and special codes too."""
+    shape = encoding.shape
+    found = [*outer_bounds(shape, encoding.allowed), 1]
+    if deep:
+        found += [0, -1, 5, shape.least, shape.greatest, shape.greatest - 1]
+        found += [*_halves(shape, ratio), *samples.codes(shape)]
+    return [raw for raw in dict.fromkeys(found) if shape.least <= raw <= shape.greatest]
+
+
+def _halves(shape: Shape, ratio: Ratio) -> Iterator[int]:
+    """The raw numbers next to zero whose value lies in the middle of two texts, above and below zero."""
+    power, under = 10 ** (shape.display or 0), ratio.denominator
+    middle = [raw for raw in _NEAR if 2 * ratio.numerator(raw) * power % (2 * under) == under]
+    yield from [raw for raw in middle if ratio.numerator(raw) > 0][:2]
+    yield from [raw for raw in middle if ratio.numerator(raw) < 0][-2:]
+
+
+def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
+    """The status of a raw number, and its text if there is one."""
+    if isinstance(ratio, str):
+        return ratio, ""
+    count = half_away(ratio.numerator(raw) * 10 ** (shape.display or 0), ratio.denominator)
+    beyond = not -INT64 <= count < INT64 or (shape.most_raw is not None and abs(raw) > shape.most_raw)
+    return ("overflow", "") if shape.scale_arguments and beyond else ("ok", _decimal(count, shape.display or 0))
+
+
+def _patterns(shape: Shape) -> Iterator[int]:
+    """Patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
+    half = 0.5 ** ((shape.display or 0) + 1)
+    numbers = (0.0, -0.0, 1.0, 0.1, half, -half, 3 * half, half / 2, -half / 2, 1.5e9, -12345678.0, 3e38)
+    for number in numbers:
+        pattern = bits64(number) if shape.width == 64 else bits32(number)
+        if pattern is not None:
+            yield pattern
+    yield from _NO_NUMBERS[shape.width]
+
+
+def _of_float(shape: Shape, raw: int) -> tuple[str, str]:
+    number = float_of_bits(raw, shape.width)
+    if not isfinite(number):
+        return "ok", str(number)
+    over, under = number.as_integer_ratio()
+    decimals = shape.display or 0
+    return "ok", _decimal(half_away(over * 10**decimals, under), decimals)
+
+
+def _decimal(count: int, decimals: int) -> str:
+    """A count of 10^-decimals units, digit by digit; one that is zero has no sign."""
+    whole, part = divmod(abs(count), 10**decimals)
+    point = f".{part:0{decimals}d}" if decimals else ""
+    return f"{'-' if count < 0 else ''}{whole}{point}"
