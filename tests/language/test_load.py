@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import yaml
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.load import load
-from fieldscribe.language.scalars import scalar
+from fieldscribe.language.load import load, scalar
 from fieldscribe.language.source import SourceFile, decoded
 from support.places import ROOT, TESTS
 

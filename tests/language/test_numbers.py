@@ -7,8 +7,8 @@ from fractions import Fraction
 from time import perf_counter
 
 import pytest
+from fieldscribe.language.load import scalar
 from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number, plain_number
-from fieldscribe.language.scalars import scalar
 from hypothesis import example, given
 from hypothesis import strategies as st
 

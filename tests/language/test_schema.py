@@ -227,7 +227,7 @@ def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.Monke
 
 def test_a_plan_of_other_keys_would_be_noticed() -> None:
     """Were plans not told apart by all their keys, a mapping that lacks one would pass or end in an exception."""
-    from fieldscribe.language.shape_checks import KeysCheck
+    from fieldscribe.language.shape import KeysCheck
 
     text = "group: a\ntitle: A\nspace: holding\naccess: r\nsource: {document: m, section: x}\npoints: []\n"
     check = KeysCheck(PART, check_of)

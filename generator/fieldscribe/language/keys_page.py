@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
-from fieldscribe.language.scalars import as_yaml
+from fieldscribe.language.load import as_yaml
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:

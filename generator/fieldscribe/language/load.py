@@ -7,6 +7,7 @@ tags, and what aliases and nesting may cost is bounded.
 from __future__ import annotations
 
 import re
+from decimal import Decimal
 from sys import intern
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -14,13 +15,51 @@ import yaml
 from yaml import MappingEndEvent, ScalarEvent, SequenceEndEvent
 
 from fieldscribe.language.nodes import Map, Seq, Value, share
-from fieldscribe.language.scalars import scalar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.source import SourceFile
+
+MOST_DIGITS = 64
+
+_NUMBER = re.compile(
+    r"([-+]?[0-9]+)|(0o[0-7]+|0x[0-9a-fA-F]+)|[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-3]?[0-9]{1,2})?"
+)
+WORDS: dict[str, bool | None] = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+}
+_PLAIN = re.compile(r"[^\W_][\w .+*/=()°%;<>!'-]*(?<! )")
+_OTHERWISE = frozenset({"on", "off", "yes", "no", "y", "n"})
+"""Words that readers of YAML 1.1 do not take for text."""
+_NUMBER_STARTS = frozenset("-+.0123456789")
+_NUMBER_ENDS = frozenset(".0123456789abcdefABCDEF")
+
+
+def scalar(text: str) -> int | Decimal | bool | str | None:
+    """A plain scalar by the rules of the YAML 1.2 core schema; infinities and overlong numbers stay text."""
+    if text[:1] not in _NUMBER_STARTS:
+        return WORDS.get(text, text)
+    if text[-1] not in _NUMBER_ENDS:
+        return text
+    number = _NUMBER.fullmatch(text)
+    if number is None or len(text) > MOST_DIGITS:
+        return text
+    if number[1]:
+        return int(text)
+    return int(text, 0) if number[2] else Decimal(text)
+
+
+def as_yaml(text: str) -> str:
+    """A text as a scalar that stands for it everywhere, in quotes where it needs them."""
+    if _PLAIN.fullmatch(text) and scalar(text) == text and text.lower() not in _OTHERWISE:
+        return text
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
 
 MOST_DEPTH = 40
 MOST_VALUES = 1_000_000

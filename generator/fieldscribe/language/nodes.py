@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from fieldscribe.diagnostics import Span
 
 if TYPE_CHECKING:
-    from fieldscribe.language.positions import Place
-    from fieldscribe.language.source import SourceFile
+    from fieldscribe.language.source import Place, SourceFile
 
 
 class Map(dict[str, Any]):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families import FAMILIES, family
-from fieldscribe.language.scalars import as_yaml
+from fieldscribe.language.load import as_yaml
 from fieldscribe.pipeline import DEVICE_FILE
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.editions.places import scalars_in
-from fieldscribe.language.scalars import as_yaml
+from fieldscribe.language.load import as_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

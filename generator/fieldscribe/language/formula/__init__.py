@@ -13,14 +13,14 @@ from fieldscribe.language.formula.conditions import (
     parse_condition,
     wrong_number,
 )
-from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.evaluation import evaluate
 from fieldscribe.language.formula.lint import CutOff, cut_off, exact_scale
 from fieldscribe.language.formula.normal import Affine, Resolve, invert, limit_rule, linear, scale_rule
-from fieldscribe.language.formula.statements import constant, parse_expression, parse_range, parse_scale
+from fieldscribe.language.formula.parser import constant, parse_expression, parse_range, parse_scale
 from fieldscribe.language.formula.syntax import (
     Binary,
     Expression,
+    FormulaError,
     Name,
     Negate,
     Number,

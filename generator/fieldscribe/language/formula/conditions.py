@@ -7,9 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
-from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.parser import VARIABLES, Parser
-from fieldscribe.language.formula.syntax import Name
+from fieldscribe.language.formula.syntax import FormulaError, Name
 from fieldscribe.language.formula.tokens import Token, number
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula.errors import FormulaError
-from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
+from fieldscribe.language.formula.syntax import Binary, Expression, FormulaError, Name, Negate, Number, Power10
 from fieldscribe.language.numbers import MOST_EXPONENT
 
 if TYPE_CHECKING:

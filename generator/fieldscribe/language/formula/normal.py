@@ -8,10 +8,19 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple, NoReturn
 
-from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.evaluation import bounded, start
 from fieldscribe.language.formula.parser import VARIABLES
-from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Part, Power10, Scale
+from fieldscribe.language.formula.syntax import (
+    Binary,
+    Expression,
+    FormulaError,
+    Name,
+    Negate,
+    Number,
+    Part,
+    Power10,
+    Scale,
+)
 from fieldscribe.language.formula.terms import LINEAR_ONLY, Symbol, Term, add, multiply, number, reciprocal, scaled
 from fieldscribe.language.numbers import MOST_EXPONENT
 from fieldscribe.model import Factor, Linear

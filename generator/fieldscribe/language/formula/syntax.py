@@ -9,6 +9,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from fractions import Fraction
 
+
+class FormulaError(ValueError):
+    """A formula that cannot be read or used. `column` is the offset in its text, from 0; `hint` may be empty."""
+
+    def __init__(self, message: str, column: int, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.column = column
+        self.hint = hint
+
+
 Part = Literal["value", "raw"]
 """Which number of a point is meant."""
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
-from fieldscribe.language.formula.errors import FormulaError
+from fieldscribe.language.formula.syntax import FormulaError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
 
-from fieldscribe.language.formula.errors import FormulaError
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_number, shown
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from fieldscribe.language.scalars import as_yaml
+from fieldscribe.language.load import as_yaml
 from fieldscribe.text import line
 
 _NUMBERS = re.compile(r"-?\d+(?:\.\d+)?")
