@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import fieldscribe.language.keys  # noqa: F401  # it reads the descriptions of the families, so it is loaded before them
 from fieldscribe.families import family
-from fieldscribe.language.scalars import as_yaml
+from fieldscribe.language.load import as_yaml
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
