@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.conversation.explanation import Explanation, source_text
+from fieldscribe.conversation.explanation import Explanation
+from fieldscribe.facts.texts import place_in_manual
 from fieldscribe.families import family
 from fieldscribe.language.units import shipped, shipped_unit
 from fieldscribe.pasted_numbers import number_of
@@ -67,7 +68,7 @@ def _command(device: Device, command: Command) -> tuple[str, list[Row]]:
         ("Memory", f"stands {command.wears} writes" if command.wears else ""),
         ("Busy", f"while {command.busy} is set" if command.busy else ""),
         ("Note", wording.title_text(command.note) if command.note else ""),
-        ("Source", source_text(device, command.source)),
+        ("Source", place_in_manual(command.source, device)),
     ]
 
 
@@ -77,7 +78,7 @@ def _erratum(device: Device, erratum: Erratum) -> tuple[str, list[Row]]:
         ("Printed", erratum.printed),
         ("Taken", erratum.taken),
         ("Why", erratum.why),
-        ("Source", source_text(device, erratum.source)),
+        ("Source", place_in_manual(erratum.source, device)),
     ]
 
 

@@ -7,14 +7,18 @@ from functools import cache, partial
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINT, POINTS, SOURCE, TITLE, grown, items
+from fieldscribe.facts.point_values import grown, items
+from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINT, POINTS, SOURCE, TITLE
 from fieldscribe.facts.schema import (
     ADDRESS,
     BOOLEAN,
     COUNT,
     DIRECTION,
     INTEGER,
+    INTEGER_OR_NULL,
     STRING,
+    TEXT_OR_NULL,
+    TEXTS,
     TITLES,
     by_number,
     list_of,
@@ -98,8 +102,8 @@ DOCUMENT: Table = (
     Fact("id", "What sources call it.", STRING),
     Fact("title", "Its title.", STRING, weight=DOCS),
     Fact("language", "The language it is written in.", STRING, weight=DOCS),
-    Fact("file", "The name of the file that was read.", null_or(STRING), weight=DOCS),
-    Fact("sha256", "The SHA-256 of that file.", null_or(STRING), weight=DOCS),
+    Fact("file", "The name of the file that was read.", TEXT_OR_NULL, weight=DOCS),
+    Fact("sha256", "The SHA-256 of that file.", TEXT_OR_NULL, weight=DOCS),
 )
 GROUP: Table = (NAME, TITLE, NOTE, SOURCE)
 COMMAND: Table = (
@@ -109,15 +113,9 @@ COMMAND: Table = (
     Fact("space", "The space of its address.", STRING, weight=WIRE),
     Fact("address", "The address on the wire.", ADDRESS, weight=WIRE),
     Fact("function", "The function to write with.", INTEGER, weight=WIRE),
-    Fact("value", "What to write; null where any value does.", null_or(INTEGER), weight=WIRE),
-    Fact("wears", "How many such writes the memory stands.", null_or(INTEGER), weight=BEHAVIOUR),
-    Fact(
-        "busy",
-        "The point that tells that the command is at work.",
-        null_or(STRING),
-        weight=BEHAVIOUR,
-        refers="point",
-    ),
+    Fact("value", "What to write; null where any value does.", INTEGER_OR_NULL, weight=WIRE),
+    Fact("wears", "How many such writes the memory stands.", INTEGER_OR_NULL, weight=BEHAVIOUR),
+    Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, weight=BEHAVIOUR, refers="point"),
     SOURCE,
 )
 _SENDER = Fact(
@@ -130,7 +128,7 @@ MESSAGE: Table = (
     NAME,
     TITLE,
     _SENDER,
-    Fact("answers", "The message that it answers.", null_or(STRING), weight=WIRE, refers="message"),
+    Fact("answers", "The message that it answers.", TEXT_OR_NULL, weight=WIRE, refers="message"),
     Fact("identifier", "The identifier.", ADDRESS, weight=WIRE),
     Fact(
         "adds_unit",
@@ -152,13 +150,7 @@ TELEGRAM: Table = (
     TITLE,
     _SENDER,
     Fact("words", "How many words it has.", COUNT, weight=WIRE),
-    Fact(
-        "message",
-        "The message whose frames carry the words.",
-        null_or(STRING),
-        weight=WIRE,
-        refers="message",
-    ),
+    Fact("message", "The message whose frames carry the words.", TEXT_OR_NULL, weight=WIRE, refers="message"),
     SOURCE,
 )
 _FRAME: Table = (
@@ -180,7 +172,7 @@ _FRAME: Table = (
         weight=DOCS,
     ),
     Fact("direction", "`request`, `response` or `cyclic`.", STRING, weight=DOCS),
-    Fact("answers", "The request that a response answers.", null_or(STRING), weight=DOCS, refers="frame"),
+    Fact("answers", "The request that a response answers.", TEXT_OR_NULL, weight=DOCS, refers="frame"),
     Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point", yaml=("says", "with")),
     Fact("valid", "False when the frame is misprinted.", BOOLEAN, weight=DOCS),
 )
@@ -223,9 +215,9 @@ ERRATUM: Table = (
     Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), weight=BEHAVIOUR),
 )
 _LIMITS: Table = (
-    Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", list_of(STRING), weight=grown),
+    Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, weight=grown),
     Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), weight=BEHAVIOUR),
-    Fact("broadcast", "The unit number of a broadcast; null when there is none.", null_or(INTEGER), weight=WIRE),
+    Fact("broadcast", "The unit number of a broadcast; null when there is none.", INTEGER_OR_NULL, weight=WIRE),
     Fact(
         "most",
         "The most items in one request, by function number as decimal text.",
@@ -339,7 +331,7 @@ def device_table(own_family: str) -> Table:
         Fact(
             "variants",
             "The values of each variant axis.",
-            map_of(list_of(STRING)),
+            map_of(TEXTS),
             value=lambda device, _: {axis: list(values) for axis, values in device.variants.items()},
             views=(Parts("variant", "variant", _axes, (), (View("values", grown, itemgetter("values")),), added=API),),
         ),
@@ -358,13 +350,7 @@ def device_table(own_family: str) -> Table:
             table=GROUP,
             views=(Parts("group", "group", _groups, GROUP, same_by=(View("points", API, itemgetter("points")),)),),
         ),
-        Fact(
-            "points",
-            "All points, in the author's order.",
-            list_of(ref("point")),
-            table=POINT,
-            views=(POINTS,),
-        ),
+        Fact("points", "All points, in the author's order.", list_of(ref("point")), table=POINT, views=(POINTS,)),
         Fact(
             "commands",
             "Named constant writes.",

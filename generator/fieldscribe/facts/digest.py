@@ -50,13 +50,13 @@ def _digest(device: Device, context: Context, left_out: tuple[str, ...]) -> str:
 def _points(device: Device, context: Context) -> Iterator[bytes]:
     """The facts of the points: those that points share point by point, the others fact by fact."""
     for shared, holder in _HOLDERS.items():
-        table = tuple(fact for fact in POINT if fact.shared == shared)
+        table = tuple(fact for fact in POINT if fact.holder == shared)
         keys = list(map(holder, device.points))
         points = dict(zip(keys, device.points, strict=True))
         texts = {key: _canonical(stated(table, point, context)) for key, point in points.items()}
         yield b"".join(map(texts.__getitem__, keys))
     for fact in sorted(POINT, key=attrgetter("key")):
-        if not (fact.shared or fact.derived or (fact.for_people and context.for_code)):
+        if not (fact.holder or fact.derived or (fact.for_people and context.for_code)):
             values = _values(fact, device, context)
             if any(value is not None and value != fact.usual for value in values):
                 yield _canonical({fact.key: values})

@@ -39,10 +39,17 @@ def null_or(schema: Schema) -> Schema:
     return {**schema, "type": [schema["type"], "null"], **values}
 
 
+TEXT_OR_NULL: Schema = null_or(STRING)
+INTEGER_OR_NULL: Schema = null_or(INTEGER)
+
+
 def list_of(schema: Schema, least: int = 0, most: int | None = None) -> Schema:
     """Return the schema of a list."""
     ends = {"minItems": least, "maxItems": most}
     return {"type": "array", "items": schema, **{word: end for word, end in ends.items() if end}}
+
+
+TEXTS: Schema = list_of(STRING)
 
 
 def map_of(schema: Schema) -> Schema:

@@ -8,8 +8,11 @@ from functools import cached_property
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from fieldscribe.model import Shape, Terms
+
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
+    from fieldscribe.wording.rules import Points
 
 WIRE, API, BEHAVIOUR, COMPATIBLE, DOCS = "wire", "api", "behaviour", "compatible", "docs"
 """The classes of differences: breaks on the wire, breaks code, changes behaviour, compatible, for people only."""
@@ -20,21 +23,31 @@ Schema: TypeAlias = Mapping[str, Any]
 Exported: TypeAlias = Mapping[str, Any]
 """A device, or a thing in it, in the form of the exported model."""
 
+Row: TypeAlias = tuple[str, str]
+"""A label and a text."""
+
 Weight: TypeAlias = "str | Callable[[Any, Any], str]"
 """A class of differences, or a function that tells it from the old and the new value."""
 
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """What the values of facts need beside the thing itself; `for_code` leaves out what is for people."""
+    """What the values of facts need beside the thing itself; `for_code` leaves out facts for people."""
 
     device: Device
     for_code: bool = False
+    names: Points | None = None
+    """The points as texts call them; by name if None."""
 
     @cached_property
     def by_name(self) -> Mapping[str, Point]:
         """The points by name, and by their names with the variant."""
         return {name: point for point in self.device.points for name in (point.item, point.name)}
+
+    @property
+    def points(self) -> Points:
+        """The points as texts call them."""
+        return self.by_name if self.names is None else self.names
 
     @cached_property
     def directions(self) -> Mapping[str, str]:
@@ -95,10 +108,14 @@ class Fact:
 
     The value is the attribute of the same name (or `attribute`), or what the function `value` returns of the thing and
     its context. With `table` it is a thing of that table, a list of such things or a mapping to them. `shared` names
-    the part of a point that alone decides the value: `shape`, `terms` or `limits`.
+    what alone decides the value that a function returns of a point: its `shape`, its `terms` or its `limits`.
 
-    `weight` is short for one view of the exported value. `derived` says what a fact follows from that is not compared
-    and not in the digest; one that is not `published` is only in the digest. A fact `for_people` never reaches code.
+    `weight`, `follows`, `refers` and `yaml` are short for one view of the exported value. `derived` says what a fact
+    follows from that is not compared and not in the digest; one that is not `published` is only in the digest. A fact
+    `for_people` never reaches code.
+
+    `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
+    Without `text` it is the value.
     """
 
     key: str
@@ -114,6 +131,10 @@ class Fact:
     refers: str = ""
     yaml: tuple[str, ...] = ()
     views: tuple[View | Parts, ...] = ()
+    label: str = ""
+    text: Callable[[Any, Context], str] | None = None
+    rows: Callable[[Any, Context], Iterable[Row]] | None = None
+    remark: str = ""
     derived: str = ""
     published: bool = True
     for_people: bool = False
@@ -132,6 +153,34 @@ class Fact:
             return self.value
         attribute = attrgetter(self.attribute or self.key)
         return lambda thing, _: attribute(thing)
+
+    @cached_property
+    def holder(self) -> str:
+        """What alone decides the value of a fact of a point; empty if it is a fact of the point itself."""
+        attribute = (self.attribute or self.key).partition(".")[0]
+        fields = {"terms": Terms.__annotations__, "shape": Shape.__annotations__}
+        own = "" if self.value else next((name for name, known in fields.items() if attribute in known), "")
+        return self.shared or own
+
+    def text_of(self, point: Point, context: Context) -> str:
+        """Return the fact of a point for people; empty where there is nothing to say."""
+        if self.text is not None:
+            return self.text(point, context)
+        value = self.get(point, context)
+        if value is None or value is False:
+            return ""
+        return ", ".join(value) if isinstance(value, tuple) else str(value)
+
+    def remark_of(self, point: Point, context: Context) -> str:
+        """Return the fact of a point as a remark; empty where there is nothing to say."""
+        text = self.text_of(point, context) if self.remark else ""
+        return self.remark.format(text) if text else ""
+
+    def rows_of(self, point: Point, context: Context) -> Iterable[Row]:
+        """Return the rows of label and text that explain the fact; texts may be empty."""
+        if self.rows is not None:
+            return self.rows(point, context)
+        return [(self.label, self.text_of(point, context))] if self.label else []
 
     @cached_property
     def usual(self) -> Any:
