@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.targets.docs import errata, meanings, sheet
+from fieldscribe.targets.docs import sheet, tables
 from support.places import ROOT
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 PAGE = ROOT / "descriptions/using/tables.md"
 KITCHEN = str(ROOT / "tests/devices/kitchen_uss")
-TABLES = {"points": sheet.COLUMNS, "meanings": meanings.COLUMNS, "errata": errata.COLUMNS}
+TABLES = {"points": sheet.COLUMNS, "meanings": tables.MEANINGS, "errata": tables.ERRATA}
 
 
 def docs(*words: str | Path) -> int:

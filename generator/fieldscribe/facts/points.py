@@ -215,6 +215,7 @@ POINT: Table = (
         "written",
         "Where it is written, if that is not where it is read.",
         null_or(record({"addresses": ("As the point's own.", list_of(ADDRESS)), "references": _REFERENCES})),
+        attribute="write_place",
         value=lambda point, _: None if point.write_place is None else values.place(point.write_place),
         views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
         label="Written at",
@@ -395,6 +396,7 @@ POINT: Table = (
         "default",
         "The default as raw number; for f32 and f64 the value as text; null when unknown or when other points decide.",
         {"anyOf": [INTEGER, ref("number_text"), {"type": "null"}]},
+        attribute="default_raw",
         value=values.default_raw,
         weight=BEHAVIOUR,
         yaml=("default", "default_in_units"),
@@ -405,6 +407,7 @@ POINT: Table = (
         "default_value",
         "The default in the unit, where other points decide about its raw number.",
         null_or(ref("number_text")),
+        attribute="default",
         value=values.default_value,
         published=False,
     ),
@@ -555,9 +558,10 @@ POINT: Table = (
         remark="was {}",
     ),
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, weight=API, remark="reserved"),
-    ERRATA,
     TITLE,
     replace(NOTE, label="Note", text=texts.note_text, remark="{}"),
+    ERRATA,
+    replace(SOURCE, label="Source", text=texts.source_text),
     Fact(
         "generated",
         "False for what is only documented.",
@@ -575,7 +579,6 @@ POINT: Table = (
         text=texts.reason_text,
         remark="not generated: {}",
     ),
-    replace(SOURCE, label="Source", text=texts.source_text),
 )
 
 POINTS = Parts(

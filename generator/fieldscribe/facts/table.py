@@ -107,8 +107,9 @@ class Fact:
     """One fact: its published key, what it says, its JSON Schema, its value, and what `diff` compares of it.
 
     The value is the attribute of the same name (or `attribute`), or what the function `value` returns of the thing and
-    its context. With `table` it is a thing of that table, a list of such things or a mapping to them. `shared` names
-    what alone decides the value that a function returns of a point: its `shape`, its `terms` or its `limits`.
+    its context; where the attribute is empty there is nothing to say. With `table` it is a thing of that table, a list
+    of such things or a mapping to them. `shared` names what alone decides the value that a function returns of a point:
+    its `shape`, its `terms` or its `limits`.
 
     `weight`, `follows`, `refers` and `yaml` are short for one view of the exported value. `derived` says what a fact
     follows from that is not compared and not in the digest; one that is not `published` is only in the digest. A fact

@@ -104,7 +104,7 @@ class DocumentRequest:
         """
         from fieldscribe.render import render
         from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
-        from fieldscribe.targets.docs.subjects import scope_of
+        from fieldscribe.targets.docs.scope import scope_of
 
         scope = scope_of(replace(device, asked=self.command(device.id)))
         if self.language == "xlsx":

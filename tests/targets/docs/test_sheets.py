@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.model import Fixed, Flag, Place, Source, Special, Text
-from fieldscribe.targets.docs import csv_files, meanings, sheet, xlsx_files
-from fieldscribe.targets.docs.subjects import scope_of
+from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
+from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.docs.tables import no_number
 from openpyxl import load_workbook
 from support.described import shipped
@@ -27,7 +27,7 @@ SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woo
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
 KINDS = {
     kind: {column.name: column.is_number for column in columns}
-    for kind, columns in (("", sheet.COLUMNS), ("_meanings", meanings.COLUMNS))
+    for kind, columns in (("", sheet.COLUMNS), ("_meanings", tables.MEANINGS))
 }
 
 

@@ -9,8 +9,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.targets.docs import csv_files, meanings, sheet, xlsx_files
-from fieldscribe.targets.docs.subjects import scope_of
+from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
+from fieldscribe.targets.docs.scope import scope_of
 from openpyxl import load_workbook
 from support.described import DEVICES, made, shipped
 from support.places import ROOT
@@ -46,7 +46,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def _numbers(path: Path) -> dict[str, bool]:
-    columns = meanings.COLUMNS if path.stem.endswith("_meanings") else sheet.COLUMNS
+    columns = tables.MEANINGS if path.stem.endswith("_meanings") else sheet.COLUMNS
     return {column.name: column.is_number for column in columns}
 
 

@@ -1,21 +1,20 @@
-"""What is said alike of many points is worded once; each point worded by itself reads the same."""
+"""Rows of points do not depend on what points share in memory."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.model import Place
 from fieldscribe.render import render
-from fieldscribe.targets.docs import outputs, points, subjects
+from fieldscribe.targets.docs import outputs
 from support.described import DEVICES, made, shipped
 from support.models import point, sample_device
 from support.places import ROOT
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device
 
 
 def _nearly_alike() -> Device:
@@ -34,34 +33,10 @@ ALL = [
 
 
 @pytest.mark.parametrize("device", ALL, ids=lambda device: device.id)
-def test_each_point_by_itself_reads_the_same(device: Device, monkeypatch: pytest.MonkeyPatch) -> None:
-    together = list(outputs(device, render))
-    numbers = count()
-    monkeypatch.setattr(subjects, "kin_of", lambda point, shape: next(numbers))
-    assert list(outputs(device, render)) == together
-    assert next(numbers) == len(device.points)
-
-
-@pytest.mark.parametrize("part", range(3), ids=["shape", "terms", "addresses"])
-def test_a_forgotten_part_of_the_kin_is_seen(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sound = {device.id: list(outputs(device, render)) for device in ALL}
-    whole: Any = subjects.kin_of
-
-    def forgetful(point: Point, shape: object) -> tuple[object, ...]:
-        key = whole(point, shape)
-        return (*key[:part], *key[part + 1 :])
-
-    monkeypatch.setattr(subjects, "kin_of", forgetful)
-    assert any(list(outputs(device, render)) != sound[device.id] for device in ALL)
-
-
-def test_limits_are_no_part_of_the_kin(monkeypatch: pytest.MonkeyPatch) -> None:
-    sound = {device.id: list(outputs(device, render)) for device in ALL}
-    monkeypatch.setattr(subjects, "limits_of", lambda point, kin: kin)
-    assert any(list(outputs(device, render)) != sound[device.id] for device in ALL)
-
-
-def test_the_form_of_remarks_is_needed(monkeypatch: pytest.MonkeyPatch) -> None:
-    sound = {device.id: list(outputs(device, render)) for device in ALL}
-    monkeypatch.setattr(points, "form_of", lambda own: ())
-    assert any(list(outputs(device, render)) != sound[device.id] for device in ALL)
+def test_a_point_that_shares_nothing_reads_the_same(device: Device) -> None:
+    """Texts of what points share are worked out once: with objects of their own, points have the same rows."""
+    apart = [
+        replace(point, shape=replace(point.shape), terms=replace(point.terms), allowed=replace(point.allowed))
+        for point in device.points
+    ]
+    assert list(outputs(replace(device, points=tuple(apart)), render)) == list(outputs(device, render))

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
-    from fieldscribe.targets.docs.subjects import Scope
+    from fieldscribe.targets.docs.scope import Scope
     from fieldscribe.targets.docs.tables import Table
     from fieldscribe.targets.identifiers import Names
 
@@ -21,7 +21,7 @@ NAMES_CONTAIN_POINT = True
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""
-    from fieldscribe.targets.docs.subjects import scope_of
+    from fieldscribe.targets.docs.scope import scope_of
 
     scope = scope_of(device)
     for path, text in (*markdown_files(scope, render), *csv_files(scope)):
@@ -53,9 +53,8 @@ def xlsx_files(scope: Scope) -> Iterable[tuple[str, bytes]]:
 
 def tables_of(scope: Scope) -> tuple[Table, Table, Table]:
     """The points, their meanings, and the errata."""
-    from fieldscribe.targets.docs.errata import errata_table
-    from fieldscribe.targets.docs.meanings import meanings_table
     from fieldscribe.targets.docs.sheet import points_table
+    from fieldscribe.targets.docs.tables import errata_table, meanings_table
 
     return points_table(scope), meanings_table(scope.device), errata_table(scope.device)
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe import wording
 from fieldscribe.targets.docs.bus import part_of
 from fieldscribe.targets.docs.cells import LINE_BREAK, anchor, by_rows, cell, link, number_cell
-from fieldscribe.targets.docs.commands import wanted_text
-from fieldscribe.targets.docs.subjects import numbers_head, place_text
+from fieldscribe.targets.docs.scope import numbers_head, place_text
+from fieldscribe.targets.docs.sheet import wanted_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

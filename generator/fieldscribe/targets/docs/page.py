@@ -22,19 +22,18 @@ from fieldscribe.targets.docs.cells import (
     source_cell,
     target,
 )
-from fieldscribe.targets.docs.errata import items_of
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.special_codes import codes_table
-from fieldscribe.targets.docs.subjects import place_text, reference_heads
+from fieldscribe.targets.docs.scope import place_text, reference_heads
+from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
 from fieldscribe.targets.heads import command
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Device, Erratum, Frame, Point
-    from fieldscribe.targets.docs.subjects import Scope
+    from fieldscribe.model import Device, Erratum, Frame, Point, Special
+    from fieldscribe.targets.docs.scope import Scope
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
@@ -90,7 +89,7 @@ def page_of(scope: Scope) -> PageView:
         has_broken_words=any(is_broken(point) for point in device.points),
         bus=bus_view(device),
         groups=tuple(group_views(scope)),
-        codes=codes_table(device),
+        codes=_codes(device),
         maps=tuple(map_views(device)),
         frames=_frames(scope),
         errata=_errata(device),
@@ -203,3 +202,37 @@ def _missing(device: Device) -> str:
         if not point.generated
     ]
     return by_rows(("Code", "Name", "Wire address", "Why", "Errata"), rows)
+
+
+def _codes(device: Device) -> str:
+    """The shared codes, each type, group or format once, in the order of their first points."""
+    rows = [
+        (
+            _sharers(name, points) if first else "",
+            wording.special_numbers(special, points[0].width),
+            code(special.name),
+            cell(wording.title_text(special.title)),
+            cell(wording.special_remarks(special)),
+        )
+        for name, points in _sharing(device).items()
+        for first, special in _marked([special for special in points[0].specials if not special.own])
+    ]
+    return by_rows(("Codes of", "Raw", "Name", "Title", "Remarks"), rows)
+
+
+def _sharers(name: str, points: list[Point]) -> str:
+    return f"{target('codes', name)}: {len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
+
+
+def _marked(specials: list[Special]) -> Iterator[tuple[bool, Special]]:
+    """Each code, and whether it is the first."""
+    return ((place == 0, special) for place, special in enumerate(specials))
+
+
+def _sharing(device: Device) -> dict[str, list[Point]]:
+    """The points that share codes, by the type, group or format that declares the codes."""
+    points_of_codes: dict[str, list[Point]] = {}
+    for point in device.points:
+        if point.shape.specials_of:
+            points_of_codes.setdefault(point.specials_of, []).append(point)
+    return points_of_codes

@@ -1,4 +1,4 @@
-"""The tables of points, group by group."""
+"""The tables of points on the page, group by group."""
 
 from __future__ import annotations
 
@@ -6,34 +6,57 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.facts.table import Context
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
     anchor,
     by_rows,
     cell,
     code,
+    link,
     narrow,
+    narrow_link,
     narrow_target,
     paragraph,
     source_cell,
     source_text,
+    target,
 )
-from fieldscribe.targets.docs.numbers import Lists
-from fieldscribe.targets.docs.remarks import OwnRemarks, form_of, more_below, own_remarks, remarks_text
-from fieldscribe.targets.docs.subjects import numbers_head, numbers_text, place_text, reference_heads
-from fieldscribe.targets.docs.words import Words
+from fieldscribe.targets.docs.remarks import Remarks
+from fieldscribe.targets.docs.scope import numbers_head, numbers_text, place_text, reference_heads
+from fieldscribe.targets.docs.words import word_views
+from fieldscribe.wording.exact import fixed_rule
+from fieldscribe.wording.rules import RenamedPoints
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
-    from fieldscribe.model import Group, Point
-    from fieldscribe.targets.docs.numbers import ListView
-    from fieldscribe.targets.docs.subjects import Scope, Subject
+    from fieldscribe.model import Enum, Group, Point
+    from fieldscribe.targets.docs.scope import Scope
     from fieldscribe.targets.docs.words import WordView
 
-_FACTS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
-"""Columns that every device has: the first point that says something there changes no line of others."""
+_ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
+"""Columns that every device has: the first point that fills one changes no line of others."""
+_SHORT_LIST = 4
+"""A list of so many names or fewer stands in the row of every point that uses it; a longer one stands once a group."""
+_LONGEST_CELL = 24
+"""A list of more names would make a row longer than a page: it has a table below that of the points."""
+_LONGEST_REMARK = 120
+"""A note and errata that are longer together stand below the table."""
+_KEEPS = {
+    "no": "lost when switched off",
+    "yes": "kept, each write wears the memory",
+    "choice": "kept when written to the EEPROM",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ListView:
+    """A long list of names, and the points that use it."""
+
+    anchor: str
+    points: str
+    rows: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,103 +74,199 @@ class GroupView:
     lists: tuple[ListView, ...]
 
 
-class _Kin(NamedTuple):
-    """The cells that points have alike."""
-
-    space: str
-    meaning: tuple[str, str]
-    unit: str
-    scale: str
-
-
 def group_views(scope: Scope) -> Iterator[GroupView]:
-    """All groups that have points or a note, in the author's order."""
-    members: dict[str, list[Subject]] = {}
-    for subject in scope.subjects:
-        members.setdefault(subject.point.terms.group, []).append(subject)
+    """Yield all groups that have points or a note, in the author's order."""
+    members: dict[str, list[Point]] = {}
+    for point in scope.device.points:
+        members.setdefault(point.terms.group, []).append(point)
     rows = _Rows(scope)
     for group in scope.device.groups:
         if group.name in members or group.note:
             yield _group_view(group, members.get(group.name, []), rows)
 
 
-def _group_view(group: Group, subjects: list[Subject], rows: _Rows) -> GroupView:
-    spaces = {subject.point.terms.space for subject in subjects}
+def _group_view(group: Group, points: list[Point], rows: _Rows) -> GroupView:
+    spaces = {point.terms.space for point in points}
     source = source_text(group.source, rows.scope.several)
-    facts = [f"{len(subjects)} point{'' if len(subjects) == 1 else 's'}"]
+    facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
     facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
     facts += [f"source: {source}"] if source else []
-    words, lists = Words(), Lists()
-    for subject in subjects:
-        words.take(subject.point)
+    lists = _Lists()
     return GroupView(
         anchor=anchor("group", group.name),
         heading=cell(wording.title_text(group.title)),
         name=code(group.name),
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
-        points=rows.table(subjects, lists, with_space=len(spaces) > 1),
-        more=more_below(subject.point for subject in subjects),
-        words=tuple(words.views()),
+        points=rows.table(points, lists, with_space=len(spaces) > 1),
+        more="".join(map(_more, filter(_has_more, points))),
+        words=tuple(word_views(points)),
         lists=tuple(lists.views()),
     )
 
 
+class _Cells(NamedTuple):
+    """The cells that points with the same shape and terms share; `names` are short lists of named numbers."""
+
+    space: str
+    type: str
+    access: str
+    unit: str
+    scale: str
+    names: str
+
+
 class _Rows:
-    """The rows of points: what points say alike is laid out once, what each says of itself fills it."""
+    """The rows of points; what points share is worked out once."""
 
     def __init__(self, scope: Scope) -> None:
         self.scope = scope
-        self._kins: dict[int, _Kin] = {}
-        self._remarks: dict[tuple[int, tuple[bool, ...]], TextTemplate] = {}
+        further = {
+            "words": lambda point: f"bits: {narrow_link('bits', point.item)}" if point.shape.flags else "",
+            "special_of": lambda point: (
+                point.specials_of and f"special codes of {narrow_link('codes', point.specials_of)}"
+            ),
+            "persistence": self._persistence,
+            "when": self._when,
+            "changes_with": _changes_with,
+            "was": lambda point: "; ".join([f"was {code(old)}" for old in point.was]),
+            "note": lambda point: "" if _has_more(point) else _note(point),
+            "errata": lambda point: "" if _has_more(point) else _errata(point, narrow_link),
+            "source": lambda point: f"[more below](#{anchor('more', point.item)})" if _has_more(point) else "",
+        }
+        self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further, ())
+        self._cells: dict[tuple[int, int], _Cells] = {}
+        self._limits: dict[tuple[int, int, int], tuple[str, str]] = {}
 
-    def table(self, subjects: Sequence[Subject], lists: Lists, *, with_space: bool) -> str:
-        """The table of a group."""
-        references = reference_heads(point for point, *_ in subjects)
-        heads = ("Code", "Name", "Space", "Wire address", "Index", numbers_head(references), *_FACTS)
-        rows = [self._row(subject, lists, references, with_space) for subject in subjects]
-        return by_rows(heads, rows, always=_FACTS)
+    def table(self, points: Sequence[Point], lists: _Lists, *, with_space: bool) -> str:
+        """Return the table of a group."""
+        references = reference_heads(points)
+        heads = ("Code", "Name", "Space", "Wire address", "Index", numbers_head(references), *_ALWAYS)
+        rows = [self._row(point, lists, references, with_space) for point in points]
+        return by_rows(heads, rows, always=_ALWAYS)
 
-    def _row(self, subject: Subject, lists: Lists, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
-        point, number, limits = subject
-        kin = self._kins.get(number)
-        if kin is None:
-            kin = self._kins[number] = self._kin(point)
+    def _row(self, point: Point, lists: _Lists, references: tuple[str, ...], with_space: bool) -> tuple[str, ...]:
+        key = id(point.shape), id(point.terms)
+        cells = self._cells.get(key)
+        if cells is None:
+            cells = self._cells[key] = self._shared_cells(point)
+        limits = self._limits.get((*key, id(point.allowed)))
+        if limits is None:
+            limits = self._limits[*key, id(point.allowed)] = _limits(point, self.scope.by_code)
+        remarks = lists.cell_of(point), cells.names, self._remarks.of(point)
         name = narrow_target("point", point.item if point.variant else point.name)
         return (
             cell(point.code) if point.code else "",
             f"{name}{LINE_BREAK}{cell(wording.title_text(point.title))}",
-            kin.space if with_space else "",
+            cells.space if with_space else "",
             place_text(point),
             "" if point.index is None else str(point.index),
             numbers_text(point, references),
-            *kin.meaning,
-            _with_default(point, limits.page[0]),
-            kin.unit,
-            limits.page[1],
-            kin.scale,
-            self._remarks_cell(point, number, lists),
+            cells.type,
+            cells.access,
+            _with_default(point, limits[0]),
+            cells.unit,
+            limits[1],
+            cells.scale,
+            LINE_BREAK.join(filter(None, remarks)),
             source_cell(point.source, self.scope.several),
         )
 
-    def _kin(self, point: Point) -> _Kin:
+    def _shared_cells(self, point: Point) -> _Cells:
         scale = narrow(cell(wording.formula_text(point, self.scope.by_code)))
-        return _Kin(cell(point.space), (wording.type_text(point), point.access), cell(point.unit.symbol), scale)
+        enum = point.shape.enum
+        names = [_listed(enum)] if enum is not None and len(enum.entries) <= _SHORT_LIST else []
+        own = [special for special in point.shape.specials if special.own]
+        names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in own]
+        unit, type_text = cell(point.unit.symbol), wording.type_text(point)
+        return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names))
 
-    def _remarks_cell(self, point: Point, kin: int, lists: Lists) -> str:
-        own = own_remarks(point, lists.said(point))
-        form = form_of(own)
-        pattern = self._remarks.get((kin, form))
-        if pattern is None:
-            text = remarks_text(self.scope, point, OwnRemarks(*placeholders(own)))
-            pattern = self._remarks[kin, form] = TextTemplate(text)
-        return pattern.fill(own)
+    def _when(self, point: Point) -> str:
+        text = wording.condition_text(point.when, self.scope.by_code)
+        return narrow(cell(f"exists when {text}")) if text else ""
+
+    def _persistence(self, point: Point) -> str:
+        keeps = point.terms.keeps
+        if keeps is None or keeps in _KEEPS:
+            return _KEEPS.get(keeps or "", "")
+        known = any(keeps == command.name for command in self.scope.device.commands)
+        return f"kept after {narrow_link('command', keeps) if known else code(keeps)}"
+
+
+def _limits(point: Point, by_code: RenamedPoints) -> tuple[str, str]:
+    """The range without its unit, and the raw range where it says more; both call other points by their codes."""
+    raw = wording.raw_range_text(point, RenamedPoints({}, by_code.names) if point.allowed.moves else None)
+    span = "" if point.flags else wording.range_text(point, by_code, unit=False)
+    says_more = point.scale is not None or point.allowed.moves or fixed_rule(point) is None
+    return narrow(cell(span)), narrow(cell(raw)) if says_more else ""
 
 
 def _with_default(point: Point, allowed: str) -> str:
-    """The range, and below it the factory setting: few points have one, so a column of its own would be empty."""
+    """The range, and below it the factory setting: few points have one, so a column would be empty."""
     if point.default is None and point.default_raw is None:
         return allowed
     text = wording.default_parts(point) or wording.default_text(point, unit=False)
     default = f"default {narrow(cell(text))}"
     return f"{allowed}{LINE_BREAK}{default}" if allowed else default
+
+
+def _changes_with(point: Point) -> str:
+    names = ", ".join(narrow_link("point", name) for name in point.changes_with)
+    return names and f"read it again after writing {names}"
+
+
+def _has_more(point: Point) -> bool:
+    """Return True if note and errata would make the row a tall one."""
+    if not (point.note or point.errata):
+        return False
+    return len(wording.title_text(point.note) if point.note else "") + sum(map(len, point.errata)) > _LONGEST_REMARK
+
+
+def _more(point: Point) -> str:
+    texts = "; ".join(filter(None, (_note(point), _errata(point, link))))
+    return f"- {target('more', point.item)}: {texts}\n"
+
+
+def _note(point: Point) -> str:
+    return cell(wording.title_text(point.note).rstrip(".")) if point.note else ""
+
+
+def _errata(point: Point, linked: Callable[[str, str], str]) -> str:
+    links = ", ".join([linked("erratum", erratum) for erratum in point.errata])
+    return f"{'erratum' if len(point.errata) == 1 else 'errata'} {links}" if links else ""
+
+
+class _Lists:
+    """The long lists of names in a group: each is shown once, at the first point that uses it."""
+
+    def __init__(self) -> None:
+        self._first: dict[int, str] = {}
+        self._users: dict[str, tuple[Enum, list[str]]] = {}
+
+    def cell_of(self, point: Point) -> str:
+        """Return the list of a point or a link to it; empty without one, and for a short one."""
+        shape = point.shape
+        enum = shape.digits.enum if shape.digits else shape.enum
+        if enum is None or (shape.digits is None and len(enum.entries) <= _SHORT_LIST):
+            return ""
+        before = "each digit: " if shape.digits else ""
+        first = self._first.setdefault(id(enum.entries), point.item)
+        if len(enum.entries) > _LONGEST_CELL:
+            self._users.setdefault(first, (enum, []))[1].append(point.item)
+            return f"{before}[numbers below](#{anchor('numbers', first)})"
+        return before + (_listed(enum) if first == point.item else f"numbers as of {narrow_link('point', first)}")
+
+    def views(self) -> Iterator[ListView]:
+        """Yield the lists that stand below the table."""
+        for first, (enum, users) in self._users.items():
+            points = ", ".join(link("point", item) for item in users)
+            rows = [
+                (str(entry.raw), code(entry.name), cell(wording.title_text(entry.title)), cell(entry.quantity or ""))
+                for entry in enum.entries
+            ]
+            yield ListView(anchor("numbers", first), points, by_rows(("Raw", "Name", "Title", "Quantity"), rows))
+
+
+def _listed(enum: Enum) -> str:
+    """The names of an enum, each on its line."""
+    return LINE_BREAK.join(narrow(cell(wording.entry_text(entry))) for entry in enum.entries)

@@ -6,19 +6,21 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
+from fieldscribe.arithmetic.exact import SAME
+from fieldscribe.facts.table import Context
+from fieldscribe.families import family
 from fieldscribe.targets.docs.bus import part_of
-from fieldscribe.targets.docs.commands import command_cells
-from fieldscribe.targets.docs.meanings import codes_of, enum_of
-from fieldscribe.targets.docs.quantities import default_of, ends_of, range_of, scale_cells
-from fieldscribe.targets.docs.tables import Column, Table, decimal, original, source_cells
-from fieldscribe.wording.exact import hex_text, number_text
+from fieldscribe.targets.docs.remarks import Remarks
+from fieldscribe.targets.docs.tables import Column, Table, codes_of, decimal, enum_of, original, source_cells
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Place, Point
+    from fieldscribe.arithmetic.exact import Line
+    from fieldscribe.model import Command, Device, Place, Point
     from fieldscribe.targets.docs.bus import OfFamily
-    from fieldscribe.targets.docs.subjects import Scope
+    from fieldscribe.targets.docs.scope import Scope
     from fieldscribe.targets.docs.tables import Encode
 
 COLUMNS = (
@@ -79,10 +81,14 @@ COLUMNS = (
     Column("reason", "why not"),
 )
 _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
+_IN_COLUMNS = frozenset(
+    {"variant", "record", "set", "telegram", "special_of", "conditions", "changes", "note", "reason", "reserved"}
+)
+"""Facts that have columns, and so are no remarks; that a point is reserved is its reason."""
 
 
-class _Kin(NamedTuple):
-    """The cells that points have alike; `remarks` is plain text, to which points may add."""
+class _Cells(NamedTuple):
+    """The cells that points with the same shape and terms share."""
 
     group: str
     space: tuple[str, str]
@@ -90,83 +96,103 @@ class _Kin(NamedTuple):
     bits: tuple[str, ...]
     meaning: tuple[str, ...]
     behaviour: tuple[str, str, str]
-    remarks: tuple[str, ...]
-    remarks_cell: str
     generated: tuple[str, str]
 
 
 def points_table(scope: Scope) -> Table:
-    """The points of a device."""
+    """Return the table of the points and commands of a device."""
     return Table("points", COLUMNS, partial(_rows, scope))
 
 
 def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
-    kins: dict[int, _Kin] = {}
-    limits_by_id: dict[int, tuple[str, ...]] = {}
-    part = part_of(scope.device)
-    for point, number, limits in scope.subjects:
-        kin = kins.get(number)
-        if kin is None:
-            kin = kins[number] = _kin(scope, point, encode)
-        ends = limits_by_id.get(id(limits))
-        if ends is None:
-            ends = limits_by_id[id(limits)] = (*ends_of(point), encode(range_of(point, scope.by_name)))
+    known: dict[object, _Cells] = {}
+    known_limits: dict[object, tuple[str, ...]] = {}
+    part, remarks = part_of(scope.device), _remarks(scope)
+    for point in scope.device.points:
+        key = id(point.shape), id(point.terms), len(point.addresses)
+        cells = known.get(key)
+        if cells is None:
+            cells = known[key] = _shared_cells(scope, point, encode)
+        limits = known_limits.get((*key, id(point.allowed)))
+        if limits is None:
+            limits = (*ends_of(point), encode(range_of(point, scope.by_name)))
+            known_limits[*key, id(point.allowed)] = limits
         enum = enum_of(point)
         yield (
             encode(point.code or ""),
             encode(point.item),
             "point",
             encode(str(point.variant)) if point.variant else "",
-            kin.group,
+            cells.group,
             encode(point.title["en"]),
             encode(original(point.title)),
-            *kin.space,
+            *cells.space,
             *_address(point.place),
-            kin.words,
+            cells.words,
             encode(wording.order_text(point)),
-            *kin.bits,
+            *cells.bits,
             "" if point.index is None else str(point.index),
             *_references(point, part, encode),
-            *kin.meaning,
-            *ends,
+            *cells.meaning,
+            *limits,
             default_of(point),
             "" if point.default_raw is None else str(point.default_raw),
             "" if enum is None else encode(enum.name),
             encode(point.item) if point.flags else "",
             encode(codes_of(point)),
-            *kin.behaviour,
+            *cells.behaviour,
             encode(point.record or ""),
             "" if point.set is None else str(point.set),
-            _remarks(point, kin, encode),
+            encode(remarks.of(point)),
             encode(wording.title_text(point.note)) if point.note else "",
             encode("; ".join(point.errata)),
             *source_cells(point.source, encode),
-            *kin.generated,
+            *cells.generated,
         )
     for command in scope.device.commands:
-        cells = command_cells(command, scope.device, encode)
-        yield tuple(cells.get(column.name, "") for column in COLUMNS)
+        texts = command_cells(command, scope.device, encode)
+        yield tuple(texts.get(column.name, "") for column in COLUMNS)
 
 
-def _kin(scope: Scope, point: Point, encode: Encode) -> _Kin:
-    remarks = tuple(text for text in _common_remarks(scope, point) if text)
-    return _Kin(
+def _shared_cells(scope: Scope, point: Point, encode: Encode) -> _Cells:
+    typed = point.untyped is None
+    return _Cells(
         group=encode(point.group),
         space=(encode(point.space), encode(point.telegram or "")),
         words=str(point.words),
         bits=_bits(point),
         meaning=(
-            point.type if point.untyped is None else "",
-            point.form if point.untyped is None else "",
+            point.type if typed else "",
+            point.form if typed else "",
             point.access,
             encode(point.unit.symbol),
             *scale_cells(point, scope.by_name, encode),
         ),
         behaviour=(_keeps(point, encode), encode("; ".join(point.conditions)), encode(point.changes or "")),
-        remarks=remarks,
-        remarks_cell=encode("; ".join(remarks)),
         generated=("yes" if point.generated else "no", encode(point.reason or "")),
     )
+
+
+def _remarks(scope: Scope) -> Remarks:
+    further = {
+        "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
+        "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",
+        "default": _default_numbers,
+        "default_value": _default_fraction,
+    }
+    return Remarks(Context(scope.device, names=scope.by_name), str, further, _IN_COLUMNS)
+
+
+def _default_numbers(point: Point) -> str:
+    """The factory setting of a word that is made of numbers."""
+    parts = wording.default_parts(point)
+    return parts and f"default: {parts}"
+
+
+def _default_fraction(point: Point) -> str:
+    """A factory setting that is no decimal, and so in no column."""
+    is_fraction = point.default is not None and point.default_raw is None and not decimal(number_text(point.default))
+    return f"default {wording.default_text(point)}" if is_fraction else ""
 
 
 def _address(place: Place) -> tuple[str, str]:
@@ -203,34 +229,107 @@ def _keeps(point: Point, encode: Encode) -> str:
     return _KEEPS[point.keeps] if point.keeps in _KEEPS else encode(f"after {point.keeps}")
 
 
-def _common_remarks(scope: Scope, point: Point) -> Iterator[str]:
-    """What else is to be said of all points of a kin; much of it may be empty."""
-    terms = point.terms
-    yield f"type: {terms.untyped}" if terms.untyped else ""
-    yield wording.type_text(point) if point.form in ("text", "digits") else ""
-    yield f"steps: {wording.steps_text(point)}" if point.steps else ""
-    yield wording.shared_text(point)
-    yield wording.fixed_text(point)
-    yield wording.display_text(point)
-    yield from wording.width_texts(point)
-    yield f"exists when {wording.condition_text(terms.when, scope.by_name)}" if terms.when else ""
-    yield f"since {terms.since}" if terms.since else ""
-    yield f"until {terms.until}" if terms.until else ""
-    yield f"read it again after writing {', '.join(terms.changes_with)}" if terms.changes_with else ""
+def scale_cells(point: Point, points: Mapping[str, Point], encode: Encode) -> tuple[str, str, str]:
+    """Factor and offset, or the rule as text where they cannot say it."""
+    line = line_of(point)
+    if line is not None:
+        factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
+        if "/" not in factor + offset:
+            return factor, offset, ""
+    return "", "", encode(wording.scale_text(point, points) if point.scale is not None else "")
 
 
-def _remarks(point: Point, kin: _Kin, encode: Encode) -> str:
-    own = [*_own_remarks(point)]
-    return encode("; ".join([*kin.remarks, *own])) if own else kin.remarks_cell
+def line_of(point: Point) -> Line | None:
+    """The rule from numbers of the type to values, if they are quantities and it needs no other point."""
+    if point.form not in ("scaled", "integer", "float"):
+        return None
+    if point.scale is not None:
+        return fixed_rule(point)
+    return SAME if point.generated or point.reserved else None
 
 
-def _own_remarks(point: Point) -> Iterator[str]:
-    """What else is to be said of one point alone."""
-    if point.write_place is not None and point.addresses:
-        yield f"written at {wording.write_place_text(point)}"
-    if point.default is not None and point.default_raw is None and not decimal(number_text(point.default)):
-        yield f"default {wording.default_text(point)}"
-    if parts := wording.default_parts(point):
-        yield f"default: {parts}"
-    if point.was:
-        yield f"was {', '.join(point.was)}"
+def ends_of(point: Point) -> tuple[str, str, str, str]:
+    """The least and the greatest raw number and value."""
+    if point.info.floating:
+        units = point.allowed.units
+        return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
+    outer, line = _without_codes(point, wording.outer_raw(point)), line_of(point)
+    if outer is None or point.text is not None:
+        return "", "", "", ""
+    if line is None:
+        return str(outer[0]), str(outer[1]), "", ""
+    low, high = (exact(raw * line.factor + line.add, line.divisor) for raw in (outer[:: -1 if line.factor < 0 else 1]))
+    return str(outer[0]), str(outer[1]), decimal(low), decimal(high)
+
+
+def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int] | None:
+    """The ends without the special codes there; None if nothing is left."""
+    if ends is None or not point.specials:
+        return ends
+    low, high = ends
+    while low <= high and (code := point.special(low)) is not None:
+        low = code.high + 1
+    while low <= high and (code := point.special(high)) is not None:
+        high = code.low - 1
+    return (low, high) if low <= high else None
+
+
+def range_of(point: Point, points: Mapping[str, Point]) -> str:
+    """What least and greatest do not say: other points, gaps, and numbers that are no decimals."""
+    allowed, line = point.allowed, line_of(point)
+    parts = allowed.units if point.info.floating else allowed.intervals
+    unsaid = line is not None and bool(parts) and "" in ends_of(point)[2:]
+    if len(parts) <= 1 and not allowed.moves and not unsaid:
+        return ""
+    text = wording.range_text(point, points) if line is not None else ""
+    raw = "" if text else wording.raw_range_text(point)
+    return f"only {text}" if text else f"only raw {raw}" if raw else ""
+
+
+def default_of(point: Point) -> str:
+    """The factory setting as a value; a special code is none."""
+    raw = point.default_raw
+    if point.default is None or (raw is not None and point.special(raw) is not None):
+        return ""
+    return decimal(number_text(point.default))
+
+
+def command_cells(command: Command, device: Device, encode: Encode) -> Mapping[str, str]:
+    """The cells of a command's row, by column."""
+    numbers = part_of(device).numbers(command.space, command.address)
+    value = "" if command.value is None else str(command.value)
+    is_bit = family(device.family).spaces[command.space] == "bit"
+    return {
+        "name": encode(command.name),
+        "kind": "command",
+        "title": encode(command.title["en"]),
+        "title_original": encode(original(command.title)),
+        "space": encode(command.space),
+        "address": str(command.address),
+        "address_hex": hex_text(command.address),
+        "words": "1",
+        **{name: str(number) for name, number in numbers.items()},
+        "computed": " ".join(numbers),
+        "type": "bit" if is_bit else "u16",
+        "encoding": "bit" if is_bit else "integer",
+        "access": "w",
+        "raw_min": value,
+        "raw_max": value,
+        "remarks": encode("; ".join(_command_remarks(command))),
+        "note": encode(wording.title_text(command.note)) if command.note else "",
+        **dict(zip(("document", "section", "page", "line"), source_cells(command.source, encode), strict=True)),
+        "generated": "yes",
+    }
+
+
+def _command_remarks(command: Command) -> Iterator[str]:
+    yield f"{wanted_text(command)} with function {hex_text(command.function, 2)}"
+    if command.wears is not None:
+        yield f"the memory stands {command.wears} writes"
+    if command.busy:
+        yield f"busy while {command.busy}"
+
+
+def wanted_text(command: Command) -> str:
+    """Which number is written: `write 1150`."""
+    return f"write {'any number' if command.value is None else command.value}"

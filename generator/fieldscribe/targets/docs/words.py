@@ -11,7 +11,7 @@ from fieldscribe import wording
 from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, by_rows, cell, code, target
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Flag, Point
 
@@ -33,23 +33,16 @@ class WordView:
     flags: str
 
 
-class Words:
-    """The words of a group: bits that several points have alike are drawn once."""
-
-    def __init__(self) -> None:
-        self._points: dict[object, list[Point]] = {}
-
-    def take(self, point: Point) -> None:
-        """One more point of the group."""
+def word_views(points: Iterable[Point]) -> Iterator[WordView]:
+    """Yield the words of a group in the order of their first points; bits that several points share are drawn once."""
+    words: dict[object, list[Point]] = {}
+    for point in points:
         if point.shape.flags:
-            alike = id(point.shape.flags), point.terms.bits, point.shape.fixed
-            self._points.setdefault(alike, []).append(point)
-
-    def views(self) -> Iterator[WordView]:
-        """The words, in the order of their first points."""
-        for points in self._points.values():
-            named = ", ".join(target("bits", point.item) for point in points)
-            yield WordView(named, _drawn(points[0]), _flag_table(points[0]))
+            key = id(point.shape.flags), point.terms.bits, point.shape.fixed
+            words.setdefault(key, []).append(point)
+    for users in words.values():
+        named = ", ".join(target("bits", point.item) for point in users)
+        yield WordView(named, _drawn(users[0]), _flag_table(users[0]))
 
 
 class _Field(NamedTuple):
