@@ -148,10 +148,12 @@ CLAIMS = {
             0, "", made="heat_pump/device.yaml"
         ),
         "table manual.txt --list": Claim(0, r"701\.\.704 +points +.*2 address, 3 name"),
-        "table manual.txt --lines 650..1050 --space holding > registers.yaml": Claim(
+        "table manual.txt --lines 650..1050 --space holding --address-part 2 > registers.yaml": Claim(
             0, r"space: holding\n(.|\n)*- code: A002\n"
         ),
-        "table list.csv --columns code=1,address=3,range=6": Claim(0, r"- code: A001\n(.|\n)*at: 1\n(.|\n)*0\.\.400"),
+        "table list.csv --column code=1 --column address=3 --column range=6": Claim(
+            0, r"- code: A001\n(.|\n)*at: 1\n(.|\n)*0\.\.400"
+        ),
     },
     "fmt": {
         "": Claim(0, "0 formatted, "),

@@ -51,7 +51,7 @@ ROOMS = (
     ("what a family exports alone", "families.*.dbc families.*.dbc_signals"),
     ("output", "output"),
     ("what a project takes", "vendoring"),
-    ("a person at work on a description", "working"),
+    ("a person who writes a description", "authoring"),
     ("the command line", "cli __main__"),
 )
 """The rooms, lowest first, with the modules or packages in each; the longest name that fits a module counts."""

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
 EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
-  fieldscribe import table registers.csv --base modicon
   fieldscribe import table manual.txt --list
-  fieldscribe import table manual.txt --lines 650..1050 --column address="Start (dec)" --column unit=6 --base 1
+  fieldscribe import table manual.txt --lines 650..1050 --space holding --address-part 2 > registers.yaml
+  fieldscribe import table list.csv --column code=1 --column address=3 --column range=6
 
 The usual headings are known in English and German; --column names other columns, as one of
 {", ".join(ROLES)}.

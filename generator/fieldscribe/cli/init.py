@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.working.starting import QUESTIONS
+from fieldscribe.authoring.starting import QUESTIONS
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Mapping
 
-    from fieldscribe.working.starting import Question
+    from fieldscribe.authoring.starting import Question
 
 EXAMPLE = """examples:
   fieldscribe init
@@ -39,7 +39,7 @@ def run(arguments: Namespace) -> int:
     """Make the description; the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import LOCAL, StopError
-    from fieldscribe.working.starting import NotStartedError, start
+    from fieldscribe.authoring.starting import NotStartedError, start
 
     within: Path = arguments.folder or (LOCAL if LOCAL.is_dir() else Path())
     if not within.is_dir():
@@ -60,7 +60,7 @@ def run(arguments: Namespace) -> int:
 def _answers(said: Mapping[str, str | None]) -> dict[str, str]:
     """What options say, and answers for the rest. Raises StopError."""
     from fieldscribe.cli.common import StopError
-    from fieldscribe.working.starting import wrong_with
+    from fieldscribe.authoring.starting import wrong_with
 
     answers: dict[str, str] = {}
     may_ask = sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty()
@@ -91,7 +91,7 @@ def _asked(question: Question, usual: str) -> str:
     """What a person on the terminal says. Raises StopError when there will be no answer."""
     from fieldscribe.cli.common import StopError
     from fieldscribe.report import visible
-    from fieldscribe.working.starting import startable, wrong_with
+    from fieldscribe.authoring.starting import startable, wrong_with
 
     say: Callable[[str], int] = sys.stderr.write
     if question.name == "family":

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from threading import Event
     from types import FrameType
 
-    from fieldscribe.working.watching import Outcome
+    from fieldscribe.authoring.watching import Outcome
 
 EXAMPLE = """examples:
   fieldscribe watch heat_pump --out bindings
@@ -38,7 +38,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINE, show_traceback
     from fieldscribe.cli.common import description_paths
     from fieldscribe.cli.generate import print_waiting, targets_of
-    from fieldscribe.working.watching import Watch
+    from fieldscribe.authoring.watching import Watch
 
     gc.enable()  # this run is not short
     watch = Watch(

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.working.watching import Watch
+from fieldscribe.authoring.watching import Watch
 from support.described import described
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.working.watching import Outcome
+    from fieldscribe.authoring.watching import Outcome
 
 POINTS = "- {name: speed, at: 1, range: 0..100}\n"
 

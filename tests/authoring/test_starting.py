@@ -15,7 +15,7 @@ from fieldscribe.cli import main
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.canonical import canonical
 from fieldscribe.language.json_schema import schema_text
-from fieldscribe.working.starting import startable
+from fieldscribe.authoring.starting import startable
 from support.described import loaded
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from fieldscribe.language.json_schema import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import comments, pieces, unbroken
 from fieldscribe.language.source import SourceFile
-from fieldscribe.working import formatting
+from fieldscribe.authoring import formatting
 from support.described import DEVICES, described, loaded
 from support.places import ROOT, TESTS
 
