@@ -8,6 +8,7 @@ import random
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.authoring import formatting
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.canonical import canonical
@@ -15,7 +16,6 @@ from fieldscribe.language.json_schema import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import comments, pieces, unbroken
 from fieldscribe.language.source import SourceFile
-from fieldscribe.authoring import formatting
 from support.described import DEVICES, described, loaded
 from support.places import ROOT, TESTS
 

@@ -11,11 +11,11 @@ import sys
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.authoring.starting import startable
 from fieldscribe.cli import main
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.canonical import canonical
 from fieldscribe.language.json_schema import schema_text
-from fieldscribe.authoring.starting import startable
 from support.described import loaded
 
 if TYPE_CHECKING:

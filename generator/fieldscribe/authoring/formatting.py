@@ -8,13 +8,13 @@ import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.authoring.starting import is_schema
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.canonical import canonical
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import OddError, comments, unbroken
 from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
 from fieldscribe.safe_files import read_regular, shown_path, state_of
-from fieldscribe.authoring.starting import is_schema
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -53,10 +53,10 @@ def run(arguments: Namespace) -> int:
 
 
 def _format_stdin(report: Report) -> int:
+    from fieldscribe.authoring.formatting import formatted
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import report_findings
     from fieldscribe.language.source import MOST_BYTES
-    from fieldscribe.authoring.formatting import formatted
 
     new = formatted("<stdin>", sys.stdin.buffer.read(MOST_BYTES + 1), report)
     if new is None:
@@ -68,11 +68,11 @@ def _format_stdin(report: Report) -> int:
 
 
 def _format_files(arguments: Namespace, report: Report) -> int:
+    from fieldscribe.authoring.formatting import Formatting, MovedError, files_of
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
     from fieldscribe.pipeline import find_devices
     from fieldscribe.report import as_data, visible
-    from fieldscribe.authoring.formatting import Formatting, MovedError, files_of
 
     run = Formatting(report, writes=not arguments.check)
     for path in find_devices(description_paths(arguments.paths), report):

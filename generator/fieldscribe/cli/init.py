@@ -37,9 +37,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Make the description; the exit code."""
+    from fieldscribe.authoring.starting import NotStartedError, start
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import LOCAL, StopError
-    from fieldscribe.authoring.starting import NotStartedError, start
 
     within: Path = arguments.folder or (LOCAL if LOCAL.is_dir() else Path())
     if not within.is_dir():
@@ -59,8 +59,8 @@ def run(arguments: Namespace) -> int:
 
 def _answers(said: Mapping[str, str | None]) -> dict[str, str]:
     """What options say, and answers for the rest. Raises StopError."""
-    from fieldscribe.cli.common import StopError
     from fieldscribe.authoring.starting import wrong_with
+    from fieldscribe.cli.common import StopError
 
     answers: dict[str, str] = {}
     may_ask = sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty()
@@ -89,9 +89,9 @@ def _option(question: Question) -> str:
 
 def _asked(question: Question, usual: str) -> str:
     """What a person on the terminal says. Raises StopError when there will be no answer."""
+    from fieldscribe.authoring.starting import startable, wrong_with
     from fieldscribe.cli.common import StopError
     from fieldscribe.report import visible
-    from fieldscribe.authoring.starting import startable, wrong_with
 
     say: Callable[[str], int] = sys.stderr.write
     if question.name == "family":

@@ -35,10 +35,10 @@ def run(arguments: Namespace) -> int:
     """Watch until somebody stops it; the exit code."""
     import gc
 
+    from fieldscribe.authoring.watching import Watch
     from fieldscribe.cli import FINE, show_traceback
     from fieldscribe.cli.common import description_paths
     from fieldscribe.cli.generate import print_waiting, targets_of
-    from fieldscribe.authoring.watching import Watch
 
     gc.enable()  # this run is not short
     watch = Watch(
