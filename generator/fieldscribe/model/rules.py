@@ -33,11 +33,6 @@ class Linear:
     offset: Fraction
     factors: tuple[Factor, ...]
 
-    def __hash__(self) -> int:
-        """Hash without the fractions, whose hashes take long."""
-        points = tuple([factor.point for factor in self.factors])
-        return hash((self.ratio.numerator, self.ratio.denominator, self.offset.numerator, points))
-
     def at(self, argument: Fraction) -> Fraction:
         """Return the result of a rule without factors."""
         return argument * self.ratio + self.offset
