@@ -42,9 +42,8 @@ def _lines(analysis: Analysis, node: Map) -> None:
     for holder, at, text in _texts_in(node, "lines", lines):
         first, dots, last = text.partition("..")
         if dots and parse_integer(first) > parse_integer(last):
-            analysis.report.error(
-                "range-reversed", f"lines `{text}` run downwards", holder.span(at), f"write {last}..{first}"
-            )
+            message = f"lines `{text}` run downwards"
+            analysis.report.error("range-reversed", message, holder.span(at), f"write {last}..{first}")
 
 
 def _texts_in(holder: Map | Seq, at: Any, value: Any) -> Iterator[tuple[Map | Seq, Any, str]]:

@@ -75,9 +75,8 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
         return None
     span = facts.span("bits")
     if scope.family.spaces[space] == "bit":
-        scope.report.error(
-            "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
-        )
+        message = f"the space `{space}` holds single bits, not words"
+        scope.report.error("bit-outside-word", message, span, "leave `bits` out")
         return None
     return _parse_bits(scope, str(text), span)
 
@@ -92,9 +91,8 @@ def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
     outside = next((bit for bit in ends or () if not 0 <= bit <= 15), None)
     if outside is not None:
         message = f"bit {outside} lies outside the 16-bit word"
-        scope.report.error(
-            "bit-outside-word", message, span, "bits are numbered 15..0; bit 16 is bit 0 of the next address"
-        )
+        hint = "bits are numbered 15..0; bit 16 is bit 0 of the next address"
+        scope.report.error("bit-outside-word", message, span, hint)
         return None
     return ends
 

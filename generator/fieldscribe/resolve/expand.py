@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import inherited, keys_of, own
@@ -81,17 +82,15 @@ def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
     first.element = _single_element(scope, first)
     yield from _variants(scope, first)
     for number, override in _further_sets(scope, rows, first.set_number):
-        own_title = titles(override.get("title")) or set_title(first.title, number)
         own_name = f"{first.name}_set_{number}"
-        enum_name = own_name if "enum" in override else first.name
-        repeated = PointFacts(
-            own_name,
-            (override, *first.layers),
-            first.group,
-            override,
-            own_title,
+        repeated = replace(
+            first,
+            name=own_name,
+            layers=(override, *first.layers),
+            own=override,
+            title=titles(override.get("title")) or set_title(first.title, number),
             set_number=number,
-            enum_name=enum_name,
+            enum_name=own_name if "enum" in override else first.name,
             hidden=_OWN,
         )
         repeated.element = _single_element(scope, repeated)
@@ -184,25 +183,17 @@ def _variants(scope: Scope, facts: PointFacts) -> Iterator[PointFacts]:
             scope.unknown("variant", key, span, known)
         elif axis != (first := first or axis):
             message = f"`{facts.name}` differs by `{first}` and by `{axis}`"
-            scope.report.error(
-                "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
-            )
+            hint = "a point can differ by one axis only; make it two points with `when`"
+            scope.report.error("two-axes", message, span, hint)
         else:
             yield _varied(scope, facts, Variant(axis, value), override)
 
 
 def _varied(scope: Scope, facts: PointFacts, variant: Variant, override: Map) -> PointFacts:
-    varied = PointFacts(
-        facts.name,
-        (override, *facts.layers),
-        facts.group,
-        facts.own,
-        facts.title,
+    varied = replace(
+        facts,
+        layers=(override, *facts.layers),
         variant=variant,
-        record=facts.record,
-        set_number=facts.set_number,
-        use=facts.use,
-        element=facts.element,
         enum_name=item_of(facts.enum_name, variant) if "enum" in override else facts.enum_name,
         hidden=facts.hidden - override.keys(),
     )

@@ -110,8 +110,8 @@ class PointFacts:
     element: Element | None = None
     enum_name: str = ""
     hidden: frozenset[str] = frozenset()
-    failed: set[str] = field(default_factory=set)
-    _where: dict[str, Map] = field(default_factory=dict)
+    failed: set[str] = field(default_factory=set, init=False)
+    _where: dict[str, Map] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         group, where = self.group, self._where

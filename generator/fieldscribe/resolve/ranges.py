@@ -122,9 +122,8 @@ class Ranges:
         if exact.denominator == 1:
             return exact.numerator
         hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
-        self.report.error(
-            "bad-number", f"the limit {number_text(Fraction(exact))} is not a whole raw number", span, hint
-        )
+        message = f"the limit {number_text(Fraction(exact))} is not a whole raw number"
+        self.report.error("bad-number", message, span, hint)
         raise UnknownError
 
     def _bound(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Bound:

@@ -97,20 +97,15 @@ class Scope:
 
     def declared(self, section: str) -> dict[str, Map]:
         """Return the declarations of a section in all files by name; report a name that is declared twice."""
-        seen: dict[str, Map] = {}
-        declarations: dict[str, Map] = {}
-        for file in self.files:
-            for name, value in file.get(section, {}).items():
-                if name in seen:
-                    first = (seen[name].key_span(name), "first declared here")
+        holders: dict[str, Map] = {}
+        for node in [file[section] for file in self.files if section in file]:
+            for name in node:
+                if name in holders:
                     message = f"{quoted(name)} is declared twice under `{section}`"
-                    self.report.error(
-                        "duplicate-name", message, file[section].key_span(name), "rename one of them", [first]
-                    )
-                    continue
-                seen[name] = file[section]
-                declarations[name] = value
-        return declarations
+                    related = [(holders[name].key_span(name), "first declared here")]
+                    self.report.error("duplicate-name", message, node.key_span(name), "rename one of them", related)
+                holders.setdefault(name, node)
+        return {name: node[name] for name, node in holders.items()}
 
     def listed(self, section: str) -> Iterator[Map]:
         """Yield the items of a list section in all files."""

@@ -71,9 +71,8 @@ def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
-            scope.report.error(
-                "duplicate-name", f"two points have the name `{facts.name}`", facts.span(), hint, related
-            )
+            message = f"two points have the name `{facts.name}`"
+            scope.report.error("duplicate-name", message, facts.span(), hint, related)
             continue
         known.append(facts)
         index.by_items.setdefault(facts.item, facts)
