@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.layout import called, function
+from fieldscribe.targets.c.layout import Function, called, function
 from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
@@ -16,7 +16,6 @@ from fieldscribe.targets.c.literals import (
 )
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
-from fieldscribe.targets.c.views import Function
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
 if TYPE_CHECKING:
@@ -59,7 +58,7 @@ class Writer:
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.fields, self.scope))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
-        return Function(function(STATUS, f"{self.name}_check", parameters, *body))
+        return function(STATUS, f"{self.name}_check", parameters, *body)
 
     def _checked(self, number: str) -> str:
         """Return the status of writing a raw number computed from a value; a value never means a special code."""
@@ -70,7 +69,7 @@ class Writer:
 
     def _encode(self, tail: str, parameter: str, *body: str, floating: bool = False) -> Function:
         parameters = [parameter, *self.scope.parameters(self.point, self.point.arguments), f"{self.type} *raw"]
-        return Function(function(STATUS, f"{self.name}_{tail}", parameters, *body), floating)
+        return function(STATUS, f"{self.name}_{tail}", parameters, *body)._replace(floating=floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
         """Return the statement that stores `number` if `inside` holds and it may be written, else returns `outside`."""
@@ -92,13 +91,15 @@ class Writer:
         raw = f"{self.type} raw"
         if self.special is None and not fits:
             body = f"return {number};"
-            return Function(function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body), floating)
+            return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body)._replace(floating=floating)
         to = "count" if tail == "decode_count" else "value"
         keep = f"fieldscribe_keep_{_KEPT[kind]}({no_code(self.special)}, {number}, {to})"
         if fits:
             keep = f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW"
             keep = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {keep}" if self.special is not None else keep
-        return Function(function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};"), floating)
+        return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};")._replace(
+            floating=floating
+        )
 
     # ---- points whose raw number is the value
 
@@ -179,7 +180,7 @@ class Writer:
         if point.writable:
             yield self.check()
         if self.rule is not None and self.rule.text:
-            yield Function(self.rule.text)
+            yield Function(self.rule.name, self.rule.text)
         tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
         counts = point.decimals is not None
         if point.writable and counts:
@@ -222,7 +223,7 @@ class Writer:
         if self.special is not None:
             body = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {body}"
         parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
-        return Function(function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};"), floating)
+        return function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};")._replace(floating=floating)
 
     # ---- points that are bit patterns of floating-point numbers
 
@@ -232,7 +233,7 @@ class Writer:
         real = "fieldscribe_real" if bits == 32 else "double"
         if point.writable:
             status = codes_first(point, self.special, _spans(point))
-            yield Function(function(STATUS, f"{self.name}_check", (f"{self.type} raw",), f"return {status};"))
+            yield function(STATUS, f"{self.name}_check", (f"{self.type} raw",), f"return {status};")
             number = "(uint32_t)whole.number" if bits == 32 else "(uint64_t)whole.number"
             status = f"fieldscribe_both(whole.status, {self._checked(number)})"
             whole = f"const fieldscribe_whole whole = fieldscribe_bits_of_f{bits}(value);"

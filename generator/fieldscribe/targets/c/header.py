@@ -13,8 +13,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import folded, framed
 from fieldscribe.targets.c.point_templates import TemplateTexts, fields_of
-from fieldscribe.targets.c.point_views import computes_in_double, functions_of, named_numbers
-from fieldscribe.targets.c.special_codes import FUNCTIONS
+from fieldscribe.targets.c.point_views import computes_in_double, functions_of, named_numbers, symbols_of
 from fieldscribe.targets.c.views import AliasView, HeaderView, TelegramView
 from fieldscribe.targets.heads import command
 from fieldscribe.text import c_comment
@@ -128,39 +127,14 @@ def head_lines(device: Device) -> tuple[str, ...]:
     )
 
 
-def function_names(view: PointView) -> list[str]:
-    """Return every function that the header defines for a point, but for the names of its enum."""
-    return [view.function + tail for tail in _function_tails(view)]
-
-
-def _function_tails(view: PointView) -> list[str]:
-    counted = view.shape in ("scaled", "ruled") and view.counts
-    codes = () if view.special is None else FUNCTIONS
-    if view.shape in ("text", "digits"):
-        tails = ["_encode"] if view.writable else []
-        tails += ["_decode"] if view.readable else []
-        tails += ["_check"] if view.shape == "digits" and view.writable else []
-        tails += ["_addresses"] if view.shape == "text" else []
-        return [*tails, *codes]
-    tails = ["_encode"] if view.writable and view.encodes else []
-    tails += ["_encode_count"] if view.writable and counted else []
-    tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
-    tails += ["_check"] if view.writable else []
-    tails += ["_to_words", "_from_words"] if view.splits else []
-    tails += ["_extract", "_insert"] if view.bits else []
-    return [*tails, *view.flags, *codes]
-
-
 def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """Yield the old names of everything that a renamed point has in the header."""
     fields = view.fields._replace(item=old.old_item, macro=upper(old.old_item))
     function = f"{scope.prefix}_{fields.item}"
     for (name, _), (new, _) in zip(defines(point, fields, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
-    for tail in _function_tails(view):
-        floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
-        sort = "OBJECT" if tail == "_addresses" else "FLOATING_FUNCTION" if floats else "FUNCTION"
-        yield replace(old, old=function + tail, new=view.function + tail, sort=sort)
+    for name, sort in symbols_of(point, view, scope):
+        yield replace(old, old=function + name.removeprefix(view.function), new=name, sort=sort)
     enum = named_numbers(point)
     if view.enum is not None and enum is not None and enum.was:
         before = enum.was[point.was.index(old.was)]

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
-from fieldscribe.targets.c.header import STATUSES, device_view, function_names, remark_defines
+from fieldscribe.targets.c.header import STATUSES, device_view, remark_defines
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_templates import fields_of, generated_points
-from fieldscribe.targets.c.point_views import named_numbers, names_of
+from fieldscribe.targets.c.point_views import named_numbers, names_of, symbols_of
 from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.identifiers import Names, Owner
@@ -75,7 +75,7 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
 
 def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
     owner = Owner("point", shown.fields.item)
-    names = [*(name for name, _ in shown.defines), *function_names(shown)]
+    names = [*(name for name, _ in shown.defines), *(name for name, _ in symbols_of(point, shown, scope))]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:

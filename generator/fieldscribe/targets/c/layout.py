@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.lowered.templates import placeholders
 
@@ -27,20 +27,27 @@ _SIGNS = re.compile(r'"[^"]*"|[()\[\]{}]|,(?= )| (?:\?|:|\|\||&&)(?= )')
 """A string, a bracket, a comma or an operator."""
 
 
-def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
+class Function(NamedTuple):
+    """A function as it stands in the header; FIELDSCRIBE_NO_FLOAT leaves `floating` ones out."""
+
+    name: str
+    text: str
+    floating: bool = False
+
+
+def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> Function:
     """Return a function whose body is one or two statements."""
-    signature = f"{head}{'' if head.endswith('*') else ' '}{name}({', '.join(parameters) or 'void'})"
+    start = f"{head}{'' if head.endswith('*') else ' '}{name}("
+    signature = f"{start}{', '.join(parameters) or 'void'})"
     body = f"{{ {' '.join(statements)} }}"
     if len(signature) > WIDTH:
-        signature = f"{head}{'' if head.endswith('*') else ' '}{name}(\n" + "\n".join(
-            filled(parameters, ", ", "    ", ")")
-        )
+        signature = "\n".join((start, *filled(parameters, ", ", "    ", ")")))
     elif len(signature) + 1 + len(body) <= WIDTH:
-        return f"{signature} {body}"
+        return Function(name, f"{signature} {body}")
     if len(statements) == 1 and len(body) <= WIDTH:
-        return f"{signature}\n{body}"
+        return Function(name, f"{signature}\n{body}")
     lines = [line for statement in statements for line in wrapped(statement, "    ")]
-    return "\n".join((signature, "{", *lines, "}"))
+    return Function(name, "\n".join((signature, "{", *lines, "}")))
 
 
 def called(name: str, *arguments: str) -> str:

@@ -141,7 +141,7 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
     body = f"return {_rule_of(point, scope)};"
     content = f"({', '.join(parameters)}) {body}"
     name = scope.by_content("rule", content)
-    text = function("static inline fieldscribe_rule", name, parameters, body)
+    text = function("static inline fieldscribe_rule", name, parameters, body).text
     return RuleView(name, content, text if scope.is_first(point.item, name) else "")
 
 

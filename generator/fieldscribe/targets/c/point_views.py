@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import INLINE, Writer, value_type
 from fieldscribe.targets.c.declarations import defines
-from fieldscribe.targets.c.layout import filled, function
+from fieldscribe.targets.c.layout import Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.scales import scaled
-from fieldscribe.targets.c.special_codes import special_view
-from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
+from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
+from fieldscribe.targets.c.views import EnumView, PointView, TableView
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
     digits_functions,
@@ -116,6 +116,17 @@ def functions_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[
         yield from bits_functions(point, name)
 
 
+def symbols_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[tuple[str, str]]:
+    """Yield the functions and arrays that are named after a point, each with its `sort` for old names."""
+    for made in functions_of(point, view, scope):
+        if view.rule is None or made.name != view.rule.name:
+            yield made.name, "FLOATING_FUNCTION" if made.floating else "FUNCTION"
+    if point.text is not None:
+        yield f"{view.function}_addresses", "OBJECT"
+    for tail in () if view.special is None else FUNCTIONS:
+        yield view.function + tail, "FUNCTION"
+
+
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
     """Yield the arrays of a point: the words of a text, its ranges if it is the first that has them."""
     if point.text is not None:
@@ -178,7 +189,7 @@ def _lookup(name: str, table: str, kind: str, form: str) -> str:
         body = f"(raw <= (uint64_t)INT32_MAX) ? fieldscribe_name_of({rows}, (int64_t)raw) : NULL"
     else:
         body = f"fieldscribe_name_of({rows}, raw)"
-    return function(f"{INLINE} const char *", name, (f"{kind} raw",), f"return {body};")
+    return function(f"{INLINE} const char *", name, (f"{kind} raw",), f"return {body};").text
 
 
 def _flag_function(flag: Flag, point: Point, name: str) -> Function:
@@ -189,4 +200,4 @@ def _flag_function(flag: Flag, point: Point, name: str) -> Function:
     mask = hexadecimal(((1 << flag.width) - 1) << flag.low, bits // 4)
     body = f"fieldscribe_extract{wide}({raw}, {mask}, {flag.low}U)"
     body = body if bits in (16, 64) else f"({kind}){body}"
-    return Function(function(f"{INLINE} {kind}", f"{name}_{flag.name}", (f"{raw_type(point)} raw",), f"return {body};"))
+    return function(f"{INLINE} {kind}", f"{name}_{flag.name}", (f"{raw_type(point)} raw",), f"return {body};")

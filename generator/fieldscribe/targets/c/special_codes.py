@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.names import upper
-from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.layout import Function, function
 from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
-from fieldscribe.targets.c.views import CodesView, Function, SpecialView
+from fieldscribe.targets.c.views import CodesView, SpecialView
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
@@ -106,9 +106,9 @@ def _functions(point: Point, name: str) -> Iterator[Function]:
         f"{bracketed(_test(point, (special,)))} ? {c_string(special.name)} : " for special in point.specials
     )
     is_no_value = (f"return {no_value};",) if no_value else ("(void)raw;", "return false;")
-    yield Function(function("static inline bool", f"{name}_is_special", raw, f"return {is_special};"))
-    yield Function(function("static inline bool", f"{name}_is_no_value", raw, *is_no_value))
-    yield Function(function("static inline const char *", f"{name}_special_name", raw, f"return {names}NULL;"))
+    yield function("static inline bool", f"{name}_is_special", raw, f"return {is_special};")
+    yield function("static inline bool", f"{name}_is_no_value", raw, *is_no_value)
+    yield function("static inline const char *", f"{name}_special_name", raw, f"return {names}NULL;")
 
 
 def _literal(raw: int, special: Special, point: Point) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from fieldscribe.model import Version
+    from fieldscribe.targets.c.layout import Function
 
 Define = tuple[str, str]
 """A macro's name and its literal."""
@@ -41,14 +42,6 @@ class PointFields(NamedTuple):
         """Return the fields by name, from all of them in a row."""
         single = len(cls._fields) - 1
         return cls._make((*fields[:single], fields[single:]))
-
-
-@dataclass(frozen=True, slots=True)
-class Function:
-    """A function as it stands in the header; `floating` ones are left out by FIELDSCRIBE_NO_FLOAT."""
-
-    text: str
-    floating: bool = False
 
 
 @dataclass(frozen=True, slots=True)

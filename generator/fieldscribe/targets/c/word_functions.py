@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.layout import Function, function
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.special_codes import codes_first
-from fieldscribe.targets.c.views import Function
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,11 +26,11 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
     latin = "true" if point.text.encoding == "latin-1" else "false"
     if point.writable:
         body = f"return fieldscribe_words_of_text(text, length, {latin}, words, {point.words}U);"
-        yield Function(function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body))
+        yield function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body)
     if point.readable:
         body = f"return fieldscribe_text_of_words(words, {point.words}U, text);"
         parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
-        yield Function(function("static inline size_t", f"{name}_decode", parameters, body))
+        yield function("static inline size_t", f"{name}_decode", parameters, body)
 
 
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
@@ -43,20 +42,20 @@ def digits_functions(point: Point, name: str, special: SpecialView | None, scope
     digits = f"uint16_t digits[{count}]"
     if point.writable:
         check = codes_first(point, special, f"fieldscribe_check_digits(raw, {known})")
-        yield Function(function(STATUS, f"{name}_check", ("uint16_t raw",), f"return {check};"))
+        yield function(STATUS, f"{name}_check", ("uint16_t raw",), f"return {check};")
         whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"
         status = "whole.status"
         if special is not None:
             refused = f"{special.test}((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
             status = f"fieldscribe_both(whole.status, {refused})"
         store = f"return fieldscribe_keep_u16({status}, (uint16_t)whole.number, raw);"
-        yield Function(function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store))
+        yield function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store)
     if point.readable and special is None:
         body = f"fieldscribe_digits_of(raw, digits, {count}U);"
-        yield Function(function("static inline void", f"{name}_decode", ("uint16_t raw", digits), body))
+        yield function("static inline void", f"{name}_decode", ("uint16_t raw", digits), body)
     elif point.readable and special is not None:
         body = f"return fieldscribe_quantity_digits({special.test}(raw), raw, digits, {count}U);"
-        yield Function(function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body))
+        yield function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body)
 
 
 def has_words(point: Point) -> bool:
@@ -80,8 +79,8 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         joined = f"fieldscribe_join{info.bits}({', '.join(f'words[{place}]' for place in places)})"
         joined = f"fieldscribe_signed{info.bits}({joined})" if info.signed else joined
     words = f"uint16_t words[{point.words}]"
-    yield Function(function("static inline void", f"{name}_to_words", (f"{kind} raw", words), split))
-    yield Function(function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};"))
+    yield function("static inline void", f"{name}_to_words", (f"{kind} raw", words), split)
+    yield function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
 
 
 def places_of(point: Point) -> list[int]:
@@ -107,9 +106,9 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     insert = f"fieldscribe_insert(word, {place}, {number})"
     if point.fixed is not None:
         insert = f"fieldscribe_fix({insert}, {_constant_bits(point)})"
-    yield Function(function(f"static inline {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};"))
+    yield function(f"static inline {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};")
     parameters = ("uint16_t word", f"{kind} raw")
-    yield Function(function("static inline uint16_t", f"{name}_insert", parameters, f"return {insert};"))
+    yield function("static inline uint16_t", f"{name}_insert", parameters, f"return {insert};")
 
 
 def _constant_bits(point: Point) -> str:
