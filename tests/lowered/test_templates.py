@@ -16,7 +16,7 @@ from fieldscribe.lowered.templates import MOST_FIELDS, TemplateKeys, TextTemplat
 from fieldscribe.model import Enum, Erratum, Limit, Place, Special, Variant
 from fieldscribe.render import render
 from fieldscribe.targets import c, python, rust
-from fieldscribe.targets.c.point_templates import generated_points
+from fieldscribe.targets.c import point_templates
 from fieldscribe.targets.python import attributes
 from fieldscribe.targets.python import enums as python_enums
 from fieldscribe.targets.rust import conformance, point_macros
@@ -86,8 +86,8 @@ def test_other_rare_signs_of_a_text_are_no_placeholders() -> None:
 
 
 LANGUAGES = (c, python, rust)
-FILLED = (attributes, python_enums, conformance, point_macros, rust_enums)
-"""The modules of Python and Rust that fill templates; C has an argument for it."""
+FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums)
+"""The modules that fill templates."""
 
 DEVICES: dict[str, Callable[[], Device]] = {
     **{
@@ -118,7 +118,6 @@ def unshared(device: Device, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
     numbers = count()
     with monkeypatch.context() as patch:
         patch.setattr(TemplateKeys, "of", lambda *_: next(numbers))
-        patch.setattr(c, "generated_points", partial(generated_points, share=False))
         for module in FILLED:
             patch.setattr(module, "placeholders", tuple)
         for module in (python_enums, rust_enums):

@@ -14,8 +14,7 @@ from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.point_templates import TemplateTexts
 from fieldscribe.targets.c.point_views import named_numbers, names_of
-from fieldscribe.targets.c.scales import scaled
-from fieldscribe.targets.c.special_codes import encoded_limits, special_defines
+from fieldscribe.targets.c.special_codes import special_defines
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -175,7 +174,7 @@ def _conversion_cases(point: Point, view: PointView, scope: HeaderScope) -> list
     scale = _arguments_of(point, view.scale_arguments, scope)
     attempt = "TRY_" if view.special is not None or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
-    scale_of = scaled(point, *encoded_limits(point)) if form == "scaled" else None
+    scale_of = view.scale
     number = value_type(point) if form == "plain" else "int64_t" if scale_of is None else scale_of.count_type
     if form == "plain" and kind == "bool" and not attempt:
         number = "int32_t"

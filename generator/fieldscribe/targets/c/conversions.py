@@ -14,7 +14,6 @@ from fieldscribe.targets.c.literals import (
     sign_and_size,
     unsigned,
 )
-from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
@@ -47,7 +46,7 @@ class Writer:
 
     def __init__(self, point: Point, view: PointView, scope: HeaderScope) -> None:
         self.point, self.fields, self.special, self.scope = point, view.fields, view.special, scope
-        self.rule = view.rule
+        self.rule, self.scale = view.rule, view.scale
         self.name, self.macro = view.function, view.macro
         self.type, self.kind = view.raw_type, raw_kind(point)
 
@@ -135,7 +134,8 @@ class Writer:
 
     def scaled(self) -> Iterator[Function]:
         """Yield the functions of a point whose scale is known at compile time."""
-        point, scale, fields = self.point, scaled(self.point, *encoded_limits(self.point)), self.fields
+        point, scale, fields = self.point, self.scale, self.fields
+        assert scale is not None
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
         if point.writable:

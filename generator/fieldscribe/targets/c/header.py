@@ -64,7 +64,7 @@ def device_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderS
             *_aliases_of_structs(points, scope),
         ),
         statuses=STATUSES,
-        double=any(computes_in_double(template.point) for template in dict.fromkeys(each.template for each in points)),
+        double=any(computes_in_double(template.view) for template in dict.fromkeys(each.template for each in points)),
     )
 
 
@@ -133,7 +133,7 @@ def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) 
     function = f"{scope.prefix}_{fields.item}"
     for (name, _), (new, _) in zip(defines(point, fields, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
-    for name, sort in symbols_of(point, view, scope):
+    for name, sort in symbols_of(view):
         yield replace(old, old=function + name.removeprefix(view.function), new=name, sort=sort)
     enum = named_numbers(point)
     if view.enum is not None and enum is not None and enum.was:

@@ -49,7 +49,7 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 def _identifiers(device: Device) -> Iterator[Named]:
     scope = scope_of(device)
-    points = generated_points(device, scope, share=False)
+    points = generated_points(device, scope, names_only=True)
     view = device_view(device, points, scope)
     yield _OWN, [f"{view.prefix}_{name}" for name in _TYPES]
     yield _OWN, [f"{view.upper}_{name}" for name in (*STATUSES, *_MACROS)]
@@ -75,7 +75,7 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
 
 def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
     owner = Owner("point", shown.fields.item)
-    names = [*(name for name, _ in shown.defines), *(name for name, _ in symbols_of(point, shown, scope))]
+    names = [*(name for name, _ in shown.defines), *(name for name, _ in symbols_of(shown))]
     parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:

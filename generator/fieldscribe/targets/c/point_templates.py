@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
     from fieldscribe.model import Device, Point
+    from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
 
@@ -42,6 +43,7 @@ class LimitFields(NamedTuple):
     first: str
     last: str
     range: str
+    scale: Scaled | None
     form: Hashable
     in_table: bool
 
@@ -78,17 +80,18 @@ class TemplateTexts:
         return text.fill(generated.fields)
 
 
-def generated_points(device: Device, scope: HeaderScope, *, share: bool = True) -> list[GeneratedPoint]:
-    """Return the points of a device that have code; without `share` each has a view of its own."""
-    templates = _PointTemplates(scope, share=share)
-    return [templates.generated(point) for point in device.points if point.generated]
+def generated_points(device: Device, scope: HeaderScope, *, names_only: bool = False) -> list[GeneratedPoint]:
+    """Return the points of a device that have code; with `names_only` just with what their names follow from."""
+    templates = _PointTemplates(scope)
+    make = templates.named if names_only else templates.generated
+    return [make(point) for point in device.points if point.generated]
 
 
 class _PointTemplates:
     """Makes the templates of a device's points, in the order of the points."""
 
-    def __init__(self, scope: HeaderScope, *, share: bool) -> None:
-        self._scope, self._share = scope, share
+    def __init__(self, scope: HeaderScope) -> None:
+        self._scope = scope
         self._keys = scope.lowered.template_keys
         self._templates: dict[Hashable, PointTemplate] = {}
         self._limits: dict[tuple[int, int], LimitFields] = {}
@@ -105,20 +108,27 @@ class _PointTemplates:
         if comment is None:
             comment = self._comments[commented] = PointComment(point, scope)
         fields = _fields_of(point, item, limits, comment)
-        enum, codes = named_numbers(point), point.shape.shared_codes
-        brings = Brings(
-            enum is not None and scope.is_first(item, f"names of {enum.name}"),
-            bool(codes) and scope.is_first(item, f"codes of {codes}"),
-        )
-        if not self._share or limits.in_table or point.was or len(fields) > MOST_FIELDS:
-            view = point_view(point, PointFields.of(fields), scope, brings)
+        brings = self._brings(point, item)
+        if limits.in_table or point.was or len(fields) > MOST_FIELDS:
+            view = point_view(point, PointFields.of(fields), scope, brings, limits.scale)
             return GeneratedPoint(point, PointTemplate(point, view), fields)
         whole = key, limits.form, brings, tuple(map(len, fields[1:]))  # the comment breaks no line of others
         template = self._templates.get(whole)
         if template is None:
-            view = point_view(point, PointFields.of(placeholders(("_", *fields[1:]))), scope, brings)
+            view = point_view(point, PointFields.of(placeholders(fields)), scope, brings, limits.scale)
             template = self._templates[whole] = PointTemplate(point, view)
         return GeneratedPoint(point, template, fields)
+
+    def named(self, point: Point) -> GeneratedPoint:
+        """Return the next point with its names alone."""
+        fields = ("", point.item, upper(point.item), *[""] * (len(PointFields._fields) - 4))
+        view = point_view(point, PointFields.of(fields), self._scope, self._brings(point, point.item), None)
+        return GeneratedPoint(point, PointTemplate(point, view), fields)
+
+    def _brings(self, point: Point, item: str) -> Brings:
+        enum, codes = named_numbers(point), point.shape.shared_codes
+        names = enum is not None and self._scope.is_first(item, f"names of {enum.name}")
+        return Brings(names, bool(codes) and self._scope.is_first(item, f"codes of {codes}"))
 
 
 def fields_of(point: Point, scope: HeaderScope, remark: str = "") -> PointFields:
@@ -157,4 +167,4 @@ def _limits_of(point: Point) -> LimitFields:
         scale and (scale.wide, scale.inside, (first, last) == (low, high), point.writable and scale.raw_of_count),
     )
     ends = bare(low), bare(high), signed(low), signed(high), bare(first), bare(last)
-    return LimitFields(*ends, c_comment(range_words(point)), form, has_ranges_table(point))
+    return LimitFields(*ends, c_comment(range_words(point)), scale, form, has_ranges_table(point))

@@ -10,7 +10,6 @@ from fieldscribe.targets.c.declarations import defines
 from fieldscribe.targets.c.layout import Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
-from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
 from fieldscribe.targets.c.views import EnumView, PointView, TableView
 from fieldscribe.targets.c.word_functions import (
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Enum, Flag, Point
+    from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointFields
 
@@ -39,7 +39,9 @@ class Brings(NamedTuple):
     """Special codes that it shares with others."""
 
 
-def point_view(point: Point, fields: PointFields, scope: HeaderScope, brings: Brings) -> PointView:
+def point_view(
+    point: Point, fields: PointFields, scope: HeaderScope, brings: Brings, scale: Scaled | None
+) -> PointView:
     """Return the view of a generated point."""
     name, macro = f"{scope.prefix}_{fields.item}", f"{scope.upper}_{fields.macro}"
     shape = shape_of(point)
@@ -62,6 +64,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, brings: Br
         readable=point.readable,
         writable=point.writable,
         special=special_view(point, fields, scope, brings=brings.codes),
+        scale=scale,
         scale_arguments=point.scale_arguments,
         limit_arguments=point.limit_arguments,
         splits=has_words(point),
@@ -70,11 +73,13 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, brings: Br
     )
 
 
-def computes_in_double(point: Point) -> bool:
+def computes_in_double(view: PointView) -> bool:
     """Return True if the value is a double even where values are float by choice."""
-    if point.form != "scaled":
-        return point.form == "float" and point.info.bits == 64
-    return bool(point.scale_arguments) or scaled(point, *point.outer).wide
+    return (
+        view.shape == "ruled"
+        or (view.raw_type == "uint64_t" and view.shape == "float")
+        or bool(view.scale and view.scale.wide)
+    )
 
 
 def named_numbers(point: Point) -> Enum | None:
@@ -116,15 +121,20 @@ def functions_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[
         yield from bits_functions(point, name)
 
 
-def symbols_of(point: Point, view: PointView, scope: HeaderScope) -> Iterator[tuple[str, str]]:
-    """Yield the functions and arrays that are named after a point, each with its `sort` for old names."""
-    for made in functions_of(point, view, scope):
-        if view.rule is None or made.name != view.rule.name:
-            yield made.name, "FLOATING_FUNCTION" if made.floating else "FUNCTION"
-    if point.text is not None:
-        yield f"{view.function}_addresses", "OBJECT"
-    for tail in () if view.special is None else FUNCTIONS:
-        yield view.function + tail, "FUNCTION"
+def symbols_of(view: PointView) -> list[tuple[str, str]]:
+    """Return the functions and arrays that are named after a point, each with its `sort` for old names."""
+    plain, floating = "FUNCTION", "FLOATING_FUNCTION" if view.shape in ("scaled", "ruled", "float") else "FUNCTION"
+    counted = view.shape in ("scaled", "ruled") and view.counts
+    has_check = view.writable and view.shape != "text"
+    symbols = [("_encode", floating)] * (view.writable and view.encodes)
+    symbols += [("_encode_count", plain)] * (view.writable and counted)
+    symbols += [("_decode", floating), ("_decode_count", plain)][: 1 + counted] * view.readable
+    symbols += [("_check", plain)] * has_check
+    symbols += [("_to_words", plain), ("_from_words", plain)] * view.splits
+    symbols += [("_extract", plain), ("_insert", plain)] * view.bits
+    symbols += [("_addresses", "OBJECT")] * (view.shape == "text")
+    tails = (*view.flags, *(FUNCTIONS if view.special is not None else ()))
+    return [(view.function + tail, sort) for tail, sort in (*symbols, *((tail, plain) for tail in tails))]
 
 
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:

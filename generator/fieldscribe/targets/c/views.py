@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from fieldscribe.model import Version
     from fieldscribe.targets.c.layout import Function
+    from fieldscribe.targets.c.scales import Scaled
 
 Define = tuple[str, str]
 """A macro's name and its literal."""
@@ -105,7 +106,8 @@ class PointView:
     """A generated point; in a template, its fields are placeholders.
 
     `struct` holds the raw numbers of other points, if functions need several; `members` are its members if no earlier
-    point has it. `splits` says that functions split the raw number into words and join them.
+    point has it. `scale` are the expressions
+    of a scale that is known at compile time. `splits` says that functions split the raw number into words and join them.
     """
 
     fields: PointFields
@@ -124,6 +126,7 @@ class PointView:
     readable: bool
     writable: bool
     special: SpecialView | None
+    scale: Scaled | None
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
     splits: bool
