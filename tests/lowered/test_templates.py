@@ -12,11 +12,12 @@ import pytest
 from fieldscribe import lowered
 from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
-from fieldscribe.lowered.templates import MOST_FIELDS, TemplateKeys, TextTemplate, placeholders
+from fieldscribe.lowered.template_keys import TemplateKeys
 from fieldscribe.model import Enum, Erratum, Limit, Place, Special, Variant
 from fieldscribe.render import render
 from fieldscribe.targets import c, python, rust
 from fieldscribe.targets.c import point_templates
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python import attributes
 from fieldscribe.targets.python import enums as python_enums
 from fieldscribe.targets.rust import conformance, point_macros

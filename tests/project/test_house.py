@@ -41,7 +41,7 @@ ROOMS = (
     ("nodes to the model", "resolve"),
     ("what a family reads of its own keys", "families.*.reading"),
     ("what compiled languages need alike", "lowered"),
-    ("the registry of targets", "targets targets.identifiers targets.heads"),
+    ("the registry of targets", "targets targets.identifiers targets.heads targets.placeholders"),
     ("targets", "targets.*"),
     ("what a target knows of a family", "families.*.targets"),
     ("checks", "checks"),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.lowered.plans import Plan, plan_of
 from fieldscribe.lowered.rules import Operand, Rule, rule_of
-from fieldscribe.lowered.templates import TemplateKeys
+from fieldscribe.lowered.template_keys import TemplateKeys
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -16,16 +16,19 @@ EXACT_FLOAT = 1 << 24
 
 
 class Plan(NamedTuple):
-    """The integers of a scale: `to_raw` is the line from counts to raw numbers, `to_value` from raw numbers to values.
+    """The integers of a scale: `to_raw` leads from counts to raw numbers, `to_count` and `to_value` back.
 
-    `raws` are the raw numbers of the type. `counts` are the counts whose raw numbers lie in the outer limits,
-    `numerator` is the largest integer on the way from a raw number to its value. `beyond` are the raw numbers whose
-    counts fit, None for all. Each `_wide` says that 32 bits are not enough. `fits_float` says that binary32 holds every
-    integer on the way to and from values.
+    `direct` says that each raw number is its count. `raws` are the raw numbers of the type. `counts` are the counts
+    whose raw numbers lie in the outer limits, `numerator` is the largest integer on the way from a raw number to its
+    value. `beyond` are the raw numbers whose counts fit, None for all. Each `_wide` says that 32 bits are not enough.
+    `fits_float` says that binary32 holds every integer on the way to and from values.
     """
 
+    rule: Linear
     to_raw: Line
+    to_count: Line
     to_value: Line
+    direct: bool
     raws: tuple[int, int]
     count_wide: bool
     encode_wide: bool
@@ -38,24 +41,25 @@ class Plan(NamedTuple):
 
 def plan_of(point: Point, low: int, high: int) -> Plan:
     """Return the plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    assert point.fixed_scale is not None
-    return _plan(point.fixed_scale, point.decimals or 0, point.held, low, high)
+    rule = point.shape.fixed_scale
+    assert rule is not None
+    return _plan(rule, point.decimals or 0, point.held, low, high)
 
 
 class _Unlimited(NamedTuple):
-    """What a plan has whatever the limits are."""
+    """The parts of a plan that do not depend on the limits."""
 
     to_raw: Line
+    to_count: Line
     to_value: Line
+    direct: bool
     count_wide: bool
     decode_wide: bool
     numerator: int
     beyond: tuple[int, int] | None
-    largest: int
-    """The largest integer for values."""
+    fits_float: bool
 
 
-@lru_cache(maxsize=4096)
 def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
     """Prove the widths: compute the integers that occur for the extreme arguments.
 
@@ -64,20 +68,11 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
     the divisor. Encoding is only ever asked for `counts`, for a count outside is refused before anything is computed;
     decoding for any raw number that the type holds.
     """
-    to_raw, to_value, count_wide, decode_wide, numerator, beyond, largest = _unlimited(rule, decimals, raws)
-    counts = _usable(to_raw, _counts(to_raw, low, high), INT64 if count_wide else INT32)
-    return Plan(
-        to_raw,
-        to_value,
-        raws,
-        count_wide,
-        encode_wide=to_raw.largest(*counts) + to_raw.divisor > INT32[1],
-        decode_wide=decode_wide,
-        numerator=numerator,
-        counts=counts,
-        beyond=beyond,
-        fits_float=largest <= EXACT_FLOAT,
-    )
+    fixed = _unlimited(rule, decimals, raws)
+    to_raw = fixed.to_raw
+    counts = _usable(to_raw, _counts(to_raw, low, high), INT64 if fixed.count_wide else INT32)
+    encode_wide = to_raw.largest(*counts) + to_raw.divisor > INT32[1]
+    return Plan(rule=rule, raws=raws, counts=counts, encode_wide=encode_wide, **fixed._asdict())
 
 
 @lru_cache(maxsize=4096)
@@ -86,14 +81,17 @@ def _unlimited(rule: Linear, decimals: int, raws: tuple[int, int]) -> _Unlimited
     to_count = to_raw.inverse
     ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
     numerator = to_value.largest(*raws)
+    largest = max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator)
     return _Unlimited(
         to_raw,
+        to_count,
         to_value,
+        to_raw.does_nothing,
         count_wide=not (INT32[0] <= min(ends) and max(ends) <= INT32[1]),
         decode_wide=to_count.largest(*raws) + to_count.divisor > INT32[1],
         numerator=numerator,
         beyond=_countable(to_raw, raws),
-        largest=max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator),
+        fits_float=largest <= EXACT_FLOAT,
     )
 
 

@@ -131,7 +131,7 @@ def shares_values(point: Point) -> bool:
 def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
     """Yield the macros that say where a point is."""
     macro = f"{scope.upper}_{fields.macro}"
-    if not point.addresses:
+    if not point.place.addresses:
         return
     yield f"{macro}_ADDRESS", fields.address
     if point.index is not None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.lowered.templates import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table
@@ -18,6 +17,7 @@ from fieldscribe.targets.c.point_views import Brings, named_numbers, point_view
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:

@@ -75,11 +75,9 @@ def point_view(
 
 def computes_in_double(view: PointView) -> bool:
     """Return True if the value is a double even where values are float by choice."""
-    return (
-        view.shape == "ruled"
-        or (view.raw_type == "uint64_t" and view.shape == "float")
-        or bool(view.scale and view.scale.wide)
-    )
+    if view.scale is not None:
+        return view.scale.wide
+    return view.shape == "ruled" or (view.shape == "float" and view.raw_type == "uint64_t")
 
 
 def named_numbers(point: Point) -> Enum | None:

@@ -30,11 +30,10 @@ class Scaled:
     """
 
     def __init__(self, point: Point, plan: Plan) -> None:
-        assert point.fixed_scale is not None
-        self._point, self._plan, self._rule = point, plan, point.fixed_scale
+        self._point, self._plan, self._rule = point, plan, plan.rule
         self.count_type = "int64_t" if plan.count_wide else "int32_t"
         self.counts = plan.counts
-        self.direct = plan.to_raw.does_nothing
+        self.direct = plan.direct
         self.wide = not plan.fits_float
         open_ended = plan.counts == (INT64 if plan.count_wide else INT32)
         self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if plan.count_wide else ''}"
@@ -184,9 +183,9 @@ def count_fits(plan: Plan) -> str:
 def count_of_raw(plan: Plan) -> tuple[str, bool]:
     """Return the expression for the count of a raw number, and whether its type has 64 bits."""
     wide = plan.decode_wide
-    if plan.to_raw.does_nothing:
+    if plan.direct:
         return "raw", wide
-    to_count = plan.to_raw.inverse
+    to_count = plan.to_count
     line = linear("raw", to_count.factor, to_count.add, "int64_t" if wide else "int32_t")
     if to_count.divisor == 1:
         return line, wide

@@ -106,8 +106,8 @@ class PointView:
     """A generated point; in a template, its fields are placeholders.
 
     `struct` holds the raw numbers of other points, if functions need several; `members` are its members if no earlier
-    point has it. `scale` are the expressions
-    of a scale that is known at compile time. `splits` says that functions split the raw number into words and join them.
+    point has it. `scale` are the expressions of a scale that is known at compile time. `splits` says that functions
+    split the raw number into words and join them.
     """
 
     fields: PointFields

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.conditions import absent
-from fieldscribe.lowered.templates import MOST_FIELDS, TextTemplate, placeholders
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped

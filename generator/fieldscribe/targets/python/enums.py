@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.lowered.templates import TextTemplate, placeholders
 from fieldscribe.names import upper
+from fieldscribe.targets.placeholders import TextTemplate, placeholders
 from fieldscribe.targets.python.identifiers import word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.families import family
-from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.targets.placeholders import TextTemplate, placeholders
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.targets.placeholders import TextTemplate, placeholders
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.lowered.templates import TextTemplate, placeholders
+from fieldscribe.targets.placeholders import TextTemplate, placeholders
 from fieldscribe.targets.rust.documentation import PointDoc
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.families import in_rust, space_variant

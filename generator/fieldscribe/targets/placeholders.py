@@ -1,0 +1,43 @@
+"""Text templates: text that is laid out once, with placeholders for fields, and filled for each point."""
+
+from __future__ import annotations
+
+import re
+from operator import itemgetter
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+_PLACEHOLDERS = tuple(map(chr, range(0xFDD0, 0xFDF0)))
+"""Unicode noncharacters: the encoders of `text` strip them, so no text of a description holds one."""
+
+MOST_FIELDS = len(_PLACEHOLDERS)
+
+_RUN = re.compile("([\ufdd0-\ufdef])\\1*")
+
+
+def placeholders(fields: Iterable[str]) -> tuple[str, ...]:
+    """Return a placeholder for each field, as wide as the field, so that lines break where they would with it."""
+    return tuple([_PLACEHOLDERS[number] * len(field) for number, field in enumerate(fields)])
+
+
+class TextTemplate:
+    """A text with placeholders. Two placeholders of the same field never touch."""
+
+    def __init__(self, text: str) -> None:
+        self._parts = [text] if text.isascii() else _RUN.split(text)
+        self._chosen = _chooser([ord(sign) - 0xFDD0 for sign in self._parts[1::2]])
+
+    def fill(self, fields: Sequence[str]) -> str:
+        """Return the text with these fields, in the order in which the placeholders were made."""
+        parts = self._parts.copy()
+        parts[1::2] = self._chosen(fields)
+        return "".join(parts)
+
+
+def _chooser(numbers: list[int]) -> Callable[[Sequence[str]], Sequence[str]]:
+    """Return a function that takes the fields of these numbers."""
+    if len(numbers) > 1:
+        return itemgetter(*numbers)
+    return lambda fields: [fields[number] for number in numbers]
