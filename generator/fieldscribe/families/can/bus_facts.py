@@ -11,24 +11,17 @@ from fieldscribe.families.can import identifier_of, of_bus
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from fieldscribe.facts.schema import Schema
     from fieldscribe.model import Bus, Code
 
 
+def _limit(key: str, doc: str, schema: Schema) -> Fact:
+    return Fact(key, doc, schema, value=lambda bus, _: getattr(of_bus(bus), key), weight=WIRE)
+
+
 LIMITS = (
-    Fact(
-        "bitrate",
-        "CAN and USS: bits a second.",
-        null_or(INTEGER),
-        value=lambda bus, _: of_bus(bus).bitrate,
-        weight=WIRE,
-    ),
-    Fact(
-        "identifier_bits",
-        "CAN: how many bits the identifiers have.",
-        null_or(INTEGER),
-        value=lambda bus, _: of_bus(bus).identifier_bits,
-        weight=WIRE,
-    ),
+    _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
+    _limit("identifier_bits", "CAN: how many bits the identifiers have.", null_or(INTEGER)),
 )
 """The family's own facts of a bus; they are empty on a bus of another family."""
 

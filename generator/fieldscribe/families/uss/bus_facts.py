@@ -13,24 +13,17 @@ from fieldscribe.wording.exact import hex_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from fieldscribe.facts.schema import Schema
     from fieldscribe.model import Bus, Code, Point
 
 
+def _limit(key: str, doc: str, schema: Schema) -> Fact:
+    return Fact(key, doc, schema, value=lambda bus, _: getattr(of_bus(bus), key), weight=WIRE)
+
+
 LIMITS = (
-    Fact(
-        "pkw",
-        "USS: the lengths in words that the parameter part may have; 127 is variable.",
-        list_of(INTEGER),
-        value=lambda bus, _: of_bus(bus).pkw,
-        weight=WIRE,
-    ),
-    Fact(
-        "pzd",
-        "USS: the least and the most words of process data.",
-        list_of(INTEGER, 2, 2),
-        value=lambda bus, _: of_bus(bus).pzd,
-        weight=WIRE,
-    ),
+    _limit("pkw", "USS: the lengths in words that the parameter part may have; 127 is variable.", list_of(INTEGER)),
+    _limit("pzd", "USS: the least and the most words of process data.", list_of(INTEGER, 2, 2)),
     Fact(
         "variant_pzd",
         "USS: the most words of process data of variants that take fewer, by axis=value.",
@@ -38,13 +31,7 @@ LIMITS = (
         value=lambda bus, _: {str(variant): most for variant, most in of_bus(bus).variant_pzd},
         weight=BEHAVIOUR,
     ),
-    Fact(
-        "bitrate",
-        "CAN and USS: bits a second.",
-        null_or(INTEGER),
-        value=lambda bus, _: of_bus(bus).bitrate,
-        weight=WIRE,
-    ),
+    _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
 )
 """The family's own facts of a bus; they are empty on a bus of another family."""
 

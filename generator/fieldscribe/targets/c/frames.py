@@ -108,7 +108,7 @@ class CFamily(Protocol):
         """Return the frames of points in that header, by the names of their texts in the template."""
 
     def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
-        """Return every identifier in that header, with its owner."""
+        """Return every identifier in that header, with its owner, but those of `header_names`."""
 
 
 def frames_of(device: Device) -> CFamily:
@@ -160,11 +160,14 @@ class Layouts:
         return tuple(self._known.values())
 
 
-def names_of(layouts: Iterable[Descriptor], sections: Iterable[Frames]) -> Iterator[Named]:
-    """Yield the identifiers of layouts, and of the descriptors of points."""
-    yield Owner("target", "the layouts of points in words"), [layout.name for layout in layouts]
+def header_names(device: Device, bus: Any, sections: Iterable[Frames]) -> Iterator[Named]:
+    """Yield the identifiers that the headers of all families have: exceptions, layouts, points and old names."""
+    for code, (name, _, _) in zip(device.bus.exceptions, getattr(bus, "exceptions", ()), strict=False):
+        yield Owner("exception", code.name), (name,)
+    yield Owner("target", "the layouts of points in words"), [layout.name for layout in bus.layouts]
     for frames in sections:
         yield from frames.names()
+    yield from old_names_of(bus.aliases)
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
@@ -201,9 +204,3 @@ def exceptions_of(device: Device, scope: HeaderScope) -> tuple[tuple[str, str, s
         (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
         for code in device.bus.exceptions
     )
-
-
-def names_of_exceptions(device: Device, defines: Iterable[tuple[str, str, str]]) -> Iterator[Named]:
-    """Yield the enumerators of the codes with which a device refuses."""
-    for code, (name, _, _) in zip(device.bus.exceptions, defines, strict=True):
-        yield Owner("exception", code.name), (name,)

@@ -8,19 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import request_and_answer
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import (
-    Descriptor,
-    Frame,
-    Frames,
-    Layouts,
-    exceptions_of,
-    kind_of,
-    lies,
-    names_of,
-    names_of_exceptions,
-    old_names_of,
-    shares,
-)
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, kind_of, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -132,18 +120,15 @@ def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScop
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Yield every identifier of the header, with its owner."""
+    """Yield the identifiers of the header that only this family has, with their owners."""
     fixed = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
     yield Owner("target", "what the header of frames needs"), (bus.guard, *fixed)
     for message in bus.messages:
         yield Owner("message", message.name), (message.array,)
     for telegram in bus.telegrams:
         yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name)
-    yield from names_of_exceptions(device, bus.exceptions)
     for group in bus.groups:
         yield Owner("group", group.title), (group.array, group.count_name)
-    yield from names_of(bus.layouts, [bus.parameters, bus.cyclic])
-    yield from old_names_of(bus.aliases)
 
 
 def sections(bus: BusView) -> dict[str, Frames]:

@@ -7,19 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import SPACES, profile_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import (
-    Descriptor,
-    Frame,
-    Frames,
-    Layouts,
-    exceptions_of,
-    kind_of,
-    lies,
-    names_of,
-    names_of_exceptions,
-    old_names_of,
-    shares,
-)
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, kind_of, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
@@ -111,7 +99,7 @@ def _bool(value: bool) -> str:
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Yield every identifier of the header, with its owner."""
+    """Yield the identifiers of the header that only this family has, with their owners."""
     fixed = (bus.guard, f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
     yield Owner("target", "what the header of frames needs"), fixed
     if bus.blocks:
@@ -120,9 +108,6 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
         yield Owner("group", blocks.name), (blocks.array,)
     for command, view in zip(device.commands, bus.commands, strict=True):
         yield Owner("command", command.name), (view.descriptor.name, *(name for name, _ in view.defines))
-    yield from names_of_exceptions(device, bus.exceptions)
-    yield from names_of(bus.layouts, [bus.frames])
-    yield from old_names_of(bus.aliases)
 
 
 def sections(bus: BusView) -> dict[str, Frames]:

@@ -8,17 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import (
-    Descriptor,
-    Frame,
-    Frames,
-    Layouts,
-    kind_of,
-    lies,
-    names_of,
-    old_names_of,
-    shares,
-)
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, kind_of, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
@@ -91,7 +81,7 @@ def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScop
 
 
 def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Yield every identifier of the header, with its owner."""
+    """Yield the identifiers of the header that only this family has, with their owners."""
     target = Owner("target", "what the header of frames needs")
     yield target, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
     yield target, [codes.function for codes in bus.codes]
@@ -99,8 +89,6 @@ def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Na
     for view in bus.codes:
         for code, (name, _, _, _) in zip(device.bus.codes(kinds[view.kind].section), view.entries, strict=True):
             yield Owner(kinds[view.kind].key, code.name), (name,)
-    yield from names_of(bus.layouts, [bus.frames, bus.words])
-    yield from old_names_of(bus.aliases)
 
 
 def sections(bus: BusView) -> dict[str, Frames]:
