@@ -1,4 +1,4 @@
-"""Findings about a description, as data; report.py makes text and JSON of them."""
+"""Findings about a description, as data; `report.py` renders them as text and JSON."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ Severity = Literal["error", "warning"]
 
 
 class Span:
-    """A place in a file: its path as the user named it, and line and column from 1; `width` characters are meant.
+    """A place in a file: its path as the user named it, line and column from 1, and a width in characters.
 
-    A place may be `sought`: nobody asks for most places, so line and column are found when somebody does.
+    Most places are never shown, so a place may be `sought`: its line and column are found when they are first needed.
     """
 
     __slots__ = ("_at", "_find", "file", "width")
@@ -25,7 +25,7 @@ class Span:
 
     @classmethod
     def sought(cls, file: str, find: Callable[[], tuple[int, int]], width: int = 1) -> Span:
-        """The place that `find` finds."""
+        """Return the place whose line and column `find` returns."""
         span = cls(file, 0, 0, width)
         span._find = find
         return span
@@ -48,12 +48,12 @@ class Span:
         return self.at[1]
 
     def moved(self, columns: int, width: int | None = None) -> Span:
-        """The place so many columns further on, with another width if one is given."""
+        """Return the place so many columns further on, with another width if one is given."""
         width = self.width if width is None else width
         return Span.sought(self.file, lambda: (self.line, self.column + columns), width)
 
     def in_file(self, name: str) -> Span:
-        """The same place in a file that has another name."""
+        """Return the same place in a file of another name."""
         return Span(name, *self.at, self.width)
 
     def _facts(self) -> tuple[str, tuple[int, int], int]:
@@ -70,7 +70,7 @@ class Span:
 
 
 class Diagnostic(NamedTuple):
-    """One finding: a stable rule id, what is wrong, where, what to do about it, and other places that matter."""
+    """One finding: a stable rule id, what is wrong, where, what to do about it, and related places."""
 
     rule: str
     message: str
@@ -188,7 +188,7 @@ class Report:
 
 
 def _clean(text: str) -> str:
-    """The text without line breaks, control and bidi characters: it may quote a stranger's file on a terminal."""
+    """Return the text without line breaks, control and bidi characters: it may quote any file on a terminal."""
     if text.isprintable():
         return text
     from fieldscribe.text import line

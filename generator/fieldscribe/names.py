@@ -1,4 +1,4 @@
-"""Identifiers: casing, once for all targets."""
+"""The casing of identifiers, for all targets."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import lru_cache
 
 @lru_cache(maxsize=65536)
 def pascal(name: str) -> str:
-    """`base_frequency` as `BaseFrequency`; digits that would run together keep an underscore (`a_1_2` is `A1_2`)."""
+    """Return `base_frequency` as `BaseFrequency`; an underscore between digits stays (`a_1_2` is `A1_2`)."""
     parts = name.split("_")
     result = parts[0].capitalize()
     for part in parts[1:]:
@@ -18,5 +18,5 @@ def pascal(name: str) -> str:
 
 @lru_cache(maxsize=65536)
 def upper(name: str) -> str:
-    """`base_frequency` as `BASE_FREQUENCY`."""
+    """Return `base_frequency` as `BASE_FREQUENCY`."""
     return name.upper()

@@ -1,7 +1,7 @@
-"""Findings for people and machines: text with the lines of the file that are meant, and JSON.
+"""Renders findings as text with the lines of the file, and as JSON.
 
-Text is made of lines of (style, text) pieces, so that whoever prints them may colour them. Whatever a file holds, no
-control or direction-changing character passes: it is shown by its number.
+A line of text is a list of (style, text), so that the command line can colour it. Control and bidi characters of a file
+are shown as their numbers.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ Line = list[tuple[str, str]]
 """One line as (style, text); styles are error, warning, strong, place, frame, hint, and empty."""
 
 ReadLines = Callable[[str], Sequence[str] | None]
-"""The lines of a file by the path that findings name; None when it cannot be read."""
+"""A function that returns the lines of a file by the path that findings name; None if it cannot be read."""
 
 BEFORE, AFTER = 40, 60
-"""How many characters of a long line are shown around the place that is meant."""
+"""How many characters of a long line are shown before and after the place of a finding."""
 
 _BREAKS = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
 _HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def as_lines(findings: Iterable[Diagnostic], read: ReadLines) -> Iterator[Line]:
-    """The findings as text, each followed by an empty line."""
+    """Yield the findings as text, each followed by an empty line."""
     for finding in findings:
         yield [(finding.severity, f"{finding.severity}[{finding.rule}]"), ("strong", f": {visible(finding.message)}")]
         margin = len(str(max(finding.span.line, *(span.line for span, _ in finding.related), 0)))
@@ -43,7 +43,7 @@ def as_lines(findings: Iterable[Diagnostic], read: ReadLines) -> Iterator[Line]:
 
 
 def as_data(findings: Iterable[Diagnostic]) -> list[dict[str, object]]:
-    """The findings for JSON."""
+    """Return the findings for JSON."""
     return [
         {
             "rule": finding.rule,
@@ -66,17 +66,17 @@ def summary(report: Report) -> str:
 
 
 def split_lines(text: str) -> list[str]:
-    """The lines of a text as YAML counts them."""
+    """Return the lines of a text as YAML counts them."""
     return _BREAKS.split(text)
 
 
 def place_text(span: Span) -> str:
-    """Where a finding is: `file:line:column`."""
+    """Return a place as `file:line:column`."""
     return f"{visible(span.file)}:{span.line}:{span.column}"
 
 
 def visible(text: str) -> str:
-    """The text with every character that is not seen, or that could change what is seen, shown by its number."""
+    """Return the text with its control, format and unassigned characters written as their numbers."""
     if text.isprintable():
         return text
     return "".join(_shown(char) for char in text)
@@ -89,7 +89,7 @@ def _shown(char: str) -> str:
 
 
 def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Line]:
-    """The line of the file around the place of a finding, and a mark below it."""
+    """Yield the line of the file around the place of a finding, and a mark below it."""
     lines = read(span.file)
     if lines is None or not 1 <= span.line <= len(lines):
         return
@@ -112,7 +112,7 @@ def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Lin
 
 
 def columns(text: str) -> int:
-    """How many columns of a terminal a text takes."""
+    """Return how many columns of a terminal a text takes."""
     if text.isascii():
         return len(text)
     wide = sum(unicodedata.east_asian_width(char) in "WF" for char in text)

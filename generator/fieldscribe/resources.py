@@ -1,4 +1,4 @@
-"""Where the templates and the shipped descriptions are: inside the installed package, or beside it in a checkout."""
+"""Finds the templates and the shipped descriptions: inside the installed package, or beside it in a checkout."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ _PACKAGE = Path(__file__).resolve().parent
 
 @lru_cache(maxsize=1)
 def templates_dir() -> Path:
-    """The folder that holds one folder of templates per target."""
+    """Return the folder that has a folder of templates for each target."""
     return _shipped("templates")
 
 
 @lru_cache(maxsize=1)
 def descriptions_dir() -> Path:
-    """The folder of the descriptions that come with the compiler."""
+    """Return the folder of the descriptions that come with the compiler."""
     return _shipped("descriptions")
 
 
 def compiler_files() -> Iterator[str]:
-    """The compiler's own files and its templates, in a fixed order: what they are is in all that is made."""
+    """Yield the files of the compiler and its templates, in a fixed order: all output depends on them."""
     for root in (_PACKAGE, templates_dir()):
         for folder, folders, files in os.walk(root):
             folders[:] = sorted(set(folders) - _LEFT_BEHIND)
@@ -35,7 +35,7 @@ def compiler_files() -> Iterator[str]:
 
 
 def runtime_files(folder: str) -> tuple[str, ...]:
-    """The files of a runtime below a folder of templates, in a fixed order, without what tools leave behind."""
+    """Return the files of a runtime below a folder of templates, in a fixed order, without leftovers of tools."""
     root = templates_dir() / folder
     files = (path.relative_to(root) for path in root.rglob("*") if path.is_file())
     return tuple(sorted(path.as_posix() for path in files if not _LEFT_BEHIND.intersection(path.parts)))

@@ -1,6 +1,6 @@
-"""Files as strangers leave them: only regular ones of sane size are read, and nothing that lies there makes a run wait.
+"""Reads regular files up to a size limit; never blocks on pipes or devices, which are not even opened.
 
-A pipe or a device is not even opened. What the system lacks (Windows has no O_NONBLOCK) is left out.
+Flags that the system lacks (Windows has no O_NONBLOCK) are left out.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 State = tuple[int, int, int, int]
-"""What tells a touched file from an untouched one: size, inode, and the times of its contents and of its entry."""
+"""Size, inode, mtime and ctime: they differ if a file was touched."""
 
 _FLAGS = os.O_RDONLY
 for _name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
@@ -27,7 +27,7 @@ _KINDS = (
 
 
 class UnfitFileError(OSError):
-    """No regular file, or a larger one than is sane; `strerror` says which."""
+    """The file is no regular one, or larger than the limit; `strerror` says which."""
 
 
 class Content(NamedTuple):
@@ -38,14 +38,14 @@ class Content(NamedTuple):
 
 
 class Inputs:
-    """The files that a run has read, with the checksum of the very bytes that it compiled and their state then."""
+    """The files that a run has read, with the checksum of the bytes that it compiled, and their state at that time."""
 
     def __init__(self) -> None:
         self.digests: dict[Path, str] = {}
         self.states: dict[Path, State] = {}
 
     def note(self, path: Path, content: Content) -> None:
-        """Remember what was read from this file."""
+        """Note what was read from a file."""
         from hashlib import sha256
 
         self.digests[path] = sha256(content.data).hexdigest()
@@ -53,7 +53,7 @@ class Inputs:
 
 
 def shown_path(path: Path) -> str:
-    """The path for people: relative to the working folder if it lies inside that."""
+    """Return the path for messages: relative to the working folder if it lies below that."""
     try:
         return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
     except ValueError:
@@ -61,7 +61,7 @@ def shown_path(path: Path) -> str:
 
 
 def read_regular(path: str | os.PathLike[str], most: int) -> Content:
-    """A regular file of at most that many bytes; a link to one counts. Raises OSError."""
+    """Return the content of a regular file, or of a link to one, of at most `most` bytes. Raises OSError."""
     _refuse(_status(path), path, most)
     with open(os.open(path, _FLAGS), "rb") as stream:
         status = os.fstat(stream.fileno())  # what was opened may be another file by now
@@ -73,12 +73,12 @@ def read_regular(path: str | os.PathLike[str], most: int) -> Content:
 
 
 def state_of(status: os.stat_result) -> State:
-    """The state of a file as far as the system tells it."""
+    """Return the state of a file."""
     return status.st_size, status.st_ino, status.st_mtime_ns, status.st_ctime_ns
 
 
 def kind_of(status: os.stat_result) -> str | None:
-    """What a file is in words; None if it is a regular one."""
+    """Return what a file is, in words; None if it is a regular one."""
     if stat.S_ISREG(status.st_mode):
         return None
     return next((words for test, words in _KINDS if test(status.st_mode)), "it is a device")

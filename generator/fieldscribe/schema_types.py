@@ -1,6 +1,6 @@
-"""The classes of which the table of keys is made: where a key stands, which values it takes, and what they mean.
+"""The classes that the table of keys is made of: where a key stands, which values it takes, and what they mean.
 
-Plain classes, compared by identity: making them dataclasses would take longer than making the whole table.
+They are plain classes, compared by identity: the table is made in every run, and dataclasses would double that time.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class Form:
-    """How a text is written, or the keys of a mapping: a pattern of ECMAScript, and words for people.
+    """The form of a text or of a key: a regular expression of ECMAScript, its name in messages, and a hint.
 
-    `sign` is what KEYS.md writes for such a key.
+    `sign` stands for such a key in KEYS.md.
     """
 
     __slots__ = ("hint", "pattern", "sign", "words")
@@ -24,7 +24,7 @@ class Form:
 
 
 class Text:
-    """Text: of at most that many characters (0: as many as a file may have), of a form, or one of some `choices`."""
+    """A text: with a greatest length (0: no limit), of a form, or one of some `choices`."""
 
     __slots__ = ("choices", "form", "longest")
 
@@ -33,7 +33,7 @@ class Text:
 
 
 def one_of(*choices: str) -> Text:
-    """One of these texts."""
+    """Return the kind of a text that is one of these."""
     return Text(choices=choices)
 
 
@@ -47,7 +47,7 @@ class Whole:
 
 
 class Plain:
-    """A kind without bounds: any number, true or false, or nothing."""
+    """A kind of value without further rules: any number, true or false, or null."""
 
     __slots__ = ("word",)
 
@@ -57,7 +57,7 @@ class Plain:
 
 NUMBER, BOOLEAN, NOTHING = Plain("number"), Plain("boolean"), Plain("null")
 YES_NO = BOOLEAN, one_of("yes", "no")
-"""Every key that is true or false: `yes` and `no` are the words, `true` and `false` mean the same."""
+"""For every key that is true or false: people write `yes` and `no`; `true` and `false` mean the same."""
 
 
 class Items:
@@ -70,16 +70,16 @@ class Items:
 
 
 class Place:
-    """A mapping: the keys of the table that say they stand here, and keys of some forms (`by_form`).
+    """A mapping: it may have the keys of the table that name this place, and keys of some forms (`by_form`).
 
     A place with a `name` is a definition of the schema, one with a `heading` a table of KEYS.md. `before` and `after`
-    are what may stand there in its stead. The keys of `may_be` stand here, too: with
-    all that it requires, or none.
+    are other kinds of values that may stand in its stead. It may also have the keys of the place `may_be`: then all
+    that are required there.
     """
 
     __slots__ = ("by_form", "heading", "least", "may_be", "name", "required", "shape")
 
-    def __init__(  # noqa: PLR0913  # the words of an entry, by name where they are used
+    def __init__(  # noqa: PLR0913  # each is given by name where it is used
         self,
         name: str,
         heading: str,
@@ -99,7 +99,7 @@ class Place:
 
 
 def by(form: Form, shape: Shape, least: int = 0, required: tuple[str, ...] = ()) -> Place:
-    """A mapping from keys of a form to values of one shape."""
+    """Return a mapping from keys of a form to values of one shape."""
     return Place("", "", "", (), by_form={form: shape}, least=least, required=required)
 
 
@@ -107,7 +107,7 @@ Kind: TypeAlias = Text | Whole | Plain | Items | Place
 
 
 class Shape:
-    """What may stand in a spot: its kinds (none: anything), what it means, and examples, the best one first."""
+    """What a value may be: its kinds (none: anything), its meaning, and examples, the best one first."""
 
     __slots__ = ("examples", "kinds", "meaning")
 
@@ -116,11 +116,11 @@ class Shape:
 
 
 class Key:
-    """One key: its name, where it stands, and what stands at it.
+    """One key: its name, the places where it may stand, and the shape of its value.
 
-    `required` are the places that must have it, `needs` the keys that must stand beside it where they are known.
-    `inherited` are the places that say it for the points below them. An `own` key tells one point from another, so that
-    further sets do not take it. `of` is what a fact is about: WHOLE_NUMBERS, NUMBERS, TEXTS, or "" for any point.
+    `required` are the places that must have it; `needs` are the keys that must stand beside it. In the `inherited`
+    places it applies to all points below. An `own` key identifies a point, so that further sets do not inherit it.
+    `of` says which points it is about: WHOLE_NUMBERS, NUMBERS, TEXTS, or "" for all.
     """
 
     __slots__ = ("inherited", "name", "needs", "of", "own", "places", "required", "shape")
@@ -149,5 +149,5 @@ WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"
 
 
 def says_yes_or_no(shape: Shape) -> bool:
-    """Whether `yes` and `no` are words for true and false here; elsewhere they may be names."""
+    """Return True if `yes` and `no` mean true and false here; elsewhere they may be names."""
     return any(isinstance(kind, Text) and "yes" in kind.choices for kind in shape.kinds)

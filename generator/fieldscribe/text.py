@@ -1,7 +1,6 @@
-"""The one place where text from a description becomes a comment or a literal of some language.
+"""Encodes text from a description as a comment or a literal of a language; nothing else does.
 
-Descriptions come from strangers: whatever a title holds, the result of these functions stays inside its comment or
-quotes.
+Descriptions come from anybody. Whatever a title holds, the result stays inside its comment or its quotes.
 """
 
 from __future__ import annotations
@@ -12,11 +11,11 @@ from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
 _UNQUOTED = re.compile(r"[!#-\[\]-~\xb0]+(?: [!#-\[\]-~\xb0]+)*")
-"""A line that is its own text between double quotes, in most languages."""
+"""A line that needs no escape between double quotes, in most languages."""
 _BARE = re.compile(r"[A-Za-z0-9_.:/+-]*")
-"""What most codes and names are made of, and no language escapes."""
+"""The characters of most codes and names, which no language escapes."""
 _CELL = re.compile(r"[0-9A-Za-z.:/(][0-9A-Za-z_ .:/()%°;=+-]*")
-"""What most cells are made of: CSV quotes nothing of it, and only more than single spaces inside are folded."""
+"""The characters of most cells, which CSV does not quote."""
 _SPACES = re.compile(r"\s+")
 _QUERIES = re.compile(r"\?(?=\?)")
 _NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
@@ -24,12 +23,12 @@ _AUTOLINKS = (("://", "&#58;//"), ("www.", "www&#46;"), ("@", "&#64;"), ("$", "&
 _TYPEWRITER = str.maketrans(
     {"\u201e": '"', "\u201c": '"', "\u201d": '"', "\u2019": "'", "\u2013": "-", "\u2026": "..."}
 )
-"""Signs of printers that errata quote, as every editor of firmware shows them."""
+"""Typographic characters that errata quote, and what every editor can show."""
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def line(text: str) -> str:
-    """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
+    """Return one clean line: white space is folded; control, format (bidi) and unassigned characters are dropped."""
     if text.isprintable() and "  " not in text and text[:1] != " " and text[-1:] != " ":
         return text
     if not _PLAIN.fullmatch(text):
@@ -40,7 +39,7 @@ def line(text: str) -> str:
 
 @lru_cache(maxsize=4096)
 def c_comment(text: str) -> str:
-    """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
+    """Return text for a C block comment: without an end or start of a comment, trigraphs or line splices."""
     if text.isalnum() and text.isascii():
         return text
     cleaned = line(text).translate(_TYPEWRITER).replace("*/", "* /").replace("/*", "/ *")
@@ -49,7 +48,7 @@ def c_comment(text: str) -> str:
 
 @lru_cache(maxsize=4096)
 def c_string(text: str) -> str:
-    """A C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes (they end by themselves)."""
+    """Return a C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes of three digits."""
     if text.isalnum() and text.isascii():
         return f'"{text}"'
     escaped = []
@@ -61,7 +60,7 @@ def c_string(text: str) -> str:
 
 
 def python_string(text: str) -> str:
-    """A Python string literal as formatters write it: double quotes, unless single ones need fewer escapes."""
+    """Return a Python string literal as formatters write it: in single quotes if these need fewer escapes."""
     if _UNQUOTED.fullmatch(text):
         return f'"{text}"'
     cleaned = line(text)
@@ -78,21 +77,21 @@ def python_string(text: str) -> str:
 
 
 def python_doc(text: str) -> str:
-    """Text for inside a triple-quoted docstring or a `#` comment."""
+    """Return text for a triple-quoted docstring or a `#` comment."""
     if _UNQUOTED.fullmatch(text):
         return text
     return line(text).replace("\\", "\\\\").replace('"', "'")
 
 
 def rust_code(text: str) -> str:
-    """Text as code in a Rust `///` or `//` line, so that neither rustdoc nor clippy reads anything into it."""
+    """Return text as code for a Rust `///` or `//` line: rustdoc and clippy take it as it is."""
     if _BARE.fullmatch(text):
         return f"`{text}`"
     return f"`{line(text).replace('`', chr(39))}`"
 
 
 def rust_string(text: str) -> str:
-    """A Rust string literal with its quotes."""
+    """Return a Rust string literal with its quotes."""
     if _BARE.fullmatch(text):
         return f'"{text}"'
     cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
@@ -102,21 +101,21 @@ def rust_string(text: str) -> str:
 
 
 def toml_string(text: str) -> str:
-    """A TOML string with its quotes."""
+    """Return a TOML string with its quotes."""
     cleaned = line(text).replace("\\", "\\\\").replace('"', '\\"')
     return '"' + "".join([char if char.isprintable() else f"\\U{ord(char):08X}" for char in cleaned]) + '"'
 
 
 @lru_cache(maxsize=4096)
 def dbc_string(text: str) -> str:
-    """A string of a CAN database with its quotes: Latin-1, without what would end it or be read as an escape."""
+    """Return a string of a CAN database with its quotes: Latin-1, without quotes and backslashes inside."""
     cleaned = line(text).replace("\\", "/").replace('"', "'")
     return '"' + cleaned.encode("latin-1", "replace").decode("latin-1") + '"'
 
 
 @lru_cache(maxsize=4096)
 def markdown(text: str) -> str:
-    """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
+    """Return text for a Markdown paragraph or cell: without markup, HTML, links or cell borders."""
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     for sign, entity in _AUTOLINKS:
         cleaned = cleaned.replace(sign, entity)
@@ -124,7 +123,7 @@ def markdown(text: str) -> str:
 
 
 def csv_cell(text: str) -> str:
-    """A cell for CSV, quoted where needed; what a spreadsheet would run as a formula starts with an apostrophe."""
+    """Return a cell of CSV, quoted if needed; what a spreadsheet would run as a formula gets an apostrophe in front."""
     if not text or (_CELL.fullmatch(text) and "  " not in text and text[-1] != " "):
         return text
     cleaned = line(text)

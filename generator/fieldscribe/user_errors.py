@@ -1,4 +1,4 @@
-"""What a person asks for when frames are read or built, and the errors that say what cannot be done and why."""
+"""The options for frames that a user gives, and the errors for a request that cannot be met."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """Options for frames, None where they were not given; `own` holds by name those that only some families have."""
+    """The options for frames, None if not given; `own` has those of single families, by name."""
 
     framing: str | None = None
     unit: int | None = None
@@ -24,7 +24,7 @@ class Options:
 
 
 class UnclearError(Exception):
-    """What was asked for does not exist in the device, or more than once; `hint` says what to do (may be empty)."""
+    """The device does not have what the user named, or has it more than once; `hint` may be empty."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -33,9 +33,9 @@ class UnclearError(Exception):
 
 
 class RefusedError(Exception):
-    """A value that must not be sent. `status` is the one that generated code gives, or `missing`, `read_only`, ...
+    """A value must not be sent. `status` is that of generated code, or `missing`, `read_only` and the like.
 
-    `why` is what the message says behind the point that it is about.
+    `why` is the message without the name of the point.
     """
 
     def __init__(self, status: str, message: str, hint: str = "", *, why: str = "") -> None:
@@ -47,11 +47,11 @@ class RefusedError(Exception):
 
 
 def did_you_mean(names: list[str]) -> str:
-    """A hint that offers near names; empty when there are none."""
+    """Return a hint that offers near names; empty if there are none."""
     return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
 
 
 def quoted(text: str) -> str:
-    """What a person typed, as messages repeat it: clean and short."""
+    """Return what a user typed as messages repeat it: clean and short."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."

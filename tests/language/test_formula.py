@@ -386,7 +386,7 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert 0 <= error.column <= len(text)
             assert (error.message + error.hint).isprintable()
     cut_off(text)
-    assert process_time() - begun < 0.2
+    assert process_time() - begun < 0.5
 
 
 def test_a_sign_that_only_divides_is_no_interval() -> None:

@@ -1,7 +1,14 @@
-"""The one table of keys; JSON Schema, KEYS.md, the checks of files and all lists of keys come from it.
+"""The table of all keys. The JSON Schema, KEYS.md, the checks of files and all lists of keys follow from it.
 
-A new key is one `Key` in one of the modules here, or in the part `description` of a family that alone has it. What it
-is written in stands in `fieldscribe/schema_types.py`.
+To add a key:
+
+1. Write one `Key` (see `fieldscribe/schema_types.py`) in the module here that has its neighbours: `files`, `points`,
+   `meaning`, `nested_keys`, `bus` or `frames`; for one family alone in the part `description` of that family. Its
+   `places` come from `places.py`. Run `make keys`: editors and `check` know the key now.
+2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`), and give the model a field for it with a
+   default, so that nothing changes for descriptions without the key.
+3. If people should see it, add a row to the table of facts (`fieldscribe/facts/`): pages, export and `diff` follow.
+4. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
 """
 
 from __future__ import annotations
@@ -18,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def keys_of_family(bus_family: Family) -> tuple[Key, ...]:
-    """The keys that only this family has."""
+    """Return the keys that only this family has."""
     part = bus_family.part("description")
     return () if part is None else tuple(part.KEYS)
 
@@ -34,7 +41,7 @@ TABLE: tuple[Key, ...] = (
     *frames.KEYS,
     *(key for bus_family in families() for key in keys_of_family(bus_family)),
 )
-"""All keys, in the order of each table of KEYS.md; those that only one family has are the last."""
+"""All keys, in the order of KEYS.md; those of one family alone come last."""
 
 _AT: dict[Place, dict[str, Key]] = {}
 for _key in TABLE:
@@ -43,18 +50,18 @@ for _key in TABLE:
 
 
 def keys_of(place: Place) -> dict[str, Key]:
-    """The keys that may stand in a place, by name."""
+    """Return the keys that may stand in a place, by name."""
     own_keys = _AT.get(place, {})
     return own_keys if place.may_be is None else keys_of(place.may_be) | own_keys
 
 
 def required(place: Place) -> tuple[str, ...]:
-    """The keys that a place must have."""
+    """Return the keys that a place must have."""
     return (*place.required, *(name for name, key in keys_of(place).items() if place in key.required))
 
 
 def needs(place: Place) -> dict[str, list[str]]:
-    """The keys of a place that need others beside them."""
+    """Return the keys of a place that need other keys, with those."""
     known = keys_of(place)
     needed_by = {name: [needed for needed in key.needs if needed in known] for name, key in known.items()}
     if place.may_be is not None:
@@ -64,22 +71,22 @@ def needs(place: Place) -> dict[str, list[str]]:
 
 
 def inherited(place: Place) -> tuple[str, ...]:
-    """The keys of a place that apply to all points below it."""
+    """Return the keys of a place that apply to all points below it."""
     return tuple(name for name, key in keys_of(place).items() if place in key.inherited)
 
 
 def facts_of(place: Place, *subjects: str) -> tuple[str, ...]:
-    """The keys of a place whose values are facts of one sort: WHOLE_NUMBERS, NUMBERS or TEXTS."""
+    """Return the keys of a place that are about WHOLE_NUMBERS, NUMBERS or TEXTS."""
     return tuple(name for name, key in keys_of(place).items() if key.of in subjects)
 
 
 def own(place: Place) -> frozenset[str]:
-    """The keys of a place that tell one point from another."""
+    """Return the keys of a place that identify a point, so that further sets do not inherit them."""
     return frozenset(name for name, key in keys_of(place).items() if key.own)
 
 
 def lists_with(place: Place, name: str) -> tuple[str, ...]:
-    """The keys of a place that list mappings with the key `name`."""
+    """Return the keys of a place whose values are lists of mappings that have the key `name`."""
     return tuple(
         key.name
         for key in keys_of(place).values()

@@ -1,4 +1,4 @@
-"""The keys under `bus`, and those of its codes."""
+"""The keys under `bus`, and the keys of its codes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ _BY_TYPE = Place("", "", "", ())
 _PRINTED = Place(
     "",
     "",
-    "Redundant facts as printed: `bytes`, the largest amount of data; `answers` and `refusals` where one list "
-    "contradicts another.",
+    "What the manual prints a second time: `bytes`, the largest amount of data; `answers` and `refusals`, if one "
+    "list contradicts another.",
     [{"bytes": 8}],
 )
 _SETTING = Shape(
@@ -27,13 +27,13 @@ _SETTING = Shape(
 CODES = by(forms.NUMBER, CODE.shape, least=1)
 
 KEYS = (
-    Key("units", BUS, "The unit addresses a device can have.", ["1..32"], Text(40), required=True),
+    Key("units", BUS, "The unit addresses that a device can have.", ["1..32"], Text(40), required=True),
     Key("broadcast", BUS, "The unit address that means all devices.", [0], Whole(0, 255)),
-    Key("bitrate", BUS, "CAN: bits a second.", [125000], Whole(1, 1_000_000_000)),
+    Key("bitrate", BUS, "CAN: the bit rate in bit/s.", [125000], Whole(1, 1_000_000_000)),
     Key(
         "functions",
         BUS,
-        "The function codes with their limits; of a USS drive the task ids, 0 too.",
+        "The function codes with their limits; for a USS drive the task ids, with 0.",
         [{"03h": {"name": "read_holding_registers", "max": 4}}],
         CODES,
     ),
@@ -47,7 +47,7 @@ KEYS = (
     Key(
         "words",
         BUS,
-        "The order of words in values of more than one word, for all types or by type.",
+        "The order of the words of a value that has several, for all types or by type.",
         ["high first", {"f32": "low first"}],
         Text(form=forms.WORD_ORDER),
         _BY_TYPE,
@@ -74,22 +74,22 @@ KEYS = (
     Key(
         "timing",
         BUS,
-        "Times as the manual says them.",
+        "Times as the manual gives them.",
         [{"silent_characters": 3.5}],
         by(forms.ANY, Shape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
     ),
     Key(
         "serial",
         BUS,
-        "Settings of the serial line: lists, or codes with their meanings.",
+        "Settings of the serial line: lists of choices, or codes with their meanings.",
         [{"baud": {"4": 4800}, "stop_bits": [1, 2]}],
         by(forms.ANY, _SETTING),
     ),
     Key(
         "lines",
         BUS,
-        "Where the manual prints single facts of the bus, by their keys here, under `serial` and under `timing`: the "
-        "audit holds them against it.",
+        "For the audit: the lines of the manual's text with single facts of the bus, by their keys here, under "
+        "`serial` and under `timing`.",
         [{"units": 32, "parity": 28}],
         by(forms.ANY, LINES_OF),
     ),
@@ -97,19 +97,19 @@ KEYS = (
     Key(
         "broadcast",
         CODE,
-        "Whether a function may be sent to all units at once; without the key 05h, 06h, 0Fh and 10h may.",
+        "Say `yes` if a function may be sent to all units at once; by default only 05h, 06h, 0Fh and 10h may.",
         ["no"],
         *YES_NO,
     ),
     Key(
         "answers",
         CODE,
-        "USS: of a task the responses that it can get, of a response or an error the tasks that can get it.",
+        "USS: for a task the responses that it can get; for a response or an error the tasks that can get it.",
         [[1, 2, 14]],
         SEVERAL,
     ),
-    Key("refusals", CODE, "USS: of a task the responses that refuse it.", [[1, 2, 14]], SEVERAL),
+    Key("refusals", CODE, "USS: for a task the responses that refuse it.", [[1, 2, 14]], SEVERAL),
     Key("printed", CODE, _PRINTED.shape),
-    Key("bytes", _PRINTED, "Data bytes in one request.", [8], Whole(0, 1_000_000_000)),
+    Key("bytes", _PRINTED, "The most data bytes in one request, as printed.", [8], Whole(0, 1_000_000_000)),
     *(Key(name, _PRINTED, "The list as printed.", [[1, 2, 14]], SEVERAL) for name in ("answers", "refusals")),
 )

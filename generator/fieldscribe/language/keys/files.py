@@ -1,4 +1,4 @@
-"""The keys of device.yaml, of parts and of groups."""
+"""The keys at the top of a file: of device.yaml, of parts and of groups, and the sections that declare things."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ _DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}]
 _AXIS = Place("", "", "One axis.", [{"values": {"200V": {}}}])
 _UNIT = Place("", "", "One unit.", [{"name": "hertz", "quantity": "frequency"}])
 _PROPERTY = Shape(
-    "A property of the variant. `pzd` says how many words of process data it takes at most (family uss).",
+    "A property of the variant. `pzd` (family uss): the most words of process data that it takes.",
     [3],
     *(Text(200), NUMBER),
 )
-_VALUE = Place("", "", "One value and what is known of it.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY})
+_VALUE = Place(
+    "", "", "One value of the axis, and its properties.", [{"title": "200 V class"}], by_form={forms.ANY: _PROPERTY}
+)
 
 HEADS = (
     Key("fieldscribe", DEVICE, "The version of the language.", [1], Whole(choices=(1,)), required=True),
@@ -31,16 +33,16 @@ HEADS = (
     Key(
         "version",
         DEVICE,
-        "The version of this description; quote it when it looks like a number.",
+        "The version of this description; quote it if it looks like a number.",
         ["1.0.0"],
         Text(form=forms.VERSION),
         required=True,
     ),
-    Key("vendor", DEVICE, "Who makes the device.", ["Hitachi"], Text(200), required=True),
+    Key("vendor", DEVICE, "The maker of the device.", ["Hitachi"], Text(200), required=True),
     Key(
         "model",
         DEVICE,
-        "The product's own name; quote it when it looks like a number.",
+        "The name of the product; quote it if it looks like a number.",
         ["L200"],
         Text(200),
         required=True,
@@ -48,7 +50,7 @@ HEADS = (
     Key(
         "family",
         DEVICE,
-        "The addressing and framing rules that the device shares with others.",
+        "The rules of addressing and framing that the device follows.",
         ["modbus"],
         one_of(*FAMILIES),
         required=True,
@@ -74,22 +76,21 @@ HEADS = (
     Key(
         "telegram",
         GROUP,
-        "The telegram whose words the points are, in the space `telegram`.",
+        "In the space `telegram`: the telegram whose words are the points.",
         ["visualisation"],
         NAMED,
     ),
     Key(
         "addressing",
         GROUP,
-        "How addresses follow from `at`, which is the `number`, and what stands beside it: a formula of number, index, "
-        "set, sets, indices.",
+        "The formula of an address: of `number` (what `at` says), index, set, sets and indices.",
         ["number * 64 + (index - 1) * sets + (set - 1)"],
         Text(200),
     ),
     Key(
         "numbering",
         GROUP,
-        "How the numbers that the manual prints follow from the wire address.",
+        "How the printed numbers follow from the address on the wire.",
         [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
         by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
     ),
@@ -103,7 +104,7 @@ SECTIONS = (
     Key(
         "documents",
         DEVICE,
-        "The manuals that the facts come from.",
+        "The manuals that the facts are taken from.",
         [{"manual": {"title": "ModBus Netzwerk Kommunikation", "language": "de"}}],
         by(forms.NAME, _DOCUMENT.shape, least=1),
         required=True,
@@ -112,12 +113,12 @@ SECTIONS = (
     Key(
         "language",
         _DOCUMENT,
-        "Its language, two letters.",
+        "Its language, in two letters.",
         ["de"],
         Text(form=forms.LANGUAGE),
         required=True,
     ),
-    Key("file", _DOCUMENT, "The file its text was extracted to.", ["hitachi_l200_modbus.txt"], Text(200)),
+    Key("file", _DOCUMENT, "The file that its text was extracted to.", ["hitachi_l200_modbus.txt"], Text(200)),
     Key(
         "sha256",
         _DOCUMENT,
@@ -129,15 +130,15 @@ SECTIONS = (
     Key(
         "writes",
         _DOCUMENT,
-        "How it writes what a description writes otherwise: letters of codes, bits, numbers, titles, the `default`. "
-        "No words: it does not print the title. The audit asks.",
+        "For the audit: how the manual writes what a description writes otherwise (letters of codes, bits, numbers, "
+        "titles, the `default`). An empty list: it does not print the title.",
         [{"P": ["Parameter"], "15..8": ["Highbyte"], "0": ["Null"], "Basisfrequenz": ["Basisfrequ."], "Ausgang 2": []}],
         by(forms.WRITTEN, Shape("Its words.", [["Parameter"]], Items(_WORD))),
     ),
     Key(
         "access",
         _DOCUMENT,
-        "How it prints who may read and write; the audit asks.",
+        "For the audit: how the manual prints each access.",
         [{"r": ["R/O"], "rw": ["R/W"]}],
         by(
             forms.ACCESS,
@@ -147,14 +148,14 @@ SECTIONS = (
     Key(
         "names",
         _DOCUMENT,
-        "Its words with digits in them that are no facts; the audit passes them over.",
+        "For the audit: names with digits in them that are no facts.",
         [["CRC-16", "RS485", "MICROMASTER 4"]],
         Items(Shape("A name.", ["CRC-16"], Text(80))),
     ),
     Key(
         "variants",
         DEVICE,
-        "What is fixed when a device object is made, by axis.",
+        "What is chosen when a device object is made, by axis.",
         [{"voltage": {"values": {"200V": {}, "400V": {}}}}],
         by(forms.NAME, _AXIS.shape),
     ),
@@ -177,7 +178,7 @@ SECTIONS = (
     Key(
         "units",
         FILES,
-        "Units beside the shipped ones, by symbol.",
+        "Units that are not shipped with the compiler, by symbol.",
         [{"rpm": {"name": "revolution per minute", "quantity": "speed"}}],
         by(forms.ANY, _UNIT.shape),
     ),
@@ -186,7 +187,7 @@ SECTIONS = (
     Key(
         "enums",
         FILES,
-        "Enums that several points use.",
+        "Enums that several points share, by name.",
         [{"contact": {"0": "open", "1": "closed"}}],
         by(
             forms.NAME,
@@ -200,39 +201,53 @@ SECTIONS = (
     Key(
         "formats",
         FILES,
-        "What points mean, by name.",
+        "Meanings that points share, by name.",
         [{"percent_tenth": {"unit": "%"}}],
         by(forms.NAME, places.FORMAT.shape),
     ),
     Key(
         "records",
         FILES,
-        "Points that repeat together, by name.",
+        "Groups of points that repeat together, by name.",
         [{"trip": {"points": [{"name": "error", "at": "base"}]}}],
         by(forms.NAME, places.RECORD.shape),
     ),
     Key("bus", FILES, places.BUS.shape),
-    Key("telegrams", FILES, "Cyclic layouts of words.", [places.TELEGRAM.shape.examples], Items(places.TELEGRAM.shape)),
+    Key(
+        "telegrams",
+        FILES,
+        "The cyclic telegrams: layouts of words.",
+        [places.TELEGRAM.shape.examples],
+        Items(places.TELEGRAM.shape),
+    ),
     Key(
         "messages",
         FILES,
-        "Layouts of the bytes of a frame.",
+        "The messages: layouts of the bytes of a frame.",
         [places.MESSAGE.shape.examples],
         Items(places.MESSAGE.shape),
     ),
-    Key("commands", FILES, "Named constant writes.", [places.COMMAND.shape.examples], Items(places.COMMAND.shape)),
-    Key("frames", FILES, "The manual's worked examples.", [places.FRAME.shape.examples], Items(places.FRAME.shape)),
+    Key(
+        "commands",
+        FILES,
+        "The commands: constants that are written under a name.",
+        [places.COMMAND.shape.examples],
+        Items(places.COMMAND.shape),
+    ),
+    Key(
+        "frames", FILES, "The worked examples of the manual.", [places.FRAME.shape.examples], Items(places.FRAME.shape)
+    ),
     Key(
         "errata",
         FILES,
-        "Where the manual is wrong, unclear or silent.",
+        "The places where the manual is wrong, unclear or silent.",
         [places.ERRATUM.shape.examples],
         Items(places.ERRATUM.shape),
     ),
     Key(
         "looked_through",
         FILES,
-        "Lines of the manual that nothing was taken from; the audit leaves them out.",
+        "Lines of the manual that hold no facts; the audit ignores them.",
         [places.LOOKED_THROUGH.shape.examples],
         Items(places.LOOKED_THROUGH.shape),
     ),

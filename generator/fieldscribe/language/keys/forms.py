@@ -1,4 +1,4 @@
-"""The forms of texts and keys, each with its words for findings and its sign for KEYS.md."""
+"""The forms of texts and of keys: a pattern, its name in messages, a hint, and its sign in KEYS.md."""
 
 from __future__ import annotations
 
@@ -53,18 +53,18 @@ ACCESS = Form("^(r|w|rw|none)$", "an access", "access is r, w, rw or none", "<ac
 LANGUAGE = Form("^[a-z]{2}$", "a language", "languages have two letters: en, de, fr", "<language>")
 PRIVATE = Form("^x-", "a private key", "keys of your own start with x-", "x-<anything>")
 ANY = Form("", "a word", "any word is fine", "<any>")
-"""Any key that the table does not list and no other form fits."""
+"""Any key that the table does not have and that fits no other form."""
 
 _LONG = _WHOLE.replace("{1,5}", "{1,18}")
 WHOLE = Form(f"^[-+]?{_LONG}$", "a whole number", "write a whole number: 4136, 0x1028, 1028h, H'33F, 0b0101")
-"""A whole number in a notation that YAML does not take for one."""
+"""A whole number in a notation that YAML takes for text."""
 LINES = Form(f"^{_LONG}(\\.\\.{_LONG})?$", "a line or lines", "lines are written 780, several lines 780..790")
 VERSION = Form(
     "^(0|[1-9][0-9]{0,2}|[1-3][0-9]{3})(\\.(0|[1-9][0-9]{0,2})){2}$",
     "a version",
     "write three numbers, at most 3999.999.999: 1.0.0",
 )
-"""So that one number of 32 bits can hold it, and Cargo takes it."""
+"""It fits a number of 32 bits, and Cargo accepts it."""
 BYTES = Form("^[0-9A-Fa-f\\s]+$", "bytes in hexadecimal", "write two digits for each byte: 05 06 10 28")
 SHA256 = Form(
     "^[0-9a-f]{64}$", "a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"

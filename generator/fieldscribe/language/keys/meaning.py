@@ -1,4 +1,4 @@
-"""The keys that say what the number of a point means."""
+"""The keys that say what the number of a point means: type, scale, unit, limits, names."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ KEYS = (
     Key(
         "type",
         _GROUPED,
-        "The wire type; u16 unless said. ~ where the manual does not settle it: the point is then documented only.",
+        "The type on the wire; u16 by default. ~ if the manual leaves it open: the point is then documented and not "
+        "generated.",
         ["s16", "u32"],
         one_of(*TYPES),
         NOTHING,
@@ -37,22 +38,22 @@ KEYS = (
     Key(
         "untyped",
         FACTS,
-        "What the manual says of an encoding that no `type` says (48 bits, sign and magnitude, logarithmic): the "
-        "point is then documented only, its words reachable raw.",
+        "An encoding that no `type` covers (48 bits, sign and magnitude, logarithmic), in words: the point is then "
+        "documented and not generated; its words can be read raw.",
         ["48-bit counter, the high word first"],
         Text(80),
     ),
     Key(
         "length",
         FACTS,
-        "How many words a point has that is `untyped`, or whose type is not settled; 1 unless said.",
+        "The number of words of a point that is `untyped` or whose type is open; 1 by default.",
         [3],
         Whole(1, 125),
     ),
     Key(
         "words",
         _GROUPED,
-        "The order of the words of a value of more than one word.",
+        "The order of the words of a value that has several.",
         ["low first"],
         WORD_ORDER,
         inherited=(GROUP,),
@@ -60,7 +61,8 @@ KEYS = (
     Key(
         "range",
         (*_GROUPED, places.PRINTED),
-        "Raw numbers that may be written: an interval, several, or a list; limits may name other points.",
+        "The raw numbers that may be written: an interval, several intervals, or a list; a limit may name another "
+        "point.",
         ["0..4000", "-99..-70 | 70..100", "0, 1, 2, 3, 10", "30..A004"],
         Text(500),
         Whole(),
@@ -71,7 +73,8 @@ KEYS = (
     Key(
         "range_in_units",
         (*FACTS, places.PRINTED),
-        "Values in the unit that may be written: an interval, several, or a list; limits may name other points.",
+        "The values in the unit that may be written: an interval, several intervals, or a list; a limit may name "
+        "another point.",
         ["40..70", "0.5..2.5", "30..A004"],
         Text(500),
         Whole(),
@@ -81,8 +84,8 @@ KEYS = (
     Key(
         "scale",
         _GROUPED,
-        "How raw number and value follow from each other, as the manual says it; names are points read at run time. ~ "
-        "where the manual does not settle it: the point is then documented only.",
+        "The rule between raw number and value, as the manual writes it; a name is a point that is read at run time. "
+        "~ if the manual leaves it open: the point is then documented and not generated.",
         ["value = raw * 0.1", "raw = value * 256"],
         Text(500),
         Items(places.CASE.shape, 1),
@@ -93,7 +96,7 @@ KEYS = (
     Key(
         "unit",
         _GROUPED,
-        "The unit's symbol; more are declared under `units`.",
+        "The symbol of the unit; `units` declares further ones.",
         ["Hz", "%"],
         Text(20),
         inherited=(GROUP,),
@@ -102,7 +105,7 @@ KEYS = (
     Key(
         "decimals",
         FACTS,
-        "The integer path counts in 10^-decimals units; computed unless said.",
+        "The resolution of integer code: it counts in 10^-decimals units. Computed from the scale by default.",
         [3],
         Whole(0, 12),
         of=WHOLE_NUMBERS,
@@ -117,12 +120,12 @@ KEYS = (
         required=(places.DIGITS,),
         of=WHOLE_NUMBERS,
     ),
-    Key("open", FACTS, "Whether numbers without a name may be written too.", ["yes"], *YES_NO),
+    Key("open", FACTS, "Say `yes` if numbers without a name may be written too.", ["yes"], *YES_NO),
     Key(
         "special",
         (places.DEVICE, *_GROUPED, places.OF_TYPE),
-        "Special codes: raw numbers that are no quantity, with their names; `a..b` names a band. Of f32 and f64 the "
-        "bit patterns.",
+        "Special codes: raw numbers that are no quantity, with their names; `a..b` is a band. For f32 and f64: bit "
+        "patterns.",
         [
             {"0FFFCh": "transducer_fault"},
             {"7FFFh": {"name": "not_available", "no_value": "yes"}},
@@ -135,8 +138,8 @@ KEYS = (
     Key(
         "flags",
         FACTS,
-        "Bits by number, `5..4` for several; bit 0 is the lowest of the word, also where the point takes only some of "
-        "its bits.",
+        "Names for bits by number, `5..4` for several bits. Bit 0 is the lowest bit of the word, even if the point "
+        "has only some of its bits.",
         [{"0": "ready", "3": {"name": "fault", "active": 0}}],
         by(forms.BITS, places.FLAG.shape, least=1),
         of=WHOLE_NUMBERS,
@@ -144,27 +147,27 @@ KEYS = (
     Key(
         "characters",
         FACTS,
-        "How many characters a text has; two stand in a word, and 125 words at most travel at once.",
+        "The number of characters of a text: two in each word, at most 250.",
         [16],
         Whole(2),
         of=TEXTS,
     ),
     Key(
-        "encoding", FACTS, "The encoding of a text; ascii unless said.", ["ascii"], one_of("ascii", "latin-1"), of=TEXTS
+        "encoding", FACTS, "The encoding of a text; ascii by default.", ["ascii"], one_of("ascii", "latin-1"), of=TEXTS
     ),
     Key("digits", FACTS, places.DIGITS.shape, of=WHOLE_NUMBERS),
     Key("fixed", FACTS, places.FIXED.shape, of=WHOLE_NUMBERS),
     Key(
         "changes_with",
         FACTS,
-        "Read as a run-time factor, the value must be read again after one of these points was written.",
+        "Points whose writes change this one: as a run-time factor it is read again after them.",
         [["transformer_primary"]],
         Items(Shape("A point by code or name.", ["transformer_primary"], Text(80)), 1),
     ),
     Key(
         "default",
         FACTS,
-        "The factory setting as it travels: a raw number, or the name of an enum's number or of a special code.",
+        "The factory setting as a raw number, or as a name from the enum or of a special code.",
         [500, "terminal"],
         Whole(),
         Text(64),
@@ -174,7 +177,7 @@ KEYS = (
     Key(
         "steps",
         FACTS,
-        "From which raw number on the device keeps only every n-th.",
+        "The steps that the device keeps: from each raw number on, only every n-th number.",
         [{"1": 1, "10000": 10}],
         by(forms.NUMBER, Shape("The step in raw numbers.", [10], Whole(1, 1_000_000_000)), least=1),
         of=WHOLE_NUMBERS,

@@ -1,4 +1,4 @@
-"""The keys inside the facts of points: enums, flags, special codes, what is printed and where."""
+"""The keys nested inside facts of points: of enums, flags, special codes, printed facts and sources."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, T
 _FLAG_PRINTED = Place(
     "",
     "",
-    "What the manual prints redundantly about the flag, in bits of the word.",
+    "What the manual prints a second time about the flag, in bits of the word.",
     [{"mask": "0x0002"}, {"bit": 4}, {"active": 0}],
     least=1,
 )
@@ -36,31 +36,33 @@ _CITED = (
 """The facts that `lines` can place."""
 
 KEYS = (
-    Key("count", DIGITS, "How many digits.", [4], Whole(1, 5), required=True),
+    Key("count", DIGITS, "The number of digits.", [4], Whole(1, 5), required=True),
     Key(
         "decimals",
         DISPLAY,
-        "With how many decimals a value is shown, rounded to nearest, halves away from zero; zeros at its end stay.",
+        "The number of decimals that are shown: rounded to nearest, halves away from zero, with zeros at the end.",
         [2],
         Whole(0, 12),
         required=True,
     ),
-    Key("when", CASE, "A point compared with a constant.", ["unit_mode == 0"], Text(200), required=True),
-    Key("rule", CASE, "The rule that then holds.", ["raw = value * 100"], Text(500), required=True),
-    Key("quantity", ENTRY, "A quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),
-    Key("no_value", SPECIAL_CODE, "The code says that there is no value.", ["yes"], *YES_NO),
-    Key("writable", SPECIAL_CODE, "The code may be written; without this it is only read.", ["yes"], *YES_NO),
+    Key("when", CASE, "A comparison of a point with a constant.", ["unit_mode == 0"], Text(200), required=True),
+    Key("rule", CASE, "The rule if the comparison is true.", ["raw = value * 100"], Text(500), required=True),
+    Key("quantity", ENTRY, "The quantity that the number stands for.", ["0.37 kW", "100 ms"], Text(80)),
+    Key("no_value", SPECIAL_CODE, "The code means that there is no value.", ["yes"], *YES_NO),
+    Key("writable", SPECIAL_CODE, "The code may be written; by default it is only read.", ["yes"], *YES_NO),
     *(Key(name, TYPES, OF_TYPE.shape) for name in WIRE_TYPES if name not in ("bit", "text")),
-    Key("active", FLAG, "The value at which the name is true; 0 for an inverted bit.", [0], _ONE_BIT),
+    Key("active", FLAG, "The value of the bit that makes the name true; 0 for an inverted bit.", [0], _ONE_BIT),
     Key(
         "zero",
         FLAG,
-        "What 0 means.",
+        "What 0 means, in words.",
         [{"en": "not ready"}],
         Text(2000),
         by(forms.LANGUAGE, in_language("nicht bereit")),
     ),
-    Key("one", FLAG, "What 1 means.", [{"en": "ready"}], Text(2000), by(forms.LANGUAGE, in_language("bereit"))),
+    Key(
+        "one", FLAG, "What 1 means, in words.", [{"en": "ready"}], Text(2000), by(forms.LANGUAGE, in_language("bereit"))
+    ),
     Key(
         "values",
         FLAG,
@@ -72,13 +74,13 @@ KEYS = (
     Key("printed", FLAG, _FLAG_PRINTED.shape),
     Key("mask", _FLAG_PRINTED, PRINTED_NUMBER),
     Key("bit", _FLAG_PRINTED, "The number of the bit, or of the lowest one.", [4], Whole(0, 63)),
-    Key("active", _FLAG_PRINTED, "The value at which the name is said to be true.", [0], _ONE_BIT),
+    Key("active", _FLAG_PRINTED, "The printed value that makes the name true.", [0], _ONE_BIT),
     Key("resolution", PRINTED, "The resolution as printed, with its unit.", ["0.1 Hz"], Text(80), NUMBER),
-    Key("choices", PRINTED, "How many choices the manual says there are.", [5], Whole(0, 1_000_000_000)),
+    Key("choices", PRINTED, "The number of choices that the manual gives.", [5], Whole(0, 1_000_000_000)),
     Key(
         "pairs",
         PRINTED,
-        "Raw numbers with their values in the unit, as printed side by side.",
+        "Raw numbers with their values in the unit, as printed beside each other.",
         [{"FF9Eh": -0.98, "0064h": 1.0}],
         by(forms.NUMBER, Shape("The value in the unit.", [-0.98], NUMBER, Text(64)), least=1),
     ),
@@ -86,28 +88,28 @@ KEYS = (
     Key(
         "section",
         SOURCE,
-        "The section as the manual numbers or calls it; quote what looks like a number.",
+        "The section as the manual numbers or names it; quote it if it looks like a number.",
         ["4.2.10", "Gruppe A"],
         Text(200),
     ),
-    Key("page", SOURCE, "The printed page.", [21], Whole(), Text()),
+    Key("page", SOURCE, "The printed page number.", [21], Whole(), Text()),
     Key("line", SOURCE, "The line in the text extracted from the manual.", [780], Whole(1, LAST_LINE)),
     *(Key(fact, LINES, LINES_OF) for fact in _CITED),
     Key("lines", LOOKED_THROUGH, LINES_OF, required=True),
     Key(
         "numbers",
         LOOKED_THROUGH,
-        "The numbers there that are no facts, if the lines hold facts too; the audit passes them over.",
+        "If the lines hold facts too: the numbers in them that are no facts. The audit ignores these.",
         [[1, 2, "1028h"]],
         Items(PRINTED_NUMBER, 1),
     ),
     Key(
         "words",
         LOOKED_THROUGH,
-        "The words and phrases there that are no facts, if the lines hold facts too; the audit passes them over.",
+        "If the lines hold facts too: the words and phrases in them that are no facts. The audit ignores these.",
         [["wrench size"]],
         Items(Shape("A word or phrase as printed.", ["wrench size"], Text(200), Whole()), 1),
     ),
-    Key("why", LOOKED_THROUGH, "What stands there, in a few words.", ["Wiring."], Text(500), required=True),
-    Key("document", LOOKED_THROUGH, "The document, if not the first one.", ["manual"], Text()),
+    Key("why", LOOKED_THROUGH, "What the lines are about, in a few words.", ["Wiring."], Text(500), required=True),
+    Key("document", LOOKED_THROUGH, "The document, if it is not the first one.", ["manual"], Text()),
 )

@@ -11,8 +11,8 @@ _PRIVATE = {forms.PRIVATE: ANYTHING}
 DEVICE = Place(
     "device_file",
     "The head of device.yaml",
-    "What device.yaml starts with: what the device is, and which files its parts are. Parts may also follow below, "
-    "each after a line `---`.",
+    "The start of device.yaml: what the device is, and which files are its parts. Parts may also follow below, each "
+    "after a line `---`.",
     [
         {
             "fieldscribe": 1,
@@ -30,7 +30,7 @@ DEVICE = Place(
 GROUP = Place(
     "group",
     "A group, in a part",
-    "What the points of a part share, with its `points`: a part holds one group at most.",
+    "The points of a part, and what they share. A part has at most one group.",
     [
         {
             "group": "standard_a",
@@ -45,8 +45,8 @@ GROUP = Place(
 PART = Place(
     "part_file",
     "A part",
-    "A document of a file that device.yaml lists under `parts`, or of device.yaml itself below `---`: one group (the "
-    "keys of the next table), shared facts, or both.",
+    "A document in a file that device.yaml lists under `parts`, or below a `---` in device.yaml itself: one group "
+    "(with the keys of the next table), shared facts, or both.",
     [
         {"group": "standard_a", "space": "holding", "points": []},
         {"enums": {"contact": {"0": "open", "1": "closed"}}},
@@ -66,17 +66,16 @@ SET = Place(
 ELEMENT = Place(
     "element",
     "A point in one element of an array, under `each`",
-    "What is different in this element of an array.",
+    "What differs in this element of an array.",
     [{"default": 52, "line": 377}],
 )
 VARIANT = Place(
-    "variant_facts", "A point in a variant, under `variants`", "The facts of this variant.", [{"range": "660..780"}]
+    "variant_facts", "A point in a variant, under `variants`", "What differs in this variant.", [{"range": "660..780"}]
 )
 USE = Place(
     "use",
     "A use of a record: a point with `record`",
-    "Different points that repeat together: what is said here holds for all of them, single ones stand under "
-    "`members`.",
+    "A record at one of its places: what is said here holds for all its members; `members` has what differs.",
     [{"name": "trip_1", "record": "trip", "at": "0012h"}],
     by_form=_PRIVATE,
 )
@@ -89,40 +88,40 @@ MEMBER = Place(
 FORMAT = Place(
     "format",
     "A format, under `formats`",
-    "What a point means, to be shared by name.",
+    "What a point means, shared by name.",
     [{"scale": "value = raw * 0.1", "unit": "%"}],
 )
 FIXED = Place(
     "fixed",
     "Fixed bits, under `fixed`",
-    "Bits of the word that are always written as this constant, `7..3` for several.",
+    "Bits of the word that are always written as a constant, `7..3` for several bits.",
     [{"10": 1}],
-    by_form={forms.BITS: Shape("What the bits are written as.", [1], Whole(), Text(40))},
+    by_form={forms.BITS: Shape("The constant.", [1], Whole(), Text(40))},
     least=1,
 )
 DIGITS = Place(
     "digits",
     "Decimal digits, under `digits`",
-    "The decimal digits of the word mean something each, the highest first: how many there are, and the names of their "
+    "A word whose decimal digits each have a meaning, the highest first: how many digits, and the names of their "
     "numbers.",
     [{"count": 4, "enum": "input_delay"}],
 )
 DISPLAY = Place(
     "display",
     "How a value is shown, under `display`",
-    "How a person should see a value. What is encoded, decoded and checked does not change.",
+    "How a value is shown to people. Encoding, decoding and limits do not change.",
     [{"decimals": 2}],
 )
 RECORD = Place(
     "record",
     "A record, under `records`",
-    "Points that stand together at several places; `at` of each counts from `base`.",
+    "Points that repeat together at several places; the `at` of each counts from `base`.",
     [{"points": [{"name": "error", "at": "base"}]}],
 )
 CASE = Place(
     "scale_case",
     "A case of a scale",
-    "One rule of a scale that another point chooses.",
+    "One rule of a scale, if another point has a certain raw number.",
     [{"when": "unit_mode == 0", "rule": "raw = value * 100"}],
 )
 ENTRY = Place(
@@ -136,8 +135,8 @@ ENTRY = Place(
 SPECIAL_CODE = Place(
     "special_code",
     "A special code, under `special`",
-    "A name for this code, or a name with titles by language and what the code means; ~ takes away a code that a "
-    "format, the group or the device gives.",
+    "A name for this code, or a name with titles by language and what the code means; ~ removes a code that the "
+    "format, the group or the device defines.",
     ["transducer_fault", {"name": "not_available", "no_value": "yes", "en": "Not available"}],
     before=(A_NAME,),
     after=(NOTHING,),
@@ -146,34 +145,34 @@ SPECIAL_CODE = Place(
 TYPES = Place(
     "types",
     "Types, under `types` of a group or the device",
-    "What holds for all points of a type in this device or group.",
+    "Facts that all points of a type share, in this device or group.",
     [{"s16": {"special": {"7FFFh": "fault"}}}],
     least=1,
 )
 OF_TYPE = Place(
     "of_type",
     "What holds for all points of a type",
-    "What holds for all points of this type.",
+    "Facts that all points of this type share.",
     [{"special": {"7FFFh": "fault"}}],
     least=1,
 )
 FLAG = Place(
     "flag",
     "A flag",
-    "A bit, or several, inside the word.",
+    "A bit, or several bits, inside the word.",
     ["ready", {"name": "fault", "active": 0}],
     before=(A_NAME,),
 )
 PRINTED = Place(
     "printed",
     "What is printed twice, under `printed`",
-    "What the manual prints redundantly: each number in every numbering (one or a list of notations), ranges, "
-    "resolution, number of choices. It must agree with the facts, or an erratum says why not.",
+    "What the manual prints a second time: a number in each numbering (one or a list of notations), ranges, "
+    "resolution, number of choices. It must agree with the facts, unless an erratum says why not.",
     [{"modicon": ["1029h", 4137], "wire": ["1028h", 4136], "range_in_units": "0.0..400.0"}],
     by_form={
         forms.ANY: Shape(
-            "A printed number in the numbering of this name (`wire`, those of `numbering`, and `low_` before them for "
-            "the second word).",
+            "The printed number in this numbering: `wire` or a name under `numbering`; with `low_` in front for the "
+            "second word.",
             [["1029h", 4137]],
             *(Whole(), Text(64), Items(PRINTED_NUMBER, 1)),
         )
@@ -182,34 +181,34 @@ PRINTED = Place(
 SOURCE = Place(
     "source",
     "A source",
-    "Where in the manual the facts stand.",
+    "The place in the manual that the facts are taken from.",
     [{"document": "manual", "section": "Gruppe A"}],
 )
 LINES = Place(
     "lines",
     "Where single facts stand, under `lines`",
-    "Where in the manual's text single facts stand, if not at `line`; the audit reads it.",
+    "For the audit: the lines of the manual's text that hold single facts, if they differ from `line`.",
     [{"range": 215, "enum": "2553..2652", "scale": [130, 140]}],
     least=1,
 )
 LOOKED_THROUGH = Place(
     "looked_through",
     "Lines that hold nothing, under `looked_through`",
-    "Lines of the manual's text that hold nothing for the description, and why.",
+    "Lines of the manual's text without facts for the description, and what they are about.",
     [{"lines": "9..33", "why": "Wiring."}],
 )
 BUS = Place(
     "bus",
     "The bus",
-    "What the family's frames need to know of this device.",
+    "What frames of the family need to know about this device.",
     [{"framings": ["rtu"], "units": "1..32", "functions": {"03h": "read_holding_registers"}}],
     by_form=_PRIVATE,
 )
 CODE = Place(
     "code_entry",
     "A function, a response or an exception",
-    "A code of the protocol: its name, titles; of a function the largest count of items in one request and whether it "
-    "may be broadcast; of USS codes what belongs to them.",
+    "A code of the protocol: its name and titles; for a function also the largest request and if it may be "
+    "broadcast; for USS the codes that belong to it.",
     [{"name": "read_holding_registers", "max": 4}],
     before=(A_NAME,),
     by_form={forms.LANGUAGE: in_language("Adresse unbekannt")},
@@ -217,14 +216,14 @@ CODE = Place(
 TELEGRAM = Place(
     "telegram",
     "A telegram",
-    "A layout of words that is sent again and again.",
+    "A layout of words that is sent cyclically.",
     [{"name": "visualisation", "direction": "cyclic", "length": 69, "message": "visualisation"}],
     by_form=_PRIVATE,
 )
 MESSAGE = Place(
     "message",
     "A message",
-    "A layout of eight bytes with an identifier.",
+    "A layout of the eight bytes of a CAN frame, with its identifier.",
     [
         {
             "name": "read_request",
@@ -238,14 +237,14 @@ MESSAGE = Place(
 COMMAND = Place(
     "command",
     "A command",
-    "A named constant write.",
+    "A constant that is written under a name.",
     [{"name": "enter", "at": "0900h", "function": "06h", "value": "any"}],
     by_form=_PRIVATE,
 )
 FRAME = Place(
     "frame",
     "A frame",
-    "A worked example of the manual.",
+    "A worked example from the manual.",
     [{"name": "write_base_frequency", "direction": "request", "bytes": "05 06 10 28 01 F4 0C 91"}],
     by_form=_PRIVATE,
 )
@@ -280,4 +279,4 @@ PLACES = (
     *(ENTRY, SPECIAL_CODE, TYPES, OF_TYPE, FLAG, PRINTED, SOURCE, LINES, LOOKED_THROUGH, BUS, CODE, TELEGRAM, MESSAGE),
     *(COMMAND, FRAME, ERRATUM),
 )
-"""All that have a table of their own in KEYS.md, in its order."""
+"""The places that have a table in KEYS.md, in its order."""

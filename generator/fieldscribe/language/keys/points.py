@@ -1,4 +1,4 @@
-"""The keys of points: which it is, what it means, how it may be used."""
+"""The keys of points: what identifies a point, and how it may be used; `meaning.py` has what its number means."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ WHICH = (
     Key(
         "record",
         (POINT, USE),
-        "One of `records`: different points that stand together, with `at` as their base.",
+        "The name of one of `records`; `at` is its base.",
         ["trip"],
         NAMED,
         own=True,
@@ -46,9 +46,8 @@ WHICH = (
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
-        "The number on the wire; the words of a text in reading order (`739..732`); in a record counted from its "
-        "`base`; where the group has `addressing`, the number from which its rule starts; ~ where the manual prints "
-        "none.",
+        "The address on the wire. For a text: its words in reading order (`739..732`). In a record: counted from "
+        "`base`. In a group with `addressing`: the `number` of its rule. ~ if the manual prints none.",
         ["1028h", 4136, "739..732", "base + 6"],
         Whole(),
         Text(200),
@@ -58,8 +57,8 @@ WHICH = (
     Key(
         "write_at",
         (POINT, SET, VARIANT, MEMBER),
-        "The number on the wire for writing, if a point is read at `at` and written elsewhere; it is written and "
-        "counted as `at` is. ~ where a set, a variant or a member is written where it is read.",
+        "The address for writing, if it differs from `at`; it is counted as `at` is. ~ for a set, a variant or a "
+        "member that is written where it is read.",
         ["2028h", 8232, "base + 106"],
         Whole(),
         Text(200),
@@ -68,7 +67,7 @@ WHICH = (
     Key(
         "members",
         (POINT, USE),
-        "Facts of single members of the record at this place.",
+        "What differs for single members of the record here, by their names.",
         [{"error": {"line": 701}}],
         by(forms.NAME, MEMBER.shape),
         needs=("record",),
@@ -77,7 +76,7 @@ WHICH = (
     Key(
         "bits",
         POINT,
-        "The bits of the word that the point takes; the others belong to other points.",
+        "The bits of the word that belong to this point, if it does not have all.",
         ["15..14", 3],
         Text(20),
         Whole(),
@@ -86,9 +85,9 @@ WHICH = (
     Key(
         "sets",
         POINT,
-        "The parameter sets that the row stands for: a count from 1, or `0..3`, by the rule of the group; or further "
-        "sets by number, each with a row of its own. Each set named here gets `_set_N`; the point's own set is not "
-        "named, and keeps its name.",
+        "The parameter sets of the point: a count from 1, or `0..3`, with addresses by the group's rule; or the "
+        "further sets by number, each with its facts. Each set named here becomes a point `<name>_set_N`; the "
+        "point's own set keeps the plain name.",
         [4, "0..3", {"2": {"code": "A220", "at": "150Eh"}}],
         Whole(),
         Text(40),
@@ -98,7 +97,7 @@ WHICH = (
     Key(
         "indices",
         POINT,
-        "The elements of the array that the row stands for: a count from 1, or `0..1`. Each gets `_index_N`.",
+        "The elements of the array: a count from 1, or `0..1`. Each becomes a point `<name>_index_N`.",
         [3, "0..1"],
         Whole(),
         Text(40),
@@ -107,8 +106,7 @@ WHICH = (
     Key(
         "set",
         (POINT, VARIANT),
-        "The one set that the row stands for, without a suffix; beside `sets` with rows the point's own set, 1 unless "
-        "said.",
+        "The only set of the point; it adds no suffix. Beside `sets` by number: the point's own set, 1 by default.",
         [2],
         Whole(0, 999),
         own=True,
@@ -116,7 +114,7 @@ WHICH = (
     Key(
         "index",
         (POINT, SET, VARIANT),
-        "The one element of the array that the row stands for, without a suffix.",
+        "The only element of the array that is described; it adds no suffix.",
         [1],
         Whole(0, 65535),
         own=True,
@@ -124,8 +122,7 @@ WHICH = (
     Key(
         "each",
         POINT,
-        "What differs in single elements, by index; by set where there are no indices, by set/index where there are "
-        "both.",
+        "What differs in single elements: by index; by set if there are no indices; by set/index if there are both.",
         [{"0": {"default": 52, "line": 377}}, {"1/2": {"line": 322}}],
         by(forms.ELEMENT, places.ELEMENT.shape, least=1),
     ),
@@ -136,7 +133,7 @@ WHICH = (
         [{"voltage=400V": {"range": "660..780"}}],
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
-    Key("was", POINT, "Former names, kept as deprecated aliases.", [["main_frequency"]], Items(NAME, 1)),
+    Key("was", POINT, "Former names; each stays usable as a deprecated alias.", [["main_frequency"]], Items(NAME, 1)),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key(
@@ -150,17 +147,25 @@ WHICH = (
     Key(
         "section",
         (*POINTS, USE, *CITED, places.ERRATUM),
-        "The section of the manual; quote what looks like a number.",
+        "The section of the manual; quote it if it looks like a number.",
         ["4.2.10"],
         Text(200),
         inherited=(USE,),
     ),
-    Key("page", (*POINTS, USE, *CITED, places.ERRATUM), "The printed page.", [21], Whole(), Text(), inherited=(USE,)),
+    Key(
+        "page",
+        (*POINTS, USE, *CITED, places.ERRATUM),
+        "The printed page number.",
+        [21],
+        Whole(),
+        Text(),
+        inherited=(USE,),
+    ),
     Key("lines", (*FACTS, USE, places.CODE, *CITED, places.ERRATUM), places.LINES.shape, inherited=(USE,)),
     Key("printed", POINTS, places.PRINTED.shape, own=True),
-    Key("format", POINT, "One of `formats`.", ["percent_tenth"], NAMED),
+    Key("format", POINT, "The name of one of `formats`.", ["percent_tenth"], NAMED),
 )
-"""Which point it is, and where the manual says so."""
+"""The keys that identify a point and cite the manual."""
 
 _USED = (GROUP, *POINTS)
 _EVERYWHERE = (*_USED, USE)
@@ -177,8 +182,8 @@ USING = (
     Key(
         "keeps",
         _EVERYWHERE,
-        "Whether a written value survives power-off: no, yes (each write wears the memory), or as the caller chooses "
-        "with each write (`choice`).",
+        "Says if a written value survives power-off: `no`, `yes` (each write wears the memory), or `choice` (the "
+        "caller chooses with each write).",
         ["yes"],
         BOOLEAN,
         one_of("no", "yes", "choice"),
@@ -187,7 +192,7 @@ USING = (
     Key(
         "keep_with",
         _EVERYWHERE,
-        "The command that makes a written value survive power-off, in place of `keeps`.",
+        "The command that stores a written value so that it survives power-off; given in place of `keeps`.",
         ["enter"],
         NAMED,
         inherited=(GROUP, USE),
@@ -195,7 +200,7 @@ USING = (
     Key(
         "changes",
         _EVERYWHERE,
-        "How often the value changes by itself, for polling and for run-time factors.",
+        "How often the value changes by itself; polling and run-time factors depend on it.",
         ["never"],
         one_of("never", "rarely", "always"),
         inherited=(GROUP, USE),
@@ -203,7 +208,7 @@ USING = (
     Key(
         "conditions",
         _EVERYWHERE,
-        "What must hold for a write.",
+        "What must be true before a write.",
         [["stopped"]],
         Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
         inherited=(GROUP, USE),
@@ -211,7 +216,7 @@ USING = (
     Key(
         "when",
         _EVERYWHERE,
-        "The point exists only if this holds; comparisons with and, or, not.",
+        "The point exists only if this is true: comparisons joined by and, or, not.",
         ["phases >= 2 and meter != none"],
         Text(500),
         inherited=(GROUP, USE),
@@ -219,7 +224,7 @@ USING = (
     Key(
         "since",
         _EVERYWHERE,
-        "The first firmware that has it.",
+        "The first firmware that has the point.",
         ["firmware 2.1.0"],
         Text(80),
         inherited=(GROUP, USE),
@@ -227,7 +232,7 @@ USING = (
     Key(
         "until",
         _EVERYWHERE,
-        "The last firmware that has it.",
+        "The last firmware that has the point.",
         ["firmware 3.7"],
         Text(80),
         inherited=(GROUP, USE),
@@ -235,10 +240,10 @@ USING = (
     Key(
         "reserved",
         _USED,
-        "The maker keeps this address to itself.",
+        "The maker reserves this address.",
         ["yes"],
         *YES_NO,
         inherited=(GROUP,),
     ),
 )
-"""How a point may be used, and when it exists."""
+"""The keys that say how a point may be used, and when it exists."""

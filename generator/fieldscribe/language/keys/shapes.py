@@ -1,4 +1,4 @@
-"""Shapes that several keys share."""
+"""The shapes of values that several keys share."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ NAMED = Text(form=forms.NAME)
 """A name that is declared elsewhere."""
 
 NAME = Shape(
-    "A name in English and snake_case. It becomes the identifier in every language and is never reused for something "
-    "else.",
+    "A name in English, in snake_case. It becomes the identifier in every language and is never reused for another "
+    "thing.",
     ["base_frequency"],
     A_NAME,
 )
 PRINTED_NUMBER = Shape(
     "A number as the manual writes it: 4136, 0x1028, 1028h, H'33F, 0b0101, 0.1.", [4136, "1028h", 0.1], NUMBER, Text(64)
 )
-ANYTHING = Shape("Yours: nothing reads it.", ())
+ANYTHING = Shape("Your own; nothing reads it.", ())
 
 
 def in_language(example: str) -> Shape:
-    """The text in one of several languages."""
+    """Return the shape of a text in one of several languages."""
     return Shape("The text in this language.", [example], Text(2000))
 
 
 TITLE = Shape(
-    "A title: one English text, or one text per language with English among them.",
+    "A title: one English text, or a text for each language, with English among them.",
     [{"en": "Base frequency", "de": "Basisfrequenz"}, "Base frequency"],
     *(Text(2000), by(forms.LANGUAGE, in_language("Basisfrequenz"), required=("en",))),
 )
 NOTE = Shape(
-    "A sentence of your own, in English or per language.",
+    "A remark of your own, in English or for each language.",
     [{"en": "Takes some time."}, "Takes some time."],
     *(Text(2000), by(forms.LANGUAGE, in_language("Takes some time."), required=("en",))),
 )
