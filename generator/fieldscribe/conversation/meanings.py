@@ -4,29 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
-from fieldscribe.arithmetic.exact import Line, float_of, pattern_of
+from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import mask_of, words_of
-from fieldscribe.conversation.refusals import amount, failure, is_short
+from fieldscribe.conversation.refusals import amount, failure
 from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.report import visible
 from fieldscribe.text import line
-from fieldscribe.wording.exact import decimal_places, exact, number_text, rounded, shortest
+from fieldscribe.wording.exact import number_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from fieldscribe.model import Device, Entry, Flag, Point
 
-_MOST_RULES = 256
-"""How many scales of a point are cached."""
 _MOST_NUMBERS = 64
 """For how many numbers of a flag its texts are cached."""
 
@@ -50,55 +47,25 @@ class Meanings:
 
     def __init__(self, device: Device, point: Point) -> None:
         self._device, self._point = device, point
-        self._has_specials, self._most_raw = bool(point.shape.specials), point.shape.most_raw
-        self._floating, self._needs = point.shape.info.floating, point.scale_arguments
         self._of_names = _naming(point)
-        self._rules: dict[tuple[object, ...], _Rule | Meaning] = {}
 
     def of(self, raw: int, settings: Settings) -> Meaning:
         """Return the meaning of a raw number, where other points hold these settings."""
-        special = self._point.special(raw) if self._has_specials else None
+        special = self._point.special(raw)
         if special is not None:
             remark = ", no value" if special.no_value else ""
             return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
-        if self._of_names is not None:
-            return self._of_names(raw)
-        if self._floating or (self._most_raw is not None and abs(raw) > self._most_raw):
-            return self._decoded(raw, settings)
-        rule = self._rule(settings)
-        return rule if isinstance(rule, Meaning) else rule.meaning(raw)
+        return self._quantity(raw, settings) if self._of_names is None else self._of_names(raw)
 
     def lacks(self, settings: Settings) -> bool:
         """Return True if the scale needs points that are not among these settings."""
-        rule = self._rule(settings)
-        return isinstance(rule, Meaning) and bool(rule.missing)
-
-    def _rule(self, settings: Settings) -> _Rule | Meaning:
-        """Return the scale in force, or the meaning that says why there is none."""
-        key: tuple[object, ...] = ()
-        if self._needs:  # the types too: a special code equals the plain number, and is no quantity
-            values = [settings.get(name) for name in self._needs]
-            key = (*values, *map(type, values))
-        rule = self._rules.get(key)
-        if rule is None:
-            if len(self._rules) >= _MOST_RULES:
-                self._rules.clear()
-            rule = self._rules[key] = self._found_rule(settings)
-        return rule
-
-    def _found_rule(self, settings: Settings) -> _Rule | Meaning:
-        point = self._point
-        if not point.generated and point.scale is None:
-            return Meaning(line(point.reason or "its meaning is not settled"))
         try:
-            ratio, offset = codec.rule_in_force(point, settings)
+            codec.rule_in_force(self._point, settings)
         except CodecError as error:
-            return self._unknown(error)
-        factor, add = offset.denominator * ratio.denominator, -offset.numerator * ratio.denominator
-        return _Rule(point, Line.reduced(factor, add, offset.denominator * ratio.numerator))
+            return bool(error.missing)
+        return False
 
-    def _decoded(self, raw: int, settings: Settings) -> Meaning:
-        """Return the meaning of a bit pattern, or of a number beyond those of which a rule is computed."""
+    def _quantity(self, raw: int, settings: Settings) -> Meaning:
         point = self._point
         if not point.generated and point.scale is None:
             return Meaning(line(point.reason or "its meaning is not settled"))
@@ -107,14 +74,13 @@ class Meanings:
         except CodecError as error:
             if error.status == "not_a_number":
                 return Meaning(str(codec.float_of(point, raw)))
-            return self._unknown(error)
-        decimals = point.display
-        text = _float_text(point, raw) if decimals is None else rounded(value.numerator, value.denominator, decimals)
+            message, hint = failure(self._device, point, error)
+            return Meaning(f"not known: {message}", None, error.missing, hint)
+        if point.display is not None:
+            text = rounded(value.numerator, value.denominator, point.display)
+        else:
+            text = _float_text(point, raw) if point.info.floating else amount(value)
         return Meaning(wording.with_unit(text, point), number_text(value))
-
-    def _unknown(self, error: CodecError) -> Meaning:
-        message, hint = failure(self._device, self._point, error)
-        return Meaning(f"not known: {message}", None, error.missing, hint)
 
 
 def _naming(point: Point) -> Callable[[int], Meaning] | None:
@@ -130,27 +96,6 @@ def _naming(point: Point) -> Callable[[int], Meaning] | None:
     if point.digits is not None:
         return lambda raw: Meaning(_digits_text(point, raw))
     return (lambda raw: Meaning("on" if raw else "off")) if point.type == "bit" else None
-
-
-class _Rule:
-    """A scale without open factors: turns raw numbers into texts of their values."""
-
-    def __init__(self, point: Point, rule: Line) -> None:
-        self._rule, self._decimals = rule, point.display
-        self._unit = wording.with_unit(" ", point)[1:]
-        self._places = decimal_places(rule.divisor)
-        self._parts = 0 if self._places is None else 10**self._places // rule.divisor
-
-    def meaning(self, raw: int) -> Meaning:
-        """Return the meaning of a raw number."""
-        factor, add, divisor = self._rule
-        number = raw * factor + add
-        value = exact(number, divisor) if self._places is None else shortest(number * self._parts, self._places)
-        if self._decimals is not None:
-            text = rounded(number, divisor, self._decimals)
-        else:
-            text = value if is_short(value) else amount(Fraction(number, divisor))
-        return Meaning(text + self._unit, value)
 
 
 class FlagTexts:
