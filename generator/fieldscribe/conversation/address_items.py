@@ -18,7 +18,7 @@ from fieldscribe.wording.frames import counted, element_text, hex_words, span_te
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from fieldscribe.conversation.decode_state import Base, DecodeState, PointTextCache
+    from fieldscribe.conversation.decode_state import Base, DecodeState
     from fieldscribe.families.decoded_frame import Element, Span, Word
     from fieldscribe.model import Command, Place, Point
 
@@ -126,12 +126,6 @@ class _SpanItems:
         return Item(self._space, command.address, 1, text, raw=raw, findings=(finding,) if finding else ())
 
 
-def _element_points(texts: PointTextCache, key: tuple[int, int, bool]) -> list[Point]:
-    """Return the points of a parameter's element; variants with other limits are told apart where they are written."""
-    parameter, index, written = key
-    return without_variants(texts.directory.at(PARAMETER, parameter, index), limits=written)
-
-
 def element_items(state: DecodeState, element: Element) -> Iterator[Item]:
     """Return the items of one element of a parameter."""
     points = state.directory.at(PARAMETER, element.parameter, element.index)
@@ -147,8 +141,8 @@ def element_items(state: DecodeState, element: Element) -> Iterator[Item]:
         text = f"{element.value} elements" if element.counts else carried
         yield from (named_item(point, base, text) for point in points)
     else:
-        distinct = state.texts.layout(_element_points, (element.parameter, element.index, element.in_request))
-        yield from (_element_item(state, element, point, base, carried) for point in distinct)
+        for point in without_variants(points, limits=element.in_request):
+            yield _element_item(state, element, point, base, carried)
 
 
 def _element_item(state: DecodeState, element: Element, point: Point, base: Base, carried: str) -> Item:
@@ -180,7 +174,7 @@ def word_items(state: DecodeState, word: Word) -> Iterator[Item]:
         state.forget(word.address)
     if word.learned:
         state.learn((point, raw) for point in points if (raw := _raw(point, state.words)) is not None)
-    for point in state.texts.layout(_element_points, (word.address, 0, word.in_request)):
+    for point in without_variants(points, limits=word.in_request):
         yield _word_item(state, word, point)
     if not points:
         carried = "" if word.raw is None else f" ({hex_words((word.raw,))})"

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
-from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Item
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
     from fractions import Fraction
 
     from fieldscribe.arithmetic.codec import Settings
@@ -29,20 +28,14 @@ PARAMETER = "parameter"
 
 _MOST_ITEMS = 64
 """How many items of one point are cached: a stream may last for days."""
-_MOST_LAYOUTS = 4096
-
-Key = TypeVar("Key")
-Layout = TypeVar("Layout")
 
 
 class PointFormatter:
     """Turns the raw numbers of one point into items; on a bus most numbers come again, so items are cached."""
 
     def __init__(self, device: Device, point: Point, base: Base, *, written: bool) -> None:
-        self._device, self._point, self._base, self._written = device, point, base, written
+        self._device, self._point, self.base, self._written = device, point, base, written
         self.needs = point.arguments if written else point.scale_arguments
-        self.source_of: Callable[[tuple[str, ...]], str] | None = None
-        """Returns where missing points come from, if that is known."""
         self._head, self._title = f"{label(point)} = ", english_title(point)
         self._name = point.item
         self._raw_text = raw_form(point)
@@ -80,22 +73,19 @@ class PointFormatter:
             finding, unchecked = written_remarks(self._device, point, raw, settings)
             remark = finding or unchecked
         rest = "; ".join(text for text in (self._title, remark, meaning.hint) if text)
-        if meaning.missing and self.source_of:
-            rest += self.source_of(meaning.missing)
         text = f"{number}: {rest}" if meaning.flags else f"{meaning.text} ({number}): {rest}"
         return Item(
-            *self._base, line(self._head + text), self._name, point.code, None if point.text is not None else raw,
+            *self.base, line(self._head + text), self._name, point.code, None if point.text is not None else raw,
             meaning.value, meaning.missing, (finding,) if finding else (), meaning.flags,
         )  # fmt: skip
 
 
 class PointTextCache:
-    """The formatters of a device's points, and the layouts of what frames carry, each made once."""
+    """The formatters of a device's points, each made once."""
 
     def __init__(self, device: Device, directory: Directory) -> None:
         self.device, self.directory = device, directory
         self._formatters: dict[tuple[str, Base, bool], PointFormatter] = {}
-        self._layouts: BoundedMemo[Any, Any] = BoundedMemo(_MOST_LAYOUTS, lambda wanted: wanted[0](self, wanted[1]))
 
     def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
         """Return the formatter of a point at this place."""
@@ -103,11 +93,6 @@ class PointTextCache:
         if key not in self._formatters:
             self._formatters[key] = PointFormatter(self.device, point, base, written=written)
         return self._formatters[key]
-
-    def layout(self, make: Callable[[PointTextCache, Key], Layout], key: Key) -> Layout:
-        """Return `make(self, key)`: all about some addresses that does not depend on the numbers of a frame."""
-        layout: Layout = self._layouts[make, key]
-        return layout
 
 
 @dataclass(slots=True)

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.words import raw_of, raw_reader
+from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decode_state import named_item
-from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Item
 from fieldscribe.wording.frames import hex_words, word_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
-    from fieldscribe.conversation.decode_state import DecodeState, PointTextCache
+    from fieldscribe.conversation.decode_state import DecodeState, PointFormatter
     from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
     from fieldscribe.model import Device, Point
-
-_MOST_SOURCES = 64
-"""For how many sets of missing points their source is cached."""
 
 
 def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:
@@ -74,95 +69,65 @@ def _mask_item(state: DecodeState, place: int, at: int, words: tuple[int, ...]) 
     return Item("mask", at, len(words), f"mask {hex_words(words)}: {text}")
 
 
-PieceKey = tuple[str, range, int]
-"""A telegram, neighbouring words of it, and how many words one frame carries."""
-
-
-class _PiecePoint:
-    """A point that has words of a piece; its number comes from this piece, or from several."""
-
-    def __init__(self, texts: PointTextCache, key: PieceKey, point: Point) -> None:
-        telegram, positions, _ = key
-        self.point, self.addresses = point, point.addresses
-        self.base = telegram, min(point.addresses), len(point.addresses)
-        self.formatter = texts.formatter(point, self.base)
-        inside = [at - positions.start for at in point.addresses if at in positions]
-        self.start = positions.start + min(inside)
-        self.whole = len(inside) == len(point.addresses)
-        self._read = raw_reader(point, inside if self.whole else range(len(point.addresses)))
-
-    def raw(self, piece: Piece) -> int | None:
-        """Return the raw number; None while words of other frames are not known."""
-        if self.whole:
-            return self._read(piece.words)
-        status, words = piece.pieces.words(self.addresses)
-        return self._read(words) if status == "ok" else None
-
-
-class _PieceLayout:
-    """Neighbouring words of a telegram: the points that have one of them, in order, and the words without a point."""
-
-    def __init__(self, texts: PointTextCache, key: PieceKey) -> None:
-        telegram, positions, per_frame = key
-        at = {place: texts.directory.at(telegram, place) for place in positions}
-        points = {point.item: point for here in at.values() for point in here}.values()
-        parts = [_PiecePoint(texts, key, point) for point in points]
-        sources = BoundedMemo(_MOST_SOURCES, partial(_source_text, texts, telegram, per_frame))
-        for part in parts:
-            part.formatter.source_of = sources.__getitem__
-        self.parts = sorted(parts, key=lambda part: part.start)
-        self.settings = [number for number, part in enumerate(self.parts) if texts.directory.teaches(part.point)]
-        self.unknown = [place for place, here in at.items() if not here]
-
-
-def _source_text(texts: PointTextCache, telegram: str, per_frame: int, missing: tuple[str, ...]) -> str:
-    """Return where missing points come in a telegram; empty if they do not."""
-    firsts = [texts.directory.first(telegram, name) for name in missing]
-    slots = sorted({first // per_frame for first in firsts if first is not None})
-    return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
-
-
-def piece_items(state: DecodeState, piece: Piece) -> Iterable[Item]:
+def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
     """Return the items of a frame of a telegram, and of earlier points whose missing settings it brings."""
-    layout = state.texts.layout(_PieceLayout, (piece.telegram.name, piece.positions, piece.pieces.per_frame))
-    raws = [part.raw(piece) for part in layout.parts]
-    if layout.settings:
-        known = [(layout.parts[number].point, raws[number]) for number in layout.settings]
-        state.learn((point, raw) for point, raw in known if raw is not None)
-    items, lacking = [], {}
-    for part, raw in zip(layout.parts, raws, strict=True):
-        if raw is None:
-            items.append(named_item(part.point, part.base, _incomplete_text(state, piece, part)))
-            continue
-        name = part.point.item
-        if state.incomplete:
-            state.incomplete.pop(name, None)
-        item = part.formatter.item(raw, state.settings)
-        if item.missing:
-            lacking[name] = part.formatter, raw
-        items.append(item)
-    for number, at in enumerate(layout.unknown):
-        words = hex_words((piece.words[at - piece.positions.start],))
-        unknown = Item(piece.telegram.name, at, 1, f"word {at}: no point is described here ({words})")
-        items.insert(sum(part.start < at for part in layout.parts) + number, unknown)
+    telegram = piece.telegram.name
+    at = {place: state.directory.at(telegram, place) for place in piece.positions}
+    raws = {point.item: _raw(point, piece) for points in at.values() for point in points}
+    state.learn((point, raw) for points in at.values() for point in points if (raw := raws[point.item]) is not None)
+    items: list[Item] = []
+    incomplete: dict[str, tuple[PointFormatter, int]] = {}
+    for place, points in at.items():
+        if not points:
+            word = hex_words((piece.words[place - piece.positions.start],))
+            items.append(Item(telegram, place, 1, f"word {place}: no point is described here ({word})"))
+        for point in points:
+            if place != min(position for position in point.addresses if position in piece.positions):
+                continue
+            formatter = state.texts.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
+            raw = raws[point.item]
+            if raw is None:
+                items.append(named_item(point, formatter.base, _incomplete_text(state, piece, point, formatter)))
+                continue
+            item = formatter.item(raw, state.settings)
+            state.incomplete.pop(point.item, None)
+            if item.missing:
+                incomplete[point.item] = formatter, raw
+                item = replace(item, summary=item.summary + _source_text(state, piece, item.missing))
+            items.append(item)
     if state.changed:
         items += _completed_items(state)
-    state.incomplete.update(lacking)
+    state.incomplete.update(incomplete)
     return items
 
 
-def _incomplete_text(state: DecodeState, piece: Piece, part: _PiecePoint) -> str:
+def _raw(point: Point, piece: Piece) -> int | None:
+    """Return the raw number; None while words of other frames are not known."""
+    if all(at in piece.positions for at in point.addresses):
+        return raw_of(point, [piece.words[at - piece.positions.start] for at in point.addresses])
+    status, words = piece.pieces.words(point.addresses)
+    return raw_of(point, words) if status == "ok" else None
+
+
+def _source_text(state: DecodeState, piece: Piece, missing: tuple[str, ...]) -> str:
+    """Return where missing points come in the telegram; empty if they do not."""
+    firsts = [state.directory.first(piece.telegram.name, name) for name in missing]
+    slots = sorted({first // piece.pieces.per_frame for first in firsts if first is not None})
+    return f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
+
+
+def _incomplete_text(state: DecodeState, piece: Piece, point: Point, formatter: PointFormatter) -> str:
     """Return what is known of a number whose words come in several frames and may not belong together."""
     per_frame = piece.pieces.per_frame
-    words = [(at, *piece.pieces.words((at,))) for at in part.addresses]
+    words = [(at, *piece.pieces.words((at,))) for at in point.addresses]
     if any(status != "ok" for _, status, _ in words):
-        came = [f"only the {word_text(part.addresses, at)} = {here[0]:04X}h" for at, _, here in words if here]
+        came = [f"only the {word_text(point.addresses, at)} = {here[0]:04X}h" for at, _, here in words if here]
         slots = dict.fromkeys(str(at // per_frame) for at, _, here in words if not here)
         return f"{', '.join(came)}; the rest comes with multiplexer {' and '.join(slots)}"
-    would = part.formatter.value(raw_of(part.point, [here[0] for _, _, here in words]), state.settings)
+    would = formatter.value(raw_of(point, [here[0] for _, _, here in words]), state.settings)
     return (
         f"its words are in two frames and may be torn; {would} if the high word stayed as it is: "
-        f"the next frame with multiplexer {part.addresses[0] // per_frame} tells"
+        f"the next frame with multiplexer {point.addresses[0] // per_frame} tells"
     )
 
 
