@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from io import StringIO
+from io import BytesIO, TextIOWrapper
 from typing import TYPE_CHECKING
 
 import pytest
@@ -160,7 +160,8 @@ def test_the_options_of_families(run: Callable[..., Output], words: str, code: i
 
 
 def test_frames_from_standard_input(run: Callable[..., Output], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "stdin", StringIO("(1.5) can0 321#DD010302000007D0\n\n(1.6) can0 321#DD00051E13880064\n"))
+    frames = b"(1.5) can0 321#DD010302000007D0\n\n(1.6) can0 321#DD00051E13880064\n"
+    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(frames)))
     data = json.loads(run("decode", CAN, "-", "--format", "json").out)
     assert [frame["time"] for frame in data["frames"]] == ["1.5", "1.6"]
     assert data["frames"][1]["items"][2]["value"] == "100000"

@@ -108,7 +108,7 @@ def test_version_and_usage(run: Callable[..., Output]) -> None:
     assert "commands:" in nothing.err
     assert "did you mean `check`?" in run("chekc").err
     assert "did you mean `--format`?" in run("check", "--formt", "json").err
-    for words in (("chekc",), ("check", "--colour"), ("explain",), ("--nothing",), ("search", "x", "--most", "-3")):
+    for words in (("chekc",), ("check", "--colour"), ("explain",), ("--nothing",)):
         assert run(*words).code == 2
 
 

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from io import StringIO
+from io import BytesIO, TextIOWrapper
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -41,7 +41,7 @@ def decode(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) 
 
     def run(*words: str, given: str = "", device: str = "woodward_mpu2s") -> Output:
         monkeypatch.setattr(pipeline, "load_device", lambda *_: shipped(device))
-        monkeypatch.setattr(sys, "stdin", StringIO(given))
+        monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(given.encode())))
         return Output(main(["decode", device, *words]), *capsys.readouterr())
 
     return run

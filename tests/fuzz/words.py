@@ -118,7 +118,7 @@ def line(seed: int, index: int, known: dict[str, list[str]]) -> list[str]:
 def trial(words: list[str]) -> str | None:
     """What is wrong with how a command line ends; none if nothing is."""
     out, said = io.StringIO(), io.StringIO()
-    sys.stdin = io.StringIO("")
+    sys.stdin = io.TextIOWrapper(io.BytesIO())
     try:
         with redirect_stdout(out), redirect_stderr(said):
             code = main(words)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.cli.common import add_format, add_paths, description_paths, print_json, report_findings
 from fieldscribe.cli.terminal import FINDINGS, FINE
@@ -42,7 +42,7 @@ def run(arguments: Namespace) -> int:
         if analysis is not None and is_new(analysis.device, device_file, known, report):
             checked.append(_counts(analysis.device))
             if as_text:
-                print(_line(analysis.device), flush=True)
+                print(_line(checked[-1]), flush=True)
     if as_text:
         report_findings(report, "text", sys.stdout)
     else:
@@ -50,8 +50,8 @@ def run(arguments: Namespace) -> int:
     return FINDINGS if report.has_errors else FINE
 
 
-def _counts(device: Device) -> dict[str, object]:
-    """Return how much a description holds, for JSON."""
+def _counts(device: Device) -> dict[str, Any]:
+    """Return how much a description holds."""
     return {
         "device": device.id,
         "version": device.version,
@@ -59,22 +59,17 @@ def _counts(device: Device) -> dict[str, object]:
         "generated": sum(point.generated for point in device.points),
         "groups": len(device.groups),
         "errata": len(device.errata),
-        "errata_by_certainty": _by_certainty(device),
+        "errata_by_certainty": dict(sorted(Counter(erratum.certainty for erratum in device.errata).items())),
         "frames": len(device.frames),
     }
 
 
-def _by_certainty(device: Device) -> dict[str, int]:
-    return dict(sorted(Counter(erratum.certainty for erratum in device.errata).items()))
-
-
-def _line(device: Device) -> str:
+def _line(counts: dict[str, Any]) -> str:
     """Return the same in one line."""
-    generated = sum(point.generated for point in device.points)
-    certainty = ", ".join(f"{count} {name}" for name, count in _by_certainty(device).items())
-    errata = "1 erratum" if len(device.errata) == 1 else f"{len(device.errata)} errata"
+    certainty = ", ".join(f"{count} {name}" for name, count in counts["errata_by_certainty"].items())
+    errata = f"{counts['errata']} {'erratum' if counts['errata'] == 1 else 'errata'}"
     return (
-        f"{device.id}: {counted(len(device.points), 'point')} ({generated} generated) in "
-        f"{counted(len(device.groups), 'group')}, {errata}{f' ({certainty})' if certainty else ''}, "
-        f"{counted(len(device.frames), 'printed frame')}"
+        f"{counts['device']}: {counted(counts['points'], 'point')} ({counts['generated']} generated) in "
+        f"{counted(counts['groups'], 'group')}, {errata}{f' ({certainty})' if certainty else ''}, "
+        f"{counted(counts['frames'], 'printed frame')}"
     )

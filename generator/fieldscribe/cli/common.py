@@ -80,17 +80,14 @@ def add_paths(parser: ArgumentParser) -> None:
     )
 
 
-def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
+def add_device(parser: ArgumentParser, *, variants: bool = True, optional: bool = False) -> None:
     """Add the DEVICE argument, with `--descriptions` and `--variant`; `open_device` reads them."""
-    parser.add_argument("device", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
+    help_text = "a device's id, or the path of its folder or device.yaml"
+    parser.add_argument("device", nargs="?" if optional else None, metavar="DEVICE", help=help_text)
     add_descriptions(parser)
     if variants:
-        add_variant(parser, "choose a variant, as in voltage_class=400V; may be repeated")
-
-
-def add_variant(parser: ArgumentParser, help_text: str) -> None:
-    """Add `--variant`."""
-    parser.add_argument("--variant", action="append", default=[], metavar="AXIS=VALUE", help=help_text)
+        help_text = "choose a variant, as in voltage_class=400V; may be repeated"
+        parser.add_argument("--variant", action="append", default=[], metavar="AXIS=VALUE", help=help_text)
 
 
 def add_descriptions(parser: ArgumentParser) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import sys
 from itertools import groupby
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, usage_error
 from fieldscribe.cli.decoded_frames import frame_printer
@@ -17,6 +17,7 @@ from fieldscribe.user_errors import UnclearError
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Callable, Iterable, Iterator
+    from io import BufferedIOBase
 
     from fieldscribe.cli.decoded_frames import FramePrinter
     from fieldscribe.families.frame_results import FrameResult
@@ -128,9 +129,9 @@ class _Output:
         """Decode the lines of standard input."""
         if sys.stdin is None:
             raise StopError("standard input is closed", "give frames, or --log FILE")
-        self.follow(sys.stdin, "standard input")
+        self.follow(cast("BufferedIOBase", sys.stdin.buffer), "standard input")
 
-    def follow(self, stream: IO[str] | IO[bytes], name: str) -> None:
+    def follow(self, stream: BufferedIOBase, name: str) -> None:
         """Decode the lines of a stream, and print each before waiting for the next; skip lines that are no frames."""
         gc.set_threshold(_GC_THRESHOLD)
         gc.enable()  # a stream may last for days
@@ -151,7 +152,7 @@ class _Output:
         return USAGE if self._unread else FINDINGS if self._wrong else FINE
 
 
-def stream_lines(stream: IO[str] | IO[bytes], before_waiting: Callable[[], object]) -> Iterator[tuple[int, str]]:
+def stream_lines(stream: BufferedIOBase, before_waiting: Callable[[], object]) -> Iterator[tuple[int, str]]:
     """Return the lines of a stream that are not blank, with their numbers, in constant memory.
 
     `before_waiting` is called each time all that has arrived is decoded.
@@ -176,9 +177,7 @@ def _decoded(line: bytes, number: int) -> str:
     return text if len(line) <= _LONGEST_LINE else f"{text}..."
 
 
-def _chunks(stream: IO[str] | IO[bytes], before_waiting: Callable[[], object]) -> Iterator[bytes]:
-    source = getattr(stream, "buffer", stream)
-    read = getattr(source, "read1", source.read)
-    while chunk := read(_CHUNK):
-        yield chunk if isinstance(chunk, bytes) else chunk.encode()
+def _chunks(stream: BufferedIOBase, before_waiting: Callable[[], object]) -> Iterator[bytes]:
+    while chunk := stream.read1(_CHUNK):
+        yield chunk
         before_waiting()

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.cli.common import (
     StopError,
-    add_descriptions,
+    add_device,
     add_format,
-    add_variant,
     open_device,
     print_json,
     searched_devices,
@@ -67,17 +66,13 @@ _FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument(
-        "device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml"
-    )
-    add_descriptions(parser)
+    add_device(parser, optional=True)
     parser.add_argument(
         "--matching", action="append", default=[], metavar="GLOB", help="only names or codes like this; may be repeated"
     )
     parser.add_argument("--family", metavar="NAME", help="only devices of this family")
     for option, (metavar, which, _) in _FILTERS.items():
         parser.add_argument(f"--{option}", metavar=metavar, help=f"only points {which}")
-    add_variant(parser, "only points of this variant; may be repeated")
     add_format(parser, ("csv",))
 
 
@@ -95,7 +90,7 @@ def _devices(arguments: Namespace) -> int:
         for file in searched_devices(arguments).values()
         if (summary := summary_of(file)) is not None
         and arguments.family in (None, summary.family)
-        and _matches(arguments.matching, (summary.id,))
+        and _matches(arguments.matching, (summary.device,))
     ]
     rows = [{**device, "title": " / ".join(dict.fromkeys(device["title"].values()))} for device in data]
     cells = [[str(row[column]) for column in _DEVICE_COLUMNS] for row in rows]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli.common import (
@@ -55,15 +55,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add_descriptions(parser)
     parser.add_argument(
-        "--most", type=_count, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
+        "--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
     )
     add_format(parser)
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal():
-        raise ArgumentTypeError(f"`{quoted(text.strip())}` is no count: give a number from 0 on")
-    return int(text)
 
 
 def run(arguments: Namespace) -> int:
@@ -109,11 +103,11 @@ def _as_data(hit: Hit) -> dict[str, object]:
 
 
 def _print(hits: Sequence[Hit], most: int) -> None:
-    for hit in hits[: most or None]:
+    for hit in hits[: most if most > 0 else None]:
         print_lines([[("strong", visible(f"{hit.entry.device} {hit.entry.heading}"))]])
         for text in hit.texts:
             number = "" if text.number is None or text.text == str(text.number) else f" ({text.number})"
             found = f"  {text.kind} `{visible(text.text)}`{number}, "
             print_lines([[("", found), ("place", place_text(text.place()))]])
-    if most and len(hits) > most:
+    if 0 < most < len(hits):
         print_lines([[("hint", f"and {len(hits) - most} more: --most 0 shows all")]])

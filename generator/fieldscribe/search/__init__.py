@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Report
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class Summary:
     """A device in a list; `points` is their number, `names` are their names and codes."""
 
-    id: str
+    device: str
     vendor: str
     model: str
     title: dict[str, str]
@@ -32,15 +32,7 @@ class Summary:
 
     def as_data(self) -> dict[str, Any]:
         """Return the summary for JSON."""
-        return {
-            "device": self.id,
-            "vendor": self.vendor,
-            "model": self.model,
-            "title": self.title,
-            "family": self.family,
-            "version": self.version,
-            "points": self.points,
-        }
+        return {key: value for key, value in asdict(self).items() if key != "names"}
 
 
 def summary_of(device_file: Path) -> Summary | None:
