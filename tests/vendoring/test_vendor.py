@@ -350,7 +350,7 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
     [
         (("c", "hitachi_l200"), "--out DIR is missing"),
         (("c",), "DEVICE is missing"),
-        (("d", "hitachi_l200", "--out", "x"), "`d` is no language"),
+        (("d", "hitachi_l200", "--out", "x"), "`d` is not a language"),
         (("--points", "A001"), "LANGUAGE and DEVICE are missing"),
         (("--points", ""), "LANGUAGE and DEVICE are missing"),
         (("--as", ""), "LANGUAGE and DEVICE are missing"),

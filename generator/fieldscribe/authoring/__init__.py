@@ -1,1 +1,1 @@
-"""What helps a person who writes a description: start one, keep it in form, compile it whenever it is saved."""
+"""Helps the author of a description: starts it, formats it, and compiles it whenever it is saved."""

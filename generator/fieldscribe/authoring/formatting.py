@@ -1,4 +1,4 @@
-"""Brings descriptions into their canonical form; a file is written only when it says just what it said before."""
+"""Formats descriptions; a file is written only if its meaning and comments stay the same."""
 
 from __future__ import annotations
 
@@ -11,9 +11,13 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.authoring.starting import is_schema
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.canonical import canonical
+from fieldscribe.language.files import parts_of
+from fieldscribe.language.json_schema import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import OddError, comments, unbroken
 from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
+from fieldscribe.output.writing import replace
+from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import read_regular, shown_path, state_of
 
 if TYPE_CHECKING:
@@ -22,21 +26,21 @@ if TYPE_CHECKING:
     from fieldscribe.safe_files import State
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
-_ASIDE = ".fieldscribe-new"
+_SUFFIX = ".fieldscribe-new"
 
 
 class MovedError(Exception):
-    """Somebody saved the file meanwhile."""
+    """The file was saved while it was being formatted."""
 
 
 def formatted(name: str, data: bytes, report: Report) -> bytes | None:
-    """The canonical form of a file; None, with a finding, if it cannot be read or has no such form."""
+    """Return the canonical form of a file; None, with a finding, if it cannot be read or has none."""
     source = decoded(name, data, report)
     if source is None:
         return None
     text = unbroken(source.text)
     own = Report()
-    said = load(SourceFile(name, text), own)
+    before = load(SourceFile(name, text), own)
     report.extend(own)
     if own.has_errors:
         return None
@@ -45,7 +49,7 @@ def formatted(name: str, data: bytes, report: Report) -> bytes | None:
     except OddError as odd:
         report.error("no-canonical-form", odd.message, source.span(odd.line, odd.column), odd.hint)
         return None
-    if not _same(said, load(SourceFile(name, new), own)) or own.has_errors or comments(new) != comments(text):
+    if not _same(before, load(SourceFile(name, new), own)) or own.has_errors or comments(new) != comments(text):
         message = "internal error: the canonical form would say something else; the file was left as it is"
         report.error("internal-error", message, source.span(1, 1), "this is a bug: please report it with the file")
         return None
@@ -53,7 +57,7 @@ def formatted(name: str, data: bytes, report: Report) -> bytes | None:
 
 
 def _same(before: Any, after: Any) -> bool:
-    """Whether two values say the same, in the same order."""
+    """Return True if two values are equal, in the same order."""
     if type(before) is not type(after):
         return False
     if isinstance(before, dict):
@@ -64,17 +68,14 @@ def _same(before: Any, after: Any) -> bool:
 
 
 def files_of(path: Path) -> Iterator[Path]:
-    """The files of a description, of which the device.yaml is given; any other file stands for itself."""
-    from fieldscribe.language.files import parts_of
-    from fieldscribe.pipeline import DEVICE_FILE
-
+    """Yield the file, and the parts of a device.yaml."""
     yield path
     if path.name == DEVICE_FILE:
         yield from parts_of(path)
 
 
 class Formatting:
-    """One run over some files: which are not as they should be, and which of them were written."""
+    """Formats files, and records which were not in canonical form."""
 
     def __init__(self, report: Report, *, writes: bool) -> None:
         self.report, self.writes = report, writes
@@ -83,7 +84,7 @@ class Formatting:
         self._seen: set[str] = set()
 
     def file(self, path: Path) -> None:
-        """Bring one file, and the schema that its first line names, into order. Raises OSError, MovedError."""
+        """Format a file, and update the schema that its first line names. Raises OSError and MovedError."""
         real = os.path.realpath(path)
         if real in self._seen:
             return
@@ -95,9 +96,7 @@ class Formatting:
         self._schema(path, content.data)
 
     def _schema(self, path: Path, data: bytes) -> None:
-        """Bring the schema up to date, if it is one of ours and stands beside the description or above it."""
-        from fieldscribe.language.json_schema import schema_text
-
+        """Update the schema if it is ours and stands beside the description or above it."""
         line = _SCHEMA_LINE.fullmatch(data[:500].decode("utf-8-sig", "replace").partition("\n")[0].rstrip())
         if line is None:
             return
@@ -118,11 +117,9 @@ class Formatting:
 
 
 def _replace(path: Path, data: bytes, state: State) -> None:
-    """Replace a file that is still as it was read; a link stays one, and what may be done with the file stays, too."""
-    from fieldscribe.output.writing import replace
-
+    """Replace a file that did not change since it was read; links and the file's mode stay. Raises MovedError."""
     place = Path(os.path.realpath(path))
     status = os.stat(place)
     if state_of(status) != state:
         raise MovedError
-    replace(place, (data,), f".{place.name}{_ASIDE}", mode=stat.S_IMODE(status.st_mode))
+    replace(place, (data,), f".{place.name}{_SUFFIX}", mode=stat.S_IMODE(status.st_mode))

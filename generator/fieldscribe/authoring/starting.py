@@ -1,4 +1,4 @@
-"""A new description that compiles at once: what is asked for it, its text, and the schema for editors beside it."""
+"""Starts a description: its questions, its files, which compile at once, and the schema for editors."""
 
 from __future__ import annotations
 
@@ -11,8 +11,16 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families import FAMILIES, family
+from fieldscribe.language.json_schema import SCHEMA_ID, schema_text
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.load import as_yaml
-from fieldscribe.pipeline import DEVICE_FILE
+from fieldscribe.language.nodes import Map
+from fieldscribe.language.shape import check_of
+from fieldscribe.language.source import SourceFile
+from fieldscribe.output.writing import replace
+from fieldscribe.pipeline import DEVICE_FILE, load_analysis
+from fieldscribe.schema_types import Place
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,10 +29,10 @@ if TYPE_CHECKING:
     from fieldscribe.schema_types import Shape
 
 SCHEMA_FILE = "schema.json"
-"""The name of the schema that stands in the folder of a description, or above it."""
+"""The name of the schema in the folder of a description, or above it."""
 
 _SCHEMA_LINE = "# yaml-language-server: $schema={}\n"
-"""The first line of each file: editors look for it in every document."""
+"""The first line of each file; editors look for it."""
 _HEAD = """\
 fieldscribe: 1
 device: {device}
@@ -41,12 +49,12 @@ parts: [main.yaml]
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One thing that a new description must say."""
+    """A fact that a new description needs."""
 
     name: str
     asks: str
     usual: str = ""
-    """What is taken when nothing is said; the answers before it may stand in it."""
+    """The default; it may contain the names of earlier answers in braces."""
 
 
 QUESTIONS = (
@@ -61,7 +69,7 @@ QUESTIONS = (
 
 
 class NotStartedError(Exception):
-    """The description would have this finding; nothing was written."""
+    """The description would not compile, with this finding; nothing was written."""
 
     def __init__(self, finding: Diagnostic) -> None:
         super().__init__(finding.message)
@@ -69,19 +77,15 @@ class NotStartedError(Exception):
 
 
 def startable() -> dict[str, str]:
-    """The families that a description can start with, each with what it serves."""
+    """Return the families, each with what it is used for."""
     parts = {name: family(name).part("description") for name in FAMILIES}
     return {name: part.SERVES for name, part in parts.items() if part is not None}
 
 
 def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
-    """What is wrong with an answer, and what to do; None if it is right."""
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.language.shape import check_of
-    from fieldscribe.language.source import SourceFile
-
+    """Return what is wrong with an answer, and a hint; None if it is right."""
     if not answer or not answer.isprintable():
-        return f"`{name}` is {'empty' if not answer else 'no line of text'}", "say it in one line"
+        return f"`{name}` is {'empty' if not answer else 'no line of text'}", "write one line of text"
     if name == "family" and answer not in startable():
         return f"there is no family `{answer}` to start with", f"write one of {', '.join(startable())}"
     report = Report()
@@ -92,11 +96,7 @@ def wrong_with(name: str, answer: str) -> tuple[str, str] | None:
 
 
 def _shape_of(name: str) -> Shape:
-    """The shape of the key that an answer becomes."""
-    from fieldscribe.language.keys import keys_of
-    from fieldscribe.language.keys.places import DEVICE
-    from fieldscribe.schema_types import Place
-
+    """Return the shape of the key that holds an answer."""
     keys = keys_of(DEVICE)
     if name in keys:
         return keys[name].shape
@@ -106,17 +106,15 @@ def _shape_of(name: str) -> Shape:
 
 
 def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
-    """Make the folder of the device, whole or not at all; returns its files.
+    """Make the folder of the device, whole or not at all, and return its files.
 
     Raises FileExistsError, another OSError, or NotStartedError.
     """
-    from fieldscribe.pipeline import load_analysis
-
     if os.path.lexists(folder):
         raise FileExistsError(str(folder))
     schema_above = is_schema(folder.parent / SCHEMA_FILE)
-    with TemporaryDirectory(prefix=".", dir=folder.parent) as aside:
-        made = Path(aside, folder.name)
+    with TemporaryDirectory(prefix=".", dir=folder.parent) as temporary:
+        made = Path(temporary, folder.name)
         made.mkdir()
         schema = _SCHEMA_LINE.format(f"../{SCHEMA_FILE}" if schema_above else SCHEMA_FILE)
         for name, text in _texts(answers).items():
@@ -133,16 +131,11 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
 
 def write_schema(place: Path) -> None:
     """Write the schema of this compiler. Raises OSError."""
-    from fieldscribe.language.json_schema import schema_text
-    from fieldscribe.output.writing import replace
-
     replace(place, (schema_text().encode(),))
 
 
 def is_schema(place: Path) -> bool:
-    """Whether a schema of descriptions stands there."""
-    from fieldscribe.language.json_schema import SCHEMA_ID
-
+    """Return True if the file is a schema of ours."""
     with suppress(OSError):
         if place.is_file():
             with place.open("rb") as stream:
@@ -151,7 +144,7 @@ def is_schema(place: Path) -> bool:
 
 
 def _texts(answers: Mapping[str, str]) -> dict[str, str]:
-    """The files of the description by name, without their first lines."""
-    family_says = family(answers["family"]).part("description")
+    """Return the files of the description by name, without their first lines."""
+    texts = family(answers["family"]).part("description")
     head = _HEAD.format_map({name: as_yaml(answer) for name, answer in answers.items()})
-    return {DEVICE_FILE: head + family_says.DEVICE, "main.yaml": family_says.GROUP}
+    return {DEVICE_FILE: head + texts.DEVICE, "main.yaml": texts.GROUP}

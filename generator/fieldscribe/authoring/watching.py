@@ -1,7 +1,7 @@
-"""Compiles devices whenever a file of theirs is saved: only those that changed, and those with errors again.
+"""Compiles devices whenever one of their files is saved: those that changed, and those that failed before.
 
-The states of files are asked for a few times a second: that works on every file system and needs no library, and a
-folder of five devices costs a thousandth of a processor.
+The files are polled a few times a second. That works on every file system and without a library; five devices cost a
+thousandth of a processor.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from fieldscribe.safe_files import State
 
 INTERVAL, SETTLING = 0.25, 0.08
-"""Seconds between two looks at the files, and between two looks at files that are being saved."""
-_MOST_LOOKS = 25
+"""Seconds between two polls, and between two polls while files are being saved."""
+_MOST_POLLS = 25
 _PARTS = (".yaml", ".yml")
 
 States = dict[Path, dict[str, "State | None"]]
-"""By device: the states of the files that may belong to it; None for one that cannot be looked at."""
+"""By device the states of its possible files; None for a file that cannot be read."""
 
 
 @dataclass(slots=True)
 class Outcome:
-    """What one run did: the devices that it compiled, those that are gone, and how it ended."""
+    """The result of one run: the devices that it compiled, those that are gone, and its findings and files."""
 
     devices: list[str]
     gone: list[str]
@@ -42,12 +42,12 @@ class Outcome:
     result: Result
     seconds: float
     trouble: OSError | None = None
-    """Why nothing could be written."""
+    """The reason why nothing could be written."""
 
 
 @dataclass(slots=True)
 class Watch:
-    """The devices below some paths, and what is made of them where."""
+    """Watches the devices below some paths and compiles them into a folder."""
 
     paths: list[Path]
     out: Path
@@ -57,13 +57,16 @@ class Watch:
     """Called when another run writes to the same folder."""
     states: States = field(default_factory=dict)
     known: dict[str, Path] = field(default_factory=dict)
-    """The devices by id, so that two descriptions of one device are noticed."""
+    """The devices by id, to detect two descriptions of one device."""
     failed: set[Path] = field(default_factory=set)
-    """What the last run could not compile or write."""
+    """The devices that the last run could not compile or write."""
 
     def outcomes(self, stopped: Callable[[float], bool]) -> Iterator[Outcome]:
-        """An outcome at the start and after each change, until `stopped`, which waits that many seconds, says so."""
-        states = self._look()
+        """Yield an outcome at the start and after each change.
+
+        `stopped` waits for a number of seconds and returns True to end.
+        """
+        states = self._poll()
         while True:
             changed = [file for file, state in states.items() if self.states.get(file) != state]
             gone = [file for file in self.states if file not in states]
@@ -75,23 +78,23 @@ class Watch:
                 states = self._settled(stopped)
 
     def _settled(self, stopped: Callable[[float], bool]) -> States:
-        """The states, as soon as nobody is writing: a file that is half saved is not worth a finding."""
-        states = self._look()
-        for _ in range(_MOST_LOOKS if states != self.states else 0):
+        """Return the states once nobody is writing, so that no half-saved file is compiled."""
+        states = self._poll()
+        for _ in range(_MOST_POLLS if states != self.states else 0):
             if stopped(SETTLING):
                 return self.states
-            before, states = states, self._look()
+            before, states = states, self._poll()
             if states == before:
                 break
         return states
 
-    def _look(self) -> States:
+    def _poll(self) -> States:
         return {file: _files_beside(file) for file in find_devices(self.paths, Report())}
 
     def _run(self, device_files: list[Path], gone: list[Path]) -> Outcome:
         start = monotonic()
         report = Report()
-        find_devices(self.paths, report)  # for what it finds wrong with the paths
+        find_devices(self.paths, report)  # reports errors of the paths
         left = {*device_files, *gone}
         self.known = {device: file for device, file in self.known.items() if file not in left}
         generation = Generation(self.out, self.targets, report, self.debug, self.known)

@@ -38,12 +38,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write it, or compare; the exit code."""
-    from fieldscribe.cli.vendor import delivered, say
+    from fieldscribe.cli.vendor import deliver_all, print_deliveries
 
     orders, code = _orders(arguments)
     missing = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
-    deliveries = delivered(orders, missing, "text", check=arguments.check, force=arguments.force)
-    return max(code, say(deliveries, "text", check=arguments.check))
+    deliveries = deliver_all(orders, missing, "text", check=arguments.check, force=arguments.force)
+    return max(code, print_deliveries(deliveries, "text", check=arguments.check))
 
 
 def _orders(arguments: Namespace) -> tuple[list[Order], int]:

@@ -6,10 +6,17 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldscribe.authoring.formatting import Formatting, MovedError, files_of, formatted
+from fieldscribe.cli.common import StopError, add_format, description_paths, print_json, report_findings, some_path
+from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.source import MOST_BYTES
+from fieldscribe.pipeline import find_devices
+from fieldscribe.report import as_data, visible
+
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.diagnostics import Report
 
 EXAMPLE = """examples:
   fieldscribe fmt
@@ -24,40 +31,24 @@ _STDIN = Path("-")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_format, some_path
-
-    parser.add_argument(
-        "paths",
-        nargs="*",
-        type=some_path,
-        metavar="PATH",
-        help="device ids, folders with device.yaml, folders of such folders, single files, or - "
-        "(default: device.yaml here, else descriptions)",
-    )
+    """Add the command's arguments."""
+    paths = "device ids, folders of descriptions, single files, or - (default: device.yaml here, else descriptions)"
+    parser.add_argument("paths", nargs="*", type=some_path, metavar="PATH", help=paths)
     parser.add_argument("--check", action="store_true", help="write nothing; say what is not in its canonical form")
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Format; the exit code."""
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.diagnostics import Report
-
+    """Format, and return the exit code."""
     report = Report()
     if _STDIN not in arguments.paths:
         return _format_files(arguments, report)
     if len(arguments.paths) > 1 or arguments.check or arguments.format != "text":
-        raise StopError("`-` stands alone", "give the text on standard input, and nothing else")
+        raise StopError("`-` takes no other path and no option", "give the text on standard input, and nothing else")
     return _format_stdin(report)
 
 
 def _format_stdin(report: Report) -> int:
-    from fieldscribe.authoring.formatting import formatted
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import report_findings
-    from fieldscribe.language.source import MOST_BYTES
-
     new = formatted("<stdin>", sys.stdin.buffer.read(MOST_BYTES + 1), report)
     if new is None:
         report_findings(report, "text")
@@ -68,12 +59,6 @@ def _format_stdin(report: Report) -> int:
 
 
 def _format_files(arguments: Namespace, report: Report) -> int:
-    from fieldscribe.authoring.formatting import Formatting, MovedError, files_of
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
-    from fieldscribe.pipeline import find_devices
-    from fieldscribe.report import as_data, visible
-
     run = Formatting(report, writes=not arguments.check)
     for path in find_devices(description_paths(arguments.paths), report):
         for file in files_of(path):

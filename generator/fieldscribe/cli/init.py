@@ -6,7 +6,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.authoring.starting import QUESTIONS
+from fieldscribe.authoring.starting import QUESTIONS, NotStartedError, start, startable, wrong_with
+from fieldscribe.cli.common import LOCAL, StopError, some_path
+from fieldscribe.cli.terminal import FINE
+from fieldscribe.report import visible
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -24,9 +27,7 @@ On a terminal, what no option says is asked; ends with 2 when something is missi
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import some_path
-
+    """Add the command's arguments."""
     device, *others = QUESTIONS
     parser.add_argument(device.name, nargs="?", metavar="DEVICE", help=device.asks)
     for question in others:
@@ -36,11 +37,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Make the description; the exit code."""
-    from fieldscribe.authoring.starting import NotStartedError, start
-    from fieldscribe.cli import FINE
-    from fieldscribe.cli.common import LOCAL, StopError
-
+    """Make the description, and return the exit code."""
     within: Path = arguments.folder or (LOCAL if LOCAL.is_dir() else Path())
     if not within.is_dir():
         raise StopError(f"there is no folder `{within}`", "make it first, or name another with --in")
@@ -53,27 +50,24 @@ def run(arguments: Namespace) -> int:
         raise StopError(f"there is already `{folder}`: nothing was written", hint) from error
     except NotStartedError as error:
         raise StopError(f"{error.finding.message}; nothing was written", error.finding.hint or "") from error
-    _say_what_is_next(folder, made)
+    _print_next_steps(folder, made)
     return FINE
 
 
-def _answers(said: Mapping[str, str | None]) -> dict[str, str]:
-    """What options say, and answers for the rest. Raises StopError."""
-    from fieldscribe.authoring.starting import wrong_with
-    from fieldscribe.cli.common import StopError
-
+def _answers(options: Mapping[str, str | None]) -> dict[str, str]:
+    """Return the answers: from options, from the terminal, or usual ones. Raises StopError."""
     answers: dict[str, str] = {}
     may_ask = sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty()
     missing: list[str] = []
     for question in QUESTIONS:
-        given = said[question.name]
+        given = options[question.name]
         if given is not None:
             wrong = wrong_with(question.name, given)
             if wrong is not None:
                 raise StopError(f"{_option(question)}: {wrong[0]}", wrong[1])
             answers[question.name] = given
         elif may_ask:
-            answers[question.name] = _asked(question, question.usual.format(**answers))
+            answers[question.name] = _ask(question, question.usual.format(**answers))
         elif question.usual and not missing:
             answers[question.name] = question.usual.format(**answers)
         elif not question.usual:
@@ -87,33 +81,27 @@ def _option(question: Question) -> str:
     return "DEVICE" if question is QUESTIONS[0] else f"--{question.name}"
 
 
-def _asked(question: Question, usual: str) -> str:
-    """What a person on the terminal says. Raises StopError when there will be no answer."""
-    from fieldscribe.authoring.starting import startable, wrong_with
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.report import visible
-
-    say: Callable[[str], int] = sys.stderr.write
+def _ask(question: Question, usual: str) -> str:
+    """Ask on the terminal and return the answer. Raises StopError at the end of input."""
+    write: Callable[[str], int] = sys.stderr.write
     if question.name == "family":
         for name, serves in startable().items():
-            say(f"  {name:<8}{serves}\n")
+            write(f"  {name:<8}{serves}\n")
     while True:
-        say(f"{question.asks}{f' [{visible(usual)}]' if usual else ''}: ")
+        write(f"{question.asks}{f' [{visible(usual)}]' if usual else ''}: ")
         sys.stderr.flush()
         typed = sys.stdin.readline()
         if not typed:
-            say("\n")
+            write("\n")
             raise StopError("stopped: nothing was written")
         answer = typed.strip() or usual
         wrong = wrong_with(question.name, answer)
         if wrong is None:
             return answer
-        say(f"  {visible(wrong[0])}{f'; {visible(wrong[1])}' if wrong[1] else ''}\n")
+        write(f"  {visible(wrong[0])}{f'; {visible(wrong[1])}' if wrong[1] else ''}\n")
 
 
-def _say_what_is_next(folder: Path, made: list[Path]) -> None:
-    from fieldscribe.report import visible
-
+def _print_next_steps(folder: Path, made: list[Path]) -> None:
     where = visible(str(folder))
     print(f"made {' and '.join(visible(str(path)) for path in made)}")
     print("next:")

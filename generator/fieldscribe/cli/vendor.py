@@ -1,19 +1,42 @@
-"""`fieldscribe vendor`: leave exactly the files that a project needs."""
+"""`fieldscribe vendor`: deliver exactly the files that a project needs."""
 
 from __future__ import annotations
 
+import re
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldscribe.checks.device_name_is_free import reasons
+from fieldscribe.cli.common import (
+    StopError,
+    add_descriptions,
+    add_format,
+    open_device,
+    print_json,
+    report_findings,
+    some_path,
+    usage_error,
+)
+from fieldscribe.cli.generate import print_waiting
+from fieldscribe.cli.terminal import FINDINGS, FINE
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.keys.forms import ID
+from fieldscribe.output.depfile import update_depfile
+from fieldscribe.report import visible
+from fieldscribe.safe_files import Inputs, read_regular
+from fieldscribe.user_errors import UnclearError
+from fieldscribe.vendoring.deliveries import Order, compare, deliver, leftovers, refuse_duplicates
+from fieldscribe.vendoring.project_file import NAME, read_project
+from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
+from fieldscribe.vendoring.selection import address_only_messages, select
+
 if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+    from argparse import ArgumentParser
     from collections.abc import Sequence
 
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.safe_files import Inputs
-    from fieldscribe.vendoring.deliveries import Delivery, Order
+    from fieldscribe.vendoring.deliveries import Delivery
     from fieldscribe.vendoring.project_file import ProjectDevice
-    from fieldscribe.vendoring.requests import CodeRequest
 
 EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers
@@ -30,42 +53,28 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_descriptions, add_format, some_path
-    from fieldscribe.vendoring.requests import LANGUAGES
-
-    parser.add_argument("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
-    parser.add_argument(
-        "device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml"
-    )
+    """Add the command's arguments."""
+    add = parser.add_argument
+    add("language", nargs="?", metavar="LANGUAGE", help=f"one of {', '.join(LANGUAGES)}")
+    add("device", nargs="?", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
     add_descriptions(parser)
-    parser.add_argument("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
-    parser.add_argument(
-        "--points",
-        metavar="LIST",
-        help="codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)",
-    )
-    parser.add_argument("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
-    parser.add_argument("--single-file", action="store_true", help="c: all in one header")
-    parser.add_argument("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
-    parser.add_argument("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
-    parser.add_argument(
-        "--project", type=some_path, metavar="FILE", help="what to leave where (default: fieldscribe.toml)"
-    )
-    parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
-    parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
-    parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
-    parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
+    add("--out", type=some_path, metavar="DIR", help="the folder of the project that they go to")
+    points = "codes, names, groups or patterns, with commas between, or @FILE (# begins a comment there)"
+    add("--points", metavar="LIST", help=points)
+    add("--as", dest="name", metavar="NAME", help="what the device is called in code (default: its id)")
+    add("--single-file", action="store_true", help="c: all in one header")
+    add("--wheel", action="store_true", help="python: wheels of the device and of the runtime")
+    add("--no-frames", action="store_true", help="c: the points alone, without requests and telegrams")
+    add("--project", type=some_path, metavar="FILE", help="the project file (default: fieldscribe.toml)")
+    add("--check", action="store_true", help="write nothing; say what is not as it should be")
+    add("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
+    add("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
+    add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Leave them, or compare; the exit code."""
-    from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import report_findings
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.safe_files import Inputs
-
+    """Deliver or compare, and return the exit code."""
     report, inputs = Report(), Inputs()
     orders = _orders(arguments, report, inputs)
     if report.has_errors:
@@ -73,21 +82,22 @@ def run(arguments: Namespace) -> int:
         return FINDINGS
     missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
     looks = arguments.check or arguments.list_outputs
-    deliveries = delivered(orders, missing, arguments.format, check=looks, force=arguments.force)
+    deliveries = deliver_all(orders, missing, arguments.format, check=looks, force=arguments.force)
     if arguments.list_outputs:
-        return _list(deliveries)
+        return _print_paths(deliveries)
     if not looks:
         _update_depfile(arguments, deliveries, inputs)
-    left = _left(orders) if arguments.language is None else []
-    return say(deliveries, arguments.format, check=arguments.check, left=left)
+    left = leftovers(orders, LANGUAGES) if arguments.language is None else []
+    return print_deliveries(deliveries, arguments.format, check=arguments.check, left=left)
 
 
-def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool) -> list[Delivery]:
-    """Leave the files, or compare. `missing` is what to say without the library of an extra. Raises StopError."""
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.deliveries import refuse_duplicates
+def deliver_all(
+    orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool
+) -> list[Delivery]:
+    """Deliver or compare the files of all orders. Raises StopError.
 
+    `missing` is the message for a missing library of an extra.
+    """
     deliveries: list[Delivery] = []
     try:
         refuse_duplicates(orders)
@@ -95,20 +105,15 @@ def delivered(orders: list[Order], missing: tuple[str, str], form: str, *, check
         raise StopError(error.message, error.hint) from error
     for order in orders:
         try:
-            deliveries.append(_delivered(order, missing, check=check, force=force))
+            deliveries.append(_deliver(order, missing, check=check, force=force))
         except StopError:
             if deliveries:
-                say(deliveries, form, check=check)  # what is done is done
+                print_deliveries(deliveries, form, check=check)  # report what is done already
             raise
     return deliveries
 
 
-def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.generate import print_waiting
-    from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.deliveries import compare, deliver
-
+def _deliver(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
     try:
         return compare(order) if check else deliver(order, print_waiting, force=force)
     except UnclearError as error:
@@ -121,42 +126,26 @@ def _delivered(order: Order, missing: tuple[str, str], *, check: bool, force: bo
         raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
 
 
-def _left(orders: list[Order]) -> list[Path]:
-    """Files of what the project file names no more."""
-    from fieldscribe.vendoring.deliveries import leftovers
-    from fieldscribe.vendoring.requests import LANGUAGES
-
-    return leftovers(orders, LANGUAGES)
-
-
 def _update_depfile(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
-    """Write the rule for make that was asked for, if all is there. Raises OSError."""
-    from fieldscribe.output.depfile import update_depfile
-
+    """Write the dependency file if it is wanted and all files are current. Raises OSError."""
     if arguments.depfile and all(delivery.is_current for delivery in deliveries):
         outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
         update_depfile(arguments.depfile, outputs, inputs.digests)
 
 
-def _list(deliveries: list[Delivery]) -> int:
-    from fieldscribe.cli import FINE
-    from fieldscribe.report import visible
-
+def _print_paths(deliveries: list[Delivery]) -> int:
     print(*(visible(str(delivery.order.out / path)) for delivery in deliveries for path in delivery.files), sep="\n")
     return FINE
 
 
 def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:
-    """What the command line, or the project file, asks for. Raises StopError."""
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.project_file import NAME, read_project
-
+    """Return the orders of the command line or of the project file. Raises StopError."""
     if arguments.language is not None:
         if arguments.project is not None:
             raise StopError("--project is for `fieldscribe vendor` without LANGUAGE", "leave out one of them")
         return [_order(arguments, _request(arguments, inputs), arguments.device, arguments.out, inputs)]
     of_one = (arguments.out, arguments.points, arguments.name)
-    if any(said is not None for said in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
+    if any(option is not None for option in of_one) or arguments.single_file or arguments.no_frames or arguments.wheel:
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     try:
@@ -171,31 +160,19 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
 def _orders_of_project(
     arguments: Namespace, project: list[ProjectDevice], report: Report, inputs: Inputs
 ) -> list[Order]:
-    from fieldscribe.cli.common import StopError
-
     orders: list[Order] = []
     for wanted in project:
         try:
             orders.append(_order(arguments, wanted.request, wanted.device, wanted.out, inputs))
         except StopError as error:
             if not error.message:
-                raise  # the description's own findings are told
+                raise  # the findings of the description are printed already
             report.error("bad-project", error.message, wanted.place, error.hint or None)
     return orders
 
 
 def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | None, inputs: Inputs) -> Order:
-    """One order, its device loaded and its points known to be there. Raises StopError."""
-    import re
-    from argparse import Namespace as Asked
-
-    from fieldscribe.checks.device_name_is_free import reasons
-    from fieldscribe.cli.common import StopError, open_device, usage_error
-    from fieldscribe.language.keys.forms import ID
-    from fieldscribe.user_errors import UnclearError
-    from fieldscribe.vendoring.deliveries import Order
-    from fieldscribe.vendoring.selection import address_only_messages, select
-
+    """Return an order, with its device loaded and its points checked. Raises StopError."""
     if device is None or out is None:
         raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
     if request.name is not None:
@@ -203,14 +180,14 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
         taken = bad or next(reasons(request.name), None)
         if taken:
             raise StopError(f"`{request.name}` {taken}")
-    asked = Asked(device=device, descriptions=arguments.descriptions, format=arguments.format)
-    opened = open_device(asked, inputs)
+    named = Namespace(device=device, descriptions=arguments.descriptions, format=arguments.format)
+    opened = open_device(named, inputs)
     try:
         select(opened, request.points)
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
-    for said in address_only_messages(opened, request.points):
-        usage_error(said)
+    for message in address_only_messages(opened, request.points):
+        usage_error(message)
     return Order(opened, request, out)
 
 
@@ -218,14 +195,11 @@ _USAGE = "`fieldscribe vendor c hitachi_l200 --out drivers`"
 
 
 def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
-    """What the options ask for. Raises StopError."""
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
-
+    """Return the request of the command line. Raises StopError."""
     language = arguments.language
     if language not in LANGUAGES:
         hint = f"there are {', '.join(LANGUAGES)}, as in {_USAGE}"
-        raise StopError(f"`{language}` is no language to take a device in", hint)
+        raise StopError(f"`{language}` is not a language for code", hint)
     switches = {"frames": not arguments.no_frames, "single_file": arguments.single_file, "wheel": arguments.wheel}
     for switch, of_language in LANGUAGE_OF.items():
         if switches[switch] is (switch != "frames") and language != of_language:
@@ -237,36 +211,27 @@ def _request(arguments: Namespace, inputs: Inputs) -> CodeRequest:
     return CodeRequest(language, points, arguments.name, **switches)
 
 
-def _points(said: str | None, inputs: Inputs) -> tuple[str, ...]:
-    """The words of `--points`, or of the file that it names. Raises StopError."""
-    import re
-
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.safe_files import read_regular
-
-    if said is None:
+def _points(text: str | None, inputs: Inputs) -> tuple[str, ...]:
+    """Return the words of `--points`, or of the file that it names. Raises StopError."""
+    if text is None:
         return ()
-    if said.startswith("@"):
+    if text.startswith("@"):
         try:
-            content = read_regular(said[1:], 1 << 20)
-            inputs.note(Path(said[1:]), content)
+            content = read_regular(text[1:], 1 << 20)
+            inputs.note(Path(text[1:]), content)
             text = content.data.decode("utf-8-sig")
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or "it is no UTF-8 text"
-            raise StopError(f"cannot read {said[1:]}: {why}") from error
-        said = ",".join(re.split(r"(?:^|\s)#", line)[0] for line in text.splitlines())
-    return tuple(dict.fromkeys(word.strip() for word in said.split(",") if word.strip()))
+            raise StopError(f"cannot read {text[1:]}: {why}") from error
+        text = ",".join(re.split(r"(?:^|\s)#", line)[0] for line in text.splitlines())
+    return tuple(dict.fromkeys(word.strip() for word in text.split(",") if word.strip()))
 
 
-def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
-    """Print what was done, or what is not as it should be; the exit code.
+def print_deliveries(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Path] = ()) -> int:
+    """Print what was done or what is wrong, and return the exit code.
 
-    `left` are files of what the project file does not name, or no more: told, for somebody may have asked by hand.
+    `left` are files that the project file does not name; a command line may have requested them.
     """
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import print_json, usage_error
-    from fieldscribe.report import visible
-
     if form == "json":
         data: dict[str, object] = {"deliveries": [delivery.as_data() for delivery in deliveries]}
         print_json(data | ({"not_in_project": list(map(str, left))} if left else {}))
@@ -282,8 +247,6 @@ def say(deliveries: list[Delivery], form: str, *, check: bool, left: Sequence[Pa
 
 
 def _print(delivery: Delivery, *, check: bool) -> None:
-    from fieldscribe.report import visible
-
     out = delivery.order.out
     for what, paths in (
         ("missing", delivery.missing),

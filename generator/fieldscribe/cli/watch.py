@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import gc
+import json
 import sys
+from signal import SIGINT, SIGTERM, signal
+from threading import Event
+from time import strftime
 from typing import TYPE_CHECKING
+
+from fieldscribe.authoring.watching import Watch
+from fieldscribe.cli import show_traceback
+from fieldscribe.cli.common import add_format, add_paths, description_paths, report_findings
+from fieldscribe.cli.generate import add_where, print_waiting, targets_of
+from fieldscribe.cli.terminal import FINE
+from fieldscribe.report import as_data, summary, visible
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from pathlib import Path
-    from threading import Event
     from types import FrameType
 
     from fieldscribe.authoring.watching import Outcome
@@ -22,25 +33,15 @@ ends with 0 at Ctrl-C or SIGTERM, when the run that goes on is done"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
-    from fieldscribe.cli.common import add_format, add_paths
-    from fieldscribe.cli.generate import add_where
-
+    """Add the command's arguments."""
     add_paths(parser)
     add_where(parser)
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
-    """Watch until somebody stops it; the exit code."""
-    import gc
-
-    from fieldscribe.authoring.watching import Watch
-    from fieldscribe.cli import FINE, show_traceback
-    from fieldscribe.cli.common import description_paths
-    from fieldscribe.cli.generate import print_waiting, targets_of
-
-    gc.enable()  # this run is not short
+    """Watch until Ctrl-C or SIGTERM, and return the exit code."""
+    gc.enable()  # the process runs for long
     watch = Watch(
         description_paths(arguments.paths),
         arguments.out,
@@ -50,49 +51,38 @@ def run(arguments: Namespace) -> int:
     )
     with _Stop() as stop:
         for outcome in watch.outcomes(stop.wait):
-            _tell(outcome, arguments.out, arguments.format)
+            _print(outcome, arguments.out, arguments.format)
     return FINE
 
 
 class _Stop:
-    """Lets the run that goes on end before Ctrl-C or SIGTERM does; a second one does not wait."""
+    """Lets the current compilation finish at Ctrl-C or SIGTERM; a second signal does not wait."""
 
     def __enter__(self) -> Event:
-        from signal import SIGINT, SIGTERM, signal
-        from threading import Event
-
         self.event = Event()
-        self.before = {number: signal(number, self._come) for number in (SIGINT, SIGTERM)}
+        self.before = {number: signal(number, self._on_signal) for number in (SIGINT, SIGTERM)}
         return self.event
 
     def __exit__(self, *_: object) -> None:
-        from signal import signal
-
         for number, handler in self.before.items():
             signal(number, handler)
 
-    def _come(self, _number: int, _frame: FrameType | None) -> None:
+    def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
         if self.event.is_set():
             raise KeyboardInterrupt
         self.event.set()
 
 
-def _tell(outcome: Outcome, out: Path, form: str) -> None:
-    from time import strftime
-
-    from fieldscribe.cli.common import report_findings
-
+def _print(outcome: Outcome, out: Path, form: str) -> None:
     if form == "json":
-        _tell_json(outcome, out)
+        _print_json(outcome, out)
     else:
         report_findings(outcome.report, "text", sys.stdout)
-        print(f"{strftime('%H:%M:%S')} {_said(outcome, out)} ({outcome.seconds:.2f} s)")
+        print(f"{strftime('%H:%M:%S')} {_summary(outcome, out)} ({outcome.seconds:.2f} s)")
     sys.stdout.flush()
 
 
-def _said(outcome: Outcome, out: Path) -> str:
-    from fieldscribe.report import summary, visible
-
+def _summary(outcome: Outcome, out: Path) -> str:
     result = outcome.result
     gone = [f"{visible(name)} is gone" for name in outcome.gone]
     if not outcome.devices:
@@ -111,15 +101,11 @@ def _said(outcome: Outcome, out: Path) -> str:
     return "; ".join([*gone, f"{names}: {written}"])
 
 
-def _tell_json(outcome: Outcome, out: Path) -> None:
-    """One line for each run."""
-    import json
-
-    from fieldscribe.report import as_data
-
+def _print_json(outcome: Outcome, out: Path) -> None:
+    """Print one line of JSON for a run."""
     result = outcome.result
     lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "kept")}
     trouble = {} if outcome.trouble is None else {"trouble": str(outcome.trouble)}
     findings = as_data(outcome.report.findings)
-    said = {"devices": outcome.devices, "gone": outcome.gone, "out": str(out), **lists, **trouble, "findings": findings}
-    print(json.dumps(said))
+    data = {"devices": outcome.devices, "gone": outcome.gone, "out": str(out), **lists, **trouble, "findings": findings}
+    print(json.dumps(data))

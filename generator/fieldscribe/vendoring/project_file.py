@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import os
 import re
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
@@ -119,8 +120,6 @@ class _Reader:
             )
 
     def _check(self, settings: Mapping[str, Any], number: int | None, known: set[str]) -> None:
-        from difflib import get_close_matches
-
         for key, value in settings.items():
             span = self._span(number, key)
             if key not in known:

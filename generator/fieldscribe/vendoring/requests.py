@@ -9,7 +9,13 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from fieldscribe.code_view import for_code
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import target
+from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
+from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.heads import LEFT_OUT
+from fieldscribe.vendoring.selection import select
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -102,10 +108,6 @@ class DocumentRequest:
 
         Raises ModuleNotFoundError for a workbook without XlsxWriter.
         """
-        from fieldscribe.render import render
-        from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
-        from fieldscribe.targets.docs.scope import scope_of
-
         scope = scope_of(replace(device, asked=self.command(device.id)))
         if self.language == "xlsx":
             yield from xlsx_files(scope)
@@ -117,11 +119,6 @@ class DocumentRequest:
 
 def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
     """Yield the files of a code request: path below the folder, and text. Raises UnclearError."""
-    from fieldscribe.render import render
-    from fieldscribe.resources import templates_dir
-    from fieldscribe.targets import target
-    from fieldscribe.vendoring.selection import select
-
     reduced = select(device, request.points) if request.points else device
     named = replace(for_code(reduced), id=request.name or device.id, asked=request.command(device.id))
     language = target(request.language)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
@@ -112,8 +113,6 @@ def _is_like(point: Point, glob: str) -> bool:
 
 def _hint(device: Device, word: str) -> str:
     """Return a hint with similar names of points, groups and commands."""
-    from difflib import get_close_matches
-
     others = [*(group.name for group in device.groups), *(command.name for command in device.commands)]
     names = [*get_close_matches(word.lower()[:64], others, 2), *near(device, word)[:3]]
     return did_you_mean(list(dict.fromkeys(names))) or f"`fieldscribe list {device.id}` shows them all"
