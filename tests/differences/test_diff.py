@@ -360,14 +360,16 @@ FOREIGN = "model.json does not follow the schema of exported models"
         ("[]", "it is no exported model"),
         ('{"format": 3, "device": "a"}', "its format is not 5"),
         (lambda model: model.pop("points"), "`points` is missing"),
-        (lambda model: model.update(points=5), FOREIGN),
+        (lambda model: model.update(points={}), "`points` is missing or no list"),
         (lambda model: model["points"].append({}), FOREIGN),
         (lambda model: model["points"][0].update(type="u17"), FOREIGN),
         (lambda model: model["points"][0].update(addresses=["1", 2]), FOREIGN),
         (lambda model: model["points"][0].update(raw=[]), FOREIGN),
         (lambda model: model["points"][0].update(scale=[{"num": 1}]), FOREIGN),
         (lambda model: model["points"][1]["enum"].update({"9" * 5000: {}}), FOREIGN),
+        (lambda model: model.update(title=[]), "`title` is missing or a list"),
         (lambda model: model.update(family="bus"), "there is no family `bus`"),
+        (lambda model: model.pop("family"), "there is no family ``"),
     ],
 )
 def test_a_file_that_is_no_exported_model(

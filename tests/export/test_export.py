@@ -14,7 +14,7 @@ import fieldscribe
 import pytest
 from fieldscribe import export
 from fieldscribe.export import export_model, schema_text
-from fieldscribe.facts.scales import bound_of, use_of
+from fieldscribe.facts.point_values import bound_of, use_of
 from fieldscribe.families import families, family
 from fieldscribe.model import Factor, Flag, Limit, Special
 from jsonschema import Draft202012Validator

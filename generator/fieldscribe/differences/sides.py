@@ -106,7 +106,7 @@ def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[st
 
 
 def _model(path: Path, name: str) -> Exported:
-    """Read an exported model; of its contents only the keys are checked. Raises UnclearError."""
+    """Read an exported model; only its first keys are checked. Raises UnclearError."""
     try:
         model = json.loads(read_regular(path, _MOST_MODEL_BYTES).data)
     except (ValueError, RecursionError) as error:
@@ -118,10 +118,12 @@ def _model(path: Path, name: str) -> Exported:
         raise UnclearError(f"{name}: {wanted}", f"{EXPORT_HINT} of this version")
     if model.get("family") not in [*FAMILIES]:
         known = f"known: {', '.join(FAMILIES)}"
-        raise UnclearError(f"{name}: there is no family `{str(model.get('family'))[:60]}`", known)
-    missing = [fact.key for fact in device_table(model["family"]) if fact.key not in model]
-    if missing:
-        raise UnclearError(f"{name}: it is no exported model: `{missing[0]}` is missing", EXPORT_HINT)
+        raise UnclearError(f"{name}: there is no family `{str(model.get('family', ''))[:60]}`", known)
+    for fact in device_table(model["family"]):
+        is_list = fact.schema.get("type") == "array"
+        if fact.key not in model or is_list != isinstance(model[fact.key], list):
+            what = f"`{fact.key}` is missing or {'no' if is_list else 'a'} list"
+            raise UnclearError(f"{name}: it is no exported model: {what}", EXPORT_HINT)
     return model
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.facts import point_values as values
 from fieldscribe.facts import texts
-from fieldscribe.facts.scales import scale_of
 from fieldscribe.facts.schema import (
     ADDRESS,
     BOOLEAN,
@@ -275,7 +274,7 @@ POINT: Table = (
         "Cases of raw = value * num / den + offset; null where raw is the value.",
         null_or(list_of(ref("scale_case"), 1)),
         shared="shape",
-        value=lambda point, context: scale_of(point, context.by_name),
+        value=lambda point, context: values.scale_of(point, context.by_name),
         weight=WIRE,
         refers="point",
         rows=texts.scale_rows,

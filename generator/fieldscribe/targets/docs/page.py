@@ -1,38 +1,41 @@
-"""The view of the Markdown reference of a device."""
+"""The view of the Markdown reference of a device: its facts, and the map of each space by address."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.model import Named
-from fieldscribe.targets.docs.address_map import MapView, map_views
+from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, bus_view, part_of
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
+    anchor,
     by_rows,
     cell,
     code,
     link,
     narrow_link,
     narrow_target,
+    number_cell,
     paragraph,
     source_cell,
     target,
 )
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.scope import place_text, reference_heads
+from fieldscribe.targets.docs.scope import numbers_head, place_text, reference_heads
+from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
-from fieldscribe.targets.heads import command
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
-    from fieldscribe.model import Device, Erratum, Frame, Point, Special
+    from fieldscribe.model import Command, Device, Erratum, Frame, Point, Special
+    from fieldscribe.targets.docs.bus import OfFamily
     from fieldscribe.targets.docs.scope import Scope
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
@@ -40,6 +43,15 @@ _NUMBERINGS = {
     "modicon": "the number with one added, as many PLC and panel tools count; the space is not part of the number",
     "reference": "the traditional reference whose first digit says the space (4: holding registers)",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class MapView:
+    """The points of one space, sorted."""
+
+    anchor: str
+    heading: str
+    rows: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +87,7 @@ def page_of(scope: Scope) -> PageView:
     numberings = (*printed, *(key for key in computed if key not in printed))
     return PageView(
         generated=cell(generated),
-        regenerate=code(command(device, "docs")),
+        regenerate=code(heads.command(device, "docs")),
         heading=cell(f"{device.vendor} {device.model}: {wording.title_text(device.title)}"),
         note=paragraph(wording.title_text(device.note)) if device.note else "",
         facts=by_rows(("Fact", "Value"), _facts(device)),
@@ -236,3 +248,65 @@ def _sharing(device: Device) -> dict[str, list[Point]]:
         if point.shape.specials_of:
             points_of_codes.setdefault(point.specials_of, []).append(point)
     return points_of_codes
+
+
+class _Place(NamedTuple):
+    """What stands at an address."""
+
+    order: tuple[int, int, int, str]
+    """By address, then by index, the high bits of a word first."""
+    wire: str
+    element: str
+    numbers: Mapping[str, int | str]
+    others: tuple[str, ...]
+
+
+def map_views(device: Device) -> Iterator[MapView]:
+    """The map of each space, and of each telegram, in the order of their first points."""
+    part = part_of(device)
+    spaces: dict[tuple[str, str], list[_Place]] = {}
+    for point in device.points:
+        if point.addresses:
+            spaces.setdefault((point.terms.space, point.terms.telegram or ""), []).append(_of_point(point, part))
+    for command in device.commands:
+        spaces.setdefault((command.space, ""), []).append(_of_command(command, part))
+    for (space, telegram), places in spaces.items():
+        heading = cell(f"Telegram {telegram}" if telegram else space.capitalize())
+        yield MapView(anchor("map", telegram or space), heading, _table(sorted(places, key=lambda place: place.order)))
+
+
+def _of_point(point: Point, part: OfFamily) -> _Place:
+    lowest = min(point.place.addresses)
+    high = point.terms.bits[0] if point.terms.bits else 0
+    return _Place(
+        (lowest, -1 if point.index is None else point.index, -high, point.item),
+        place_text(point),
+        "" if point.index is None else str(point.index),
+        {**point.place.references, **_unprinted(part.numbers(point.space, lowest), point.place.references)},
+        (wording.type_text(point), point.access, cell(point.code) if point.code else "", link("point", point.item)),
+    )
+
+
+def _unprinted(numbers: Mapping[str, int], printed: Mapping[str, int | str]) -> Mapping[str, int]:
+    return {name: number for name, number in numbers.items() if name not in printed}
+
+
+def _of_command(command: Command, part: OfFamily) -> _Place:
+    name = f"{link('command', command.name)}{LINE_BREAK}{wanted_text(command)}"
+    numbers = part.numbers(command.space, command.address)
+    wire = wording.address_text(command.address)
+    return _Place((command.address, -1, 0, command.name), wire, "", numbers, ("command", "w", "", name))
+
+
+def _table(places: Sequence[_Place]) -> str:
+    keys = tuple(dict.fromkeys(key for place in places for key in place.numbers))
+    rows = [
+        (
+            place.wire,
+            place.element,
+            " / ".join([number_cell(place.numbers.get(key, "-")) for key in keys]) if place.numbers else "",
+            *place.others,
+        )
+        for place in places
+    ]
+    return by_rows(("Wire address", "Index", numbers_head(keys), "Type", "R/W", "Code", "Name"), rows)

@@ -22,8 +22,7 @@ from fieldscribe.targets.docs.cells import (
     source_text,
     target,
 )
-from fieldscribe.targets.docs.remarks import Remarks
-from fieldscribe.targets.docs.scope import numbers_head, numbers_text, place_text, reference_heads
+from fieldscribe.targets.docs.scope import Remarks, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.words import word_views
 from fieldscribe.wording.exact import fixed_rule
 from fieldscribe.wording.rules import RenamedPoints

@@ -10,7 +10,7 @@ from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.facts.table import Context
 from fieldscribe.families import family
 from fieldscribe.targets.docs.bus import part_of
-from fieldscribe.targets.docs.remarks import Remarks
+from fieldscribe.targets.docs.scope import Remarks
 from fieldscribe.targets.docs.tables import Column, Table, codes_of, decimal, enum_of, original, source_cells
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 
