@@ -25,12 +25,8 @@ from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
 from support.described import made, shipped
 from support.models import named, point, sample_device, titles
-from support.python_package import imported, write_package
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
     from cantools.database.can import Database
     from fieldscribe.model import Device, Point
 
@@ -97,7 +93,7 @@ def test_a_signal_is_written_as_the_format_has_it() -> None:
 
 
 @pytest.mark.parametrize(("last", "listed"), [(0x101F, True), (0x1020, False)], ids=["32 codes", "33 codes"])
-def test_a_long_band_of_special_codes_is_told_in_the_comment_alone(last: int, listed: bool) -> None:
+def test_a_long_band_of_special_codes_is_only_in_the_comment(last: int, listed: bool) -> None:
     band = Special(0x1000, last, "fault", titles("Fault"), True)
     ((signal, _, _),) = point_signals(sample_device(), point("speed", 1, specials=(band,)), CYCLIC)
     assert signal.values == (tuple((raw, "fault") for raw in range(0x1000, last + 1)) if listed else ())
@@ -155,27 +151,6 @@ def test_we_read_what_cantools_writes(seed: int) -> None:
         assert raw == (parts[0] if len(parts) == 1 else parts[0] << 16 | parts[1]), one.name
 
 
-def test_scaled_values_make_the_raw_numbers_of_the_reference() -> None:
-    message = database().get_message_by_frame_id(0x321)
-    for one in POINTS:
-        if one.form != "scaled" or not one.generated or fixed_rule(one) is None:
-            continue
-        slot = one.addresses[0] // CYCLIC.words
-        others = {
-            signal.name: 0
-            for signal in message.signals
-            if signal.multiplexer_signal == "visualisation_multiplexer" and slot in (signal.multiplexer_ids or ())
-        }
-        for raw in (0, 1, 99, 12345, one.greatest, *((-1, one.least) if one.info.signed else ())):
-            value = float(codec.decode(one, raw, {}))
-            data = message.encode(
-                {**others, "message": 0xDD, "visualisation_multiplexer": slot, one.name: value}, strict=False
-            )
-            receiver = Receiver(TELEGRAM, CYCLIC, UNIT)
-            assert receiver.take(CanFrame(0x321, data))
-            assert raw_of(one, receiver.words(one.addresses)[1]) == raw
-
-
 @pytest.mark.parametrize("name", PARAMETERS)
 @pytest.mark.parametrize("unit", [0, 1, 30])
 def test_parameter_messages(name: str, unit: int) -> None:
@@ -227,49 +202,6 @@ def test_what_a_database_cannot_say_is_in_comments() -> None:
     specifics = database().dbc
     assert specifics is not None
     assert specifics.attributes["Baudrate"].value == 125000
-
-
-@pytest.fixture(scope="module")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    """The generated Python package."""
-    folder: Path = write_package(DEVICE, tmp_path_factory.mktemp("dbc"))
-    yield from imported(folder, DEVICE.id)
-
-
-class _Bus:
-    """A bus on which frames come from a list."""
-
-    def __init__(self) -> None:
-        self.frames: list[Any] = []
-
-    def send(self, frame: Any) -> None:
-        raise AssertionError(frame)
-
-    def receive(self) -> Any:
-        if not self.frames:
-            raise TimeoutError
-        return self.frames.pop(0)
-
-
-def test_the_generated_package_reads_what_cantools_reads(package: Any) -> None:
-    from importlib import import_module
-
-    runtime = import_module("fieldscribe_runtime.can")
-    chance, bus = random.Random(7), _Bus()
-    device = package.WoodwardMpu2s(bus, UNIT)
-    frames = [slot_frame(slot, [chance.getrandbits(16) for _ in range(3)]) for slot in range(SLOTS)]
-    for frame in [*frames, *frames]:
-        assert device.take(runtime.Frame(frame.id, frame.data))
-    plain = [decoded(frame) for frame in frames]
-    scaled = [decoded(frame, scaling=True) for frame in frames]
-    for one in POINTS:
-        if not one.generated:
-            continue
-        theirs = [plain[slot][name] for name, slot in named_parts(one)]
-        handle = getattr(device, one.name)
-        assert handle.read_raw() == (theirs[0] if len(theirs) == 1 else theirs[0] << 16 | theirs[1]), one.name
-        if one.form == "scaled" and fixed_rule(one) is not None:
-            assert handle.read() == pytest.approx(scaled[named_parts(one)[0][1]][one.name], rel=1e-12)
 
 
 def hostile() -> Device:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from dataclasses import replace as replace_record
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
@@ -12,11 +11,9 @@ from typing import Any
 
 import fieldscribe
 import pytest
-from fieldscribe import export
 from fieldscribe.export import export_model, schema_text
 from fieldscribe.facts.point_values import bound_of, use_of
-from fieldscribe.families import families, family
-from fieldscribe.model import Factor, Flag, Limit, Special
+from fieldscribe.model import Factor, Flag, Limit, Point, Special
 from jsonschema import Draft202012Validator
 from support.described import described, loaded_in, made
 from support.models import allowed, linear, point, sample_device, scaled, titles, value_of
@@ -260,33 +257,44 @@ def test_variants_frames_errata_and_what_is_only_documented() -> None:
     assert _model()["codes"]["exceptions"]["33"]["name"] == "value_out_of_range"
 
 
+LINEAR = point("other", 1, "s16", scale=scaled(10, 5))
+PLAIN, DOUBLED, FLOATING = point("other", 1), point("other", 1, scale=scaled("1/2", 0)), point("other", 1, "f32")
+
+
+def use(part: str, kind: str, sign: int, **numbers: int) -> dict[str, object]:
+    return {"point": "other", "part": part, **numbers, kind: sign}
+
+
 @pytest.mark.parametrize(
-    ("factor", "constant", "uses"),
+    ("other", "factor", "constant", "uses"),
     [
-        (value_of("other"), 1, [("raw", "power", 1)]),
-        (value_of("other", -1), 1, [("raw", "power", -1)]),
-        (value_of("other", slope=1, intercept=-5), 10, [("value", "power", 1)]),
-        (value_of("other", -1, slope=3, intercept=-15), Fraction(1, 30), [("value", "power", -1)]),
-        (value_of("other", -1, slope=4), Fraction(1, 4), [("raw", "power", -1)]),
-        (value_of("other", ten_to=True), 1, [("raw", "ten_to", 1)]),
-        (value_of("other", -1, slope=-1, ten_to=True), 1, [("raw", "ten_to", 1)]),
-        (value_of("other", intercept=3, ten_to=True), 1000, [("raw", "ten_to", 1)]),
-        (value_of("other", -1, intercept=3, ten_to=True), Fraction(1, 1000), [("raw", "ten_to", -1)]),
-        (value_of("other", slope=2, ten_to=True), 1, [("raw", "ten_to", 1), ("raw", "ten_to", 1)]),
+        (LINEAR, value_of("other"), 1, [use("raw", "power", 1)]),
+        (LINEAR, value_of("other", -1), 1, [use("raw", "power", -1)]),
+        (LINEAR, value_of("other", slope=1, intercept=-5), 10, [use("value", "power", 1)]),
+        (LINEAR, value_of("other", -1, slope=3, intercept=-15), Fraction(1, 30), [use("value", "power", -1)]),
+        (LINEAR, value_of("other", -1, slope=4), Fraction(1, 4), [use("raw", "power", -1)]),
+        (LINEAR, value_of("other", ten_to=True), 1, [use("raw", "ten_to", 1)]),
+        (LINEAR, value_of("other", -1, slope=-1, ten_to=True), 1, [use("raw", "ten_to", 1)]),
+        (LINEAR, value_of("other", intercept=3, ten_to=True), 1000, [use("raw", "ten_to", 1)]),
+        (LINEAR, value_of("other", -1, intercept=3, ten_to=True), Fraction(1, 1000), [use("raw", "ten_to", -1)]),
+        (LINEAR, value_of("other", slope=2, ten_to=True), 1, [use("raw", "ten_to", 1)] * 2),
+        (DOUBLED, value_of("other", slope=2, intercept=1, ten_to=True), 10, [use("value", "ten_to", 1)]),
+        (
+            point("other", 1, "s16", scale=scaled(-1)),
+            value_of("other", slope=-1, ten_to=True),
+            1,
+            [use("raw", "ten_to", -1)],
+        ),
+        (FLOATING, value_of("other", -1), 1, [use("value", "power", -1)]),
+        (PLAIN, value_of("other", intercept=5), 1, [use("raw", "power", 1, times=1, plus=5)]),
+        (PLAIN, value_of("other", -1, slope=99, ten_to=True), 1, [use("raw", "ten_to", -1, times=99, plus=0)]),
+        (PLAIN, value_of("other", intercept=2000, ten_to=True), 1, [use("raw", "ten_to", 1, times=1, plus=2000)]),
     ],
 )
-def test_factors_keep_their_meaning(factor: Factor, constant: Fraction, uses: list[tuple[str, str, int]]) -> None:
-    other = point("other", 1, "s16", scale=scaled(10, 5))
-    found, said = use_of(factor, other)
-    assert (found, said) == (constant, [{"point": "other", "part": part, kind: sign} for part, kind, sign in uses])
-    for raw in (7, -3):
-        value = Fraction(raw - 5, 10)
-        total = found
-        for part, kind, sign in uses:
-            number = Fraction(raw) if part == "raw" else value
-            total *= Fraction(10) ** int(number * sign) if kind == "ten_to" else number**sign
-        inner = raw * factor.slope + factor.intercept
-        assert total == (Fraction(10) ** (inner * factor.power) if factor.ten_to else Fraction(inner) ** factor.power)
+def test_factors_keep_their_meaning(
+    other: Point, factor: Factor, constant: Fraction, uses: list[dict[str, object]]
+) -> None:
+    assert use_of(factor, other) == (constant, uses)
 
 
 @pytest.mark.parametrize(("last", "listed"), [(4095, True), (4096, False)])
@@ -312,12 +320,6 @@ def test_an_erratum_names_its_points() -> None:
     several = replace(DEVICE.errata[0], points=("base_frequency", "ready"))
     exported: Any = export_model(replace(DEVICE, errata=(several,)))
     assert exported["errata"][0]["point"] == ["base_frequency", "ready"]
-
-
-def test_ten_to_a_value_that_is_not_the_raw_number() -> None:
-    doubled = point("doubled", 1, scale=scaled("1/2", 0))
-    constant, uses = use_of(value_of("doubled", slope=2, intercept=1, ten_to=True), doubled)
-    assert (constant, uses) == (Fraction(10), [{"point": "doubled", "part": "value", "ten_to": 1}])
 
 
 def test_documents_and_commands() -> None:
@@ -357,20 +359,6 @@ def test_the_limits_of_frames_are_empty_where_another_family_has_them() -> None:
     assert list(of_can["limits"]) == list(_model()["limits"])
 
 
-def test_a_family_that_exports_nothing_of_its_own_is_no_obstacle(monkeypatch: pytest.MonkeyPatch) -> None:
-    bare = replace_record(family("modbus"), name="bare", folder="support")
-    monkeypatch.setattr(export, "families", lambda: (*families(), bare))
-    assert export_model(DEVICE)["limits"] == _model()["limits"]
-
-
-@pytest.mark.parametrize("slope", [1, -1])
-def test_ten_to_a_raw_number_is_said_of_the_raw_number(slope: int) -> None:
-    """Also where the value is as large, so that every consumer finds one form."""
-    other = point("other", 1, "s16", scale=scaled(slope))
-    said = use_of(value_of("other", slope=slope, ten_to=True), other)
-    assert said == (Fraction(1), [{"point": "other", "part": "raw", "ten_to": slope}])
-
-
 def test_tasks_and_process_data_of_a_drive() -> None:
     """Of a drive over USS: what answers and what refuses a task, and which way a word travels."""
     exported: Any = export_model(made("kitchen_uss"))
@@ -385,24 +373,6 @@ def test_tasks_and_process_data_of_a_drive() -> None:
     assert travels["control_word"] == ("task", "request")
     assert travels["status_word"] == ("answer", "response")
     assert {one["direction"] for one in exported["points"] if one["name"] not in travels} == {None}
-
-
-@pytest.mark.parametrize(
-    ("factor", "said"),
-    [
-        (value_of("other", intercept=5), {"times": 1, "plus": 5, "power": 1}),
-        (value_of("other", -1, slope=99, ten_to=True), {"times": 99, "plus": 0, "ten_to": -1}),
-        (value_of("other", intercept=2000, ten_to=True), {"times": 1, "plus": 2000, "ten_to": 1}),
-    ],
-)
-def test_a_factor_that_is_no_plain_multiple_is_said_with_all_its_numbers(factor: Factor, said: dict[str, int]) -> None:
-    constant, uses = use_of(factor, point("other", 1))
-    assert (constant, uses) == (Fraction(1), [{"point": "other", "part": "raw", **said}])
-
-
-def test_a_factor_that_is_a_number_of_floating_point() -> None:
-    expected = (Fraction(1), [{"point": "other", "part": "value", "power": -1}])
-    assert use_of(value_of("other", -1), point("other", 1, "f32")) == expected
 
 
 def test_the_layout_of_a_message() -> None:
