@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -29,10 +30,10 @@ from support.models import (
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from fieldscribe.model import Device, Point
 
+PROGRAMS = Path(__file__).resolve().parents[1] / "targets" / "c" / "programs"
 WARNINGS = (
     *("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion"),
     *("-Wcast-qual", "-Wundef", "-Wfloat-equal", "-Werror"),
@@ -67,6 +68,11 @@ def write_c(device: Device, out: Path) -> Path:
 def write_headers(device: Device, out: Path) -> Path:
     """Generates the same without the vectors; returns the folder."""
     return generate(device, out, c)
+
+
+def program(name: str) -> str:
+    """Return one of the C programs of the tests."""
+    return (PROGRAMS / f"{name}.c").read_text("utf-8")
 
 
 def conformance_source(folder: Path, device: str) -> Path:

@@ -21,6 +21,7 @@ from support.c_device import (
     Folders,
     conformance_source,
     driver,
+    program,
     rare_device,
     write_c,
 )
@@ -288,30 +289,7 @@ def test_no_float_is_left(folders: Folders) -> None:
         assert not re.search(r"\b(double|float)\b|[0-9]\.[0-9]", own)
 
 
-FLOAT32 = """
-#include "sample_drive.h"
-int main(void)
-{
-    uint32_t at;
-    for (at = 0; at <= 65535U; ++at) {
-        const uint16_t raw = (uint16_t)at;
-        uint16_t again = 1;
-        sample_drive_real value = sample_drive_frequency_fine_decode(raw);
-        if (sample_drive_frequency_fine_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw) {
-            return 1;
-        }
-        value = sample_drive_main_frequency_decode(raw); /* the old name of base_frequency */
-        if (raw <= SAMPLE_DRIVE_BASE_FREQUENCY_RAW_MAX &&
-            (sample_drive_base_frequency_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw)) {
-            return 2;
-        }
-        if (sizeof(sample_drive_third_decode(raw)) != sizeof(sample_drive_real)) {
-            return 3;
-        }
-    }
-    return sizeof(sample_drive_acceleration_time_decode(1U)) == sizeof(double) ? 0 : 4;
-}
-"""
+FLOAT32 = program("float32")
 
 
 @pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
@@ -321,33 +299,7 @@ def test_every_raw_survives_the_value(build: str, sample: Path, tmp_path: Path) 
     succeed([compiled("gcc", flags, tmp_path / "trip.c", tmp_path / "trip")])
 
 
-TRIPS = """
-#include "trips.h"
-#define TRIP(point, type, first)                                                           \\
-    for (at = first; at <= first + 65535; ++at) {                                          \\
-        const type raw = (type)at;                                                         \\
-        type again = (type)(raw ^ 1);                                                      \\
-        if (trips_##point##_encode(trips_##point##_decode(raw), &again) != TRIPS_OK ||     \\
-            again != raw) {                                                                \\
-            return 1;                                                                      \\
-        }                                                                                  \\
-        again = (type)(raw ^ 1);                                                           \\
-        if (trips_##point##_encode_count(trips_##point##_decode_count(raw), &again) !=     \\
-                TRIPS_OK || again != raw) {                                                \\
-            return 2;                                                                      \\
-        }                                                                                  \\
-    }
-int main(void)
-{
-    int32_t at;
-    TRIP(tenth, uint16_t, 0)
-    TRIP(fine, uint16_t, 0)
-    TRIP(sevenths, uint16_t, 0)
-    TRIP(falling, int16_t, -32768)
-    TRIP(shifted, int16_t, -32768)
-    return 0;
-}
-"""
+TRIPS = program("trips")
 
 
 @pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
@@ -358,67 +310,7 @@ def test_every_raw_survives_every_kind_of_rule(build: str, tmp_path: Path) -> No
     succeed([compiled("gcc", flags, tmp_path / "trips.c", tmp_path / "trips")])
 
 
-NOISE = """
-#include <stdlib.h>
-#define FIELDSCRIBE_IMPLEMENTATION
-#include "sample_drive_modbus.h"
-static uint32_t state = 1U;
-static uint32_t draw(void)
-{
-    state = (uint32_t)(((uint64_t)state * 48271U) % 2147483647U);
-    return state;
-}
-int main(void)
-{
-    static const uint8_t codes[] = {1, 2, 3, 4, 5, 6, 8, 15, 16, 43};
-    const uint16_t written[1] = {1U};
-    unsigned round_number;
-    for (round_number = 0; round_number < 200000U; ++round_number) {
-        const uint16_t count = (uint16_t)(draw() % 130U + 1U);
-        const fieldscribe_modbus_reading what = {codes[draw() % 10U], 2U, count};
-        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
-        const size_t length = draw() % 24U;
-        uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
-        uint8_t *const exact = bytes + 1;
-        uint16_t *const values = (uint16_t *)malloc(count * sizeof(uint16_t));
-        fieldscribe_modbus_reply reply = {values, count, 0U, 0U};
-        size_t at;
-        const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
-        const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
-        request.values = written;
-        request.first = written[0];
-        request.given = 1U;
-        for (at = 0; at < length; ++at) {
-            exact[at] = (uint8_t)(draw() & 0xFFU);
-        }
-        if (length > head + 4U && draw() % 4U != 0U) { /* mostly frames that get far */
-            exact[head] = 1U;
-            exact[head + 1U] = request.function;
-            exact[head + 2U] = (uint8_t)(length - head - (head != 0U ? 3U : 5U));
-            if (head != 0U) {
-                fieldscribe_modbus_put(exact, 0U);
-                fieldscribe_modbus_put(exact + 2, 0U);
-                fieldscribe_modbus_put(exact + 4, (uint16_t)(length - 6U));
-            } else {
-                const uint16_t crc = fieldscribe_modbus_crc(exact, length - 2U);
-                exact[length - 2U] = (uint8_t)(crc & 0xFFU);
-                exact[length - 1U] = (uint8_t)(crc >> 8);
-            }
-        }
-        if (fieldscribe_modbus_left(&sample_drive_modbus_profile, framing, &request, exact, 300U, length) >
-            300U - length) { /* whatever they say of their length, no more than fit */
-            return 2;
-        }
-        if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&
-            reply.count > 0U) {
-            return 1;
-        }
-        free(values);
-        free(bytes);
-    }
-    return 0;
-}
-"""
+NOISE = program("modbus_noise")
 
 
 @pytest.mark.parametrize("compiler", SANITIZING)
@@ -428,31 +320,7 @@ def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path
     succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
 
 
-ECHO = """
-#define FIELDSCRIBE_IMPLEMENTATION
-#include "sample_drive_modbus.h"
-int main(void)
-{
-    static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
-    const uint16_t written[1] = {500U};
-    static const fieldscribe_modbus_writing what = {6U, 0x1028U, 1U};
-    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written, 1U);
-    fieldscribe_modbus_reply reply = {NULL, 0U, 9U, 9U};
-    uint16_t value = 0U;
-    request.transaction = 7U;
-    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
-            FIELDSCRIBE_MODBUS_OK || reply.count != 0U) {
-        return 1;
-    }
-    reply.values = &value;
-    reply.room = 1U;
-    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
-            FIELDSCRIBE_MODBUS_OK || reply.count != 1U || value != 500U) {
-        return 2;
-    }
-    return 0;
-}
-"""
+ECHO = program("modbus_echo")
 
 
 @pytest.mark.parametrize("compiler", SANITIZING)
@@ -506,24 +374,7 @@ def test_a_runtime_of_another_version_is_refused(sample: Path, tmp_path: Path) -
     assert "of another version" in done.stderr
 
 
-FIRMWARE = """
-#define FIELDSCRIBE_NO_FLOAT
-#include "sample_drive.h"
-volatile int32_t wanted;
-volatile int32_t shown;
-volatile uint16_t wire;
-void start(void);
-void start(void)
-{
-    uint16_t raw = 0U;
-    if (sample_drive_base_frequency_encode_count(wanted, &raw) == SAMPLE_DRIVE_OK) {
-        wire = raw;
-    }
-    shown = sample_drive_base_frequency_decode_count(wire);
-    for (;;) {
-    }
-}
-"""
+FIRMWARE = program("modbus_firmware")
 
 
 def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path) -> None:
@@ -539,33 +390,7 @@ def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path
     assert text <= 40
 
 
-INTEGER_FIRMWARE = """
-#define FIELDSCRIBE_NO_FLOAT
-#define FIELDSCRIBE_IMPLEMENTATION
-#include "kitchen_sink_modbus.h"
-volatile int64_t wanted;
-volatile uint32_t pattern;
-volatile uint16_t word;
-volatile int32_t result;
-uint8_t frame[FIELDSCRIBE_MODBUS_TCP_MOST];
-void start(void);
-void start(void)
-{
-    int16_t current = 0;
-    uint16_t words[2];
-    size_t length = 0U;
-    fieldscribe_modbus_request request;
-    result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
-    result += (int32_t)kitchen_sink_plain_f32_check(pattern);
-    word = kitchen_sink_ratio_insert(word, 200U);
-    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words, 2U);
-    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words, 2U);
-    result += (int32_t)fieldscribe_modbus_build(
-        &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
-    for (;;) {
-    }
-}
-"""
+INTEGER_FIRMWARE = program("integer_firmware")
 
 
 def test_cortex_m0_image_of_all_mechanisms_is_without_float(sink: Path, tmp_path: Path) -> None:

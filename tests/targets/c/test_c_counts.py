@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.targets.c.scales import Numbers, _met, reciprocal
-from support.c_device import SANITIZERS, WARNINGS, write_headers
+from support.c_device import SANITIZERS, WARNINGS, program, write_headers
 from support.models import device_of, point, scaled
 from support.toolchains import compiled
 
@@ -31,27 +31,7 @@ SCALES = {
 }
 """By name: type, scale, decimals, and the counts to try, from below the least to above the greatest (or far up)."""
 
-PROGRAM = """
-#include <stdio.h>
-#include "sample_drive.h"
-#define TRY(name, raw_type, first, last, low, high)                                     \\
-    for (at = low; at <= high; ++at) {                                                  \\
-        const int32_t count = (int32_t)sample_drive_##name##_decode_count((raw_type)at); \\
-        fwrite(&count, sizeof count, 1U, stdout);                                       \\
-    }                                                                                   \\
-    for (at = first; at <= last; ++at) {                                                \\
-        raw_type raw = 0;                                                               \\
-        const int32_t status = (int32_t)sample_drive_##name##_encode_count(at, &raw);   \\
-        const int32_t found = status == 0 ? (int32_t)raw : INT32_MIN;                   \\
-        fwrite(&found, sizeof found, 1U, stdout);                                       \\
-    }
-int main(void)
-{
-    int32_t at;
-@TRIES@
-    return 0;
-}
-"""
+PROGRAM = program("counts")
 
 
 def device() -> Device:

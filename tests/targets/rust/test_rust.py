@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 import tomllib
@@ -17,46 +16,36 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import PointDoc, left_out, wrapped
+from fieldscribe.targets.rust.documentation import PointDoc, left_out
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import Item, assignment, binding, called, calls, chain, chained, comparison, filled
-from fieldscribe.targets.rust.literals import nearest_float
 from fieldscribe.targets.rust.subjects import scope_of
-from support.described import kitchen_sink, made, shipped
+from support.described import kitchen_sink, shipped
 from support.made_once import made_once
-from support.models import changed, entry, point, sample_device, titles, trip_device
-from support.places import ROOT, TESTS
-from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
-from support.toolchains import run, succeed, tool
+from support.models import changed, entry, point, sample_device, titles
+from support.places import TESTS
+from support.rust_crates import write_crate
+from support.rust_workspace import (
+    MODELS,
+    RUNTIMES,
+    SHIPPED,
+    bring_up_to_date,
+    cargo,
+    rustc,
+    write_libraries,
+    write_workspace,
+)
+from support.toolchains import succeed, tool
 from support.vector_file import counts_of
 
 if TYPE_CHECKING:
-    import subprocess
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.subjects import CratePoint
 
-SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
 PROGRAMS = TESTS / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
-MODELS: dict[str, Callable[[], Device]] = {
-    "sample_drive": sample_device,
-    "rare": rare_device,
-    "odd": odd_device,
-    "trips": trip_device,
-    "kitchen_sink": kitchen_sink,
-    "kitchen_codes": partial(made, "kitchen_codes"),
-    "kitchen_can": partial(made, "kitchen_can"),
-    "kitchen_uss": partial(made, "kitchen_uss"),
-    "result": partial(made, "odd_names"),
-    "odd_can": can_device,
-    "odd_uss": uss_device,
-}
-RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
-GATEWAYS = ("siemens_mm4", "woodward_mpu2s")
-"""Real devices that programs of users are written for."""
 
 
 @pytest.fixture(scope="session")
@@ -73,158 +62,10 @@ def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureR
     return (cache.mkdir("crates") if cache else made) / "rust"
 
 
-WORKSPACE = """\
-[workspace]
-resolver = "2"
-members = @MEMBERS@
-
-[profile.dev]
-debug = false
-incremental = false
-"""
-
-
-def write_workspace(out: Path) -> None:
-    """The crates of all devices and their vectors, in a workspace that is built as quickly as it can be."""
-    for make in MODELS.values():
-        write_crate(make(), out)
-    for device in SHIPPED:
-        shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
-        shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
-    devices = [*MODELS, *SHIPPED]
-    without_registry(out / "rust")
-    members = json.dumps([*RUNTIMES, *devices, *(f"{device}/conformance" for device in devices)])
-    (out / "rust/Cargo.toml").write_text(WORKSPACE.replace("@MEMBERS@", members), encoding="utf-8")
-
-
-def bring_up_to_date(kept: Path, made: Path) -> None:
-    """Makes the kept files those that were made; cargo builds none again that is left as it is."""
-    texts = {path.relative_to(made): path.read_bytes() for path in made.rglob("*") if path.is_file()}
-    for path, text in texts.items():
-        place = kept / path
-        if not place.is_file() or place.read_bytes() != text:
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(text)
-    for place in (*kept.glob("rust/*/src/**/*.rs"), *kept.glob("rust/*/**/tests/*.rs")):
-        if place.relative_to(kept) not in texts:
-            place.unlink()
-
-
 @pytest.fixture(scope="session")
 def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The crates of the models, compiled with optimization and checked arithmetic, as libraries and objects."""
     return made_once(tmp_path_factory, "libraries", partial(write_libraries, workspace)) / "built"
-
-
-def write_libraries(workspace: Path, out: Path) -> None:
-    for name in GATEWAYS:
-        write_crate(shipped(name), out)
-    (out / "built").mkdir()
-    for name in ("fieldscribe_runtime", *MODELS, *GATEWAYS):
-        folder = out / "rust" if name in GATEWAYS else workspace
-        done = rustc(folder / name / "src/lib.rs", out / "built", "--crate-name", name, "--emit=link,metadata,obj")
-        assert done.returncode == 0, done.stderr
-
-
-def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[str]:
-    """Compiles one file as a library, with the libraries of the folder at hand."""
-    known = [f"--extern={path.stem.removeprefix('lib')}={path}" for path in sorted(out.glob("lib*.rlib"))]
-    checked = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
-    return run(
-        [
-            tool("rustc"),
-            "--edition=2021",
-            "--crate-type=lib",
-            *checked,
-            "-L",
-            out,
-            *known,
-            *flags,
-            "--out-dir",
-            out,
-            source,
-        ]
-    )
-
-
-def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Runs cargo without the network, and with it where something was never fetched."""
-    done = run([tool("cargo"), "--offline", *words], cwd=workspace)
-    return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
-
-
-@pytest.mark.parametrize(
-    ("number", "bits", "nearest"),
-    [
-        (0.1, 64, 0.1),
-        (0.1, 32, 0.10000000149011612),
-        (1e300, 64, 1e300),
-        (1e39, 32, 3.4028234663852886e38),
-        (-1e39, 32, -3.4028234663852886e38),
-    ],
-)
-def test_a_limit_is_the_nearest_number_of_its_type(number: float, bits: int, nearest: float) -> None:
-    assert nearest_float(number, bits) == nearest
-
-
-def test_long_lines_break_as_rustfmt_breaks_them() -> None:
-    """The crates' own lines are held against rustfmt itself; these say which break is meant."""
-    name = "x" * 60
-    assert assignment(4, Item(f"const {name}", "A"), ("A::new(", "    1,", ")"))[0].endswith("A::new(")
-    assert binding(4, Item(f"const {name}", "&'static str"), '"abc"') == (f'const {name}: &\'static str = "abc";',)
-    assert assignment(4, Item(f"const {name}", f"{name}"), ("A::new(", "    1,", ")"))[0].endswith("=")
-    assert calls(4, Item("const A", "B"), [("C", ("1",))]) == ("const A: B = &[C(1)];",)
-    assert calls(4, Item("const A", "B"), [("C", (name, name))])[1] == f"    {name},"
-    assert calls(4, Item("const A", "B"), [("C", (name, name)), ("D", ("1",))])[2] == f"        {name},"
-    assert binding(0, Item(f"pub type {name}{name}"), "A") == (f"pub type {name}{name} =", "    A;")
-    assert chain(Item("static A", "B"), "C::new(1)", [".d()"]) == ("static A: B = C::new(1).d();",)
-    assert chain(Item("static A", "B"), "C::new(1)", [".d()", ".e()"]) == (
-        "static A: B = C::new(1)",
-        "    .d()",
-        "    .e();",
-    )
-    assert comparison(8, name, "== 0") == (f"{name} == 0",)
-    assert comparison(36, name, "== 0") == (name, "    == 0")
-
-
-@pytest.mark.parametrize(
-    ("indent", "items", "lines"),
-    [
-        (4, [("A", ("1",)), ("B", ("2", "3"))], ("&[A(1), B(2, 3)]",)),
-        (4, [("A", ("x" * 29, "y" * 29)), ("B", ("1",))], ("&[", f"    A({'x' * 29}, {'y' * 29}),", "    B(1),", "]")),
-        (
-            4,
-            [("A", ("x" * 29, "y" * 30)), ("B", ("1",))],
-            ("&[", "    A(", f"        {'x' * 29},", f"        {'y' * 30},", "    ),", "    B(1),", "]"),
-        ),
-        (4, [("A" * 39, ("x" * 50,)), ("B", ("1",))], ("&[", f"    {'A' * 39}({'x' * 50}),", "    B(1),", "]")),
-        (
-            4,
-            [("A" * 40, ("x" * 50,)), ("B", ("1",))],
-            ("&[", f"    {'A' * 40}(", f"        {'x' * 50},", "    ),", "    B(1),", "]"),
-        ),
-        (4, [("A", ("x" * 30, "y" * 30))], ("&[A(", f"    {'x' * 30},", f"    {'y' * 30},", ")]")),
-    ],
-    ids=["short", "60 of arguments", "61 of arguments", "100 of a line", "101 of a line", "alone"],
-)
-def test_a_list_of_calls_breaks_as_rustfmt_breaks_it(
-    indent: int, items: list[tuple[str, tuple[str, ...]]], lines: tuple[str, ...]
-) -> None:
-    """Of its defaults: lines of 100 characters, and 60 for the arguments of a call."""
-    assert called(indent, items) == lines
-
-
-def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
-    assert filled("a [", ", ", ["1", "2"], "];") == ("a [1, 2];",)
-    many = filled("a [", ", ", [f"0x{number:04X}" for number in range(40)], "];")
-    assert max(map(len, many)) <= 104
-    assert "".join(line.strip() for line in many).count("0x") == 40
-    steps = [f".times(with.factor_{number})" for number in range(9)]
-    assert chained(("Rule::new(1, 1).times(with.a)", ".over(with.b)")) == (
-        "Rule::new(1, 1).times(with.a)?.over(with.b)",
-    )
-    assert chained((f"Rule::new(1, 1){steps[0]}", *steps[1:]))[1] == "    ?.times(with.factor_1)"
-    assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
 
 
 def clashes(device: Device) -> list[str]:

@@ -1,0 +1,96 @@
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+#include "kitchen_uss_uss.h"
+/* What comes again and again, or once; never more than an answer is waited for. */
+static const uint8_t *said;
+static size_t length;
+static size_t heard;
+static size_t most;
+static void send(void *context, const uint8_t *bytes, size_t count)
+{
+    (void)context;
+    (void)bytes;
+    (void)count;
+    heard = 0U;
+}
+static bool receive(void *context, uint8_t *byte)
+{
+    (void)context;
+    if (heard == most) {
+        return false;
+    }
+    *byte = said[heard % length];
+    ++heard;
+    return true;
+}
+static void say(const uint8_t *bytes, size_t count, size_t times)
+{
+    said = bytes;
+    length = count;
+    most = count * times;
+}
+int main(void)
+{
+    static const fieldscribe_modbus_function functions[] = {{3U, 9U, false}};
+    static const fieldscribe_modbus_profile profile = {functions, 1U, 1U, 9U, 0U, false, true, true};
+    static const fieldscribe_modbus_reading what = {3U, 100U, 1U};
+    static const uint8_t good[] = {1, 3, 2, 0, 1, 0x79, 0x84};
+    static const uint8_t wrong_crc[] = {1, 3, 2, 0, 1, 0x79, 0x85};
+    static const uint8_t other_unit[] = {2, 3, 2, 0, 1, 0x3D, 0x84};
+    static const uint8_t tcp[] = {0, 0, 0, 0, 0, 5, 2, 3, 2, 0, 1};
+    static const uint8_t wrong_check[] = {2, 12, 3, 0x14, 0x3A, 0, 0, 0, 0, 0, 1, 0, 0, 0x23};
+    static const struct {
+        const uint8_t *bytes;
+        size_t length;
+        size_t times;
+        fieldscribe_modbus_status status;
+    } rows[] = {
+        {good, sizeof good, 1U, FIELDSCRIBE_MODBUS_OK},
+        {good, sizeof good, 0U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
+        {good, 3U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
+        {wrong_crc, sizeof wrong_crc, 1U, FIELDSCRIBE_MODBUS_NOISE},
+        {other_unit, sizeof other_unit, 1U, FIELDSCRIBE_MODBUS_NOISE},
+        {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE},
+    };
+    const fieldscribe_uss_link link = {4U, 1U, false};
+    uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
+    uint16_t word = 0U;
+    uint16_t sent = 0U;
+    const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, NULL};
+    const fieldscribe_uss_line other = {
+        &kitchen_uss_uss_profile, &link, buffer, sizeof buffer, &send, &receive, NULL};
+    const fieldscribe_uss_words process = {&sent, 1U};
+    fieldscribe_modbus_reply reply = {&word, 1U, 7U, 7U};
+    fieldscribe_uss_reply answer = {&word, 1U, 0U, 0U, 0U, 0U};
+    const fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
+    const fieldscribe_uss_request task = fieldscribe_uss_read(3U, &kitchen_uss_maximum_frequency_frame.read);
+    size_t at;
+    for (at = 0U; at < FIELDSCRIBE_COUNT(rows); ++at) {
+        say(rows[at].bytes, rows[at].length, rows[at].times);
+        if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != rows[at].status || reply.exception != 0U) {
+            return (int)at + 1;
+        }
+    }
+    if (heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
+        return 10;
+    }
+    say(tcp, sizeof tcp, 1000U);
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE ||
+        heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
+        return 11;
+    }
+    say(wrong_check, sizeof wrong_check, 1U);
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_NOISE) {
+        return 12;
+    }
+    say(wrong_check, sizeof wrong_check, 1000U);
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_NOISE ||
+        heard != FIELDSCRIBE_USS_ASK_MOST) {
+        return 13;
+    }
+    say(wrong_check, sizeof wrong_check, 0U);
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_WRONG_START) {
+        return 14;
+    }
+    return 0;
+}
