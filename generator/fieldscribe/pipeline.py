@@ -175,14 +175,14 @@ def _checked(files: Files, report: Report) -> Analysis:
 
     scope = open_scope(files, report)
     expanded = expand(scope)
-    index = symbols_of(scope, expanded)
+    symbols = symbols_of(scope, expanded)
     bus = bus_of(scope)
     messages = reader_of(scope).messages(scope, bus)
     telegrams = telegrams_of(scope, messages)
-    resolved, ranges, places = resolve_points(scope, expanded, index, telegrams)
+    resolved, ranges, places = resolve_points(scope, expanded, symbols, telegrams)
     points = {entry.point.item: entry.point for entry in resolved}
-    frames = frames_of(scope, bus, index, points)
-    commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
-    analysis = Analysis(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
+    frames = frames_of(scope, bus, symbols, points)
+    commands, errata = commands_of(scope, bus), errata_of(scope, symbols, bus)
+    analysis = Analysis(scope, symbols, ranges, places, resolved, bus, messages, commands, frames, errata)
     run_checks(analysis)
     return analysis

@@ -86,7 +86,7 @@ def test_patterns_of_floats(value: Fraction | int, bits: int, pattern: int) -> N
     assert exact.pattern_of(exact.float_of(pattern, bits), bits) == pattern
 
 
-def test_what_no_float_holds_is_said() -> None:
+def test_a_number_that_no_float_holds_is_refused() -> None:
     with pytest.raises(OverflowError):
         exact.pattern_of(Fraction(10) ** 39, 32)
     with pytest.raises(CodecError) as refused:
@@ -101,7 +101,7 @@ POWER = point("power", 0, scale=scaled(1, "1/2", value_of("base", -1), value_of(
 @pytest.mark.parametrize(
     ("held", "value", "raw"), [(200, "10", 5), (200, "9", 5), (200, "-9", -5), (400, "4000", 4000), (1, "200", 1)]
 )
-def test_a_run_time_factor_is_put_in(held: int, value: str, raw: int) -> None:
+def test_run_time_factors_are_multiplied(held: int, value: str, raw: int) -> None:
     assert encode(SPEED, Fraction(value), {"ratio": held}) == raw
     assert decode(SPEED, raw, {"ratio": held}) == Fraction(raw * 400, held)
 
@@ -114,13 +114,13 @@ def test_a_run_time_factor_is_put_in(held: int, value: str, raw: int) -> None:
         ({"base": 1, "exponent": 99}, "overflow"),
     ],
 )
-def test_why_there_is_no_raw_number(settings: dict[str, int], status: str) -> None:
+def test_errors_name_their_status(settings: dict[str, int], status: str) -> None:
     with pytest.raises(CodecError) as refused:
         encode(POWER, Fraction(1), settings)
     assert refused.value.status == status
 
 
-def test_the_raw_number_is_held_against_the_range_behind_rounding() -> None:
+def test_the_range_is_checked_after_rounding() -> None:
     ratio = point("ratio", 1)
     settings = {"ratio": setting_of(ratio, 400)}
     assert encode_checked(SPEED, Fraction(80009, 20), settings) == 4000
@@ -129,6 +129,6 @@ def test_the_raw_number_is_held_against_the_range_behind_rounding() -> None:
     assert refused.value.status == "out_of_range"
 
 
-def test_a_zero_counts_before_an_exponent_too_large() -> None:
+def test_a_zero_factor_is_reported_before_a_large_exponent() -> None:
     rule = linear(1, 0, value_of("exponent", ten_to=True), value_of("base", -1))
     assert [factor.point for factor in powers_last(rule)] == ["base", "exponent"]

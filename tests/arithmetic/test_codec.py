@@ -220,7 +220,7 @@ def test_flags_by_name() -> None:
         _encode("control_word", "mode=4", device)
 
 
-def test_rounding_is_said() -> None:
+def test_rounding_is_reported() -> None:
     told = encode_point(DEVICE, _point("base_frequency"), "50.04", {})
     assert told.raw == 500
     assert told.notes == ("50.04 Hz is between two raw numbers; rounded to 50 Hz",)
@@ -239,7 +239,7 @@ def test_settings_are_typed_like_values() -> None:
         read_settings(DEVICE, ["voltage_ratio.raw=65536"])
 
 
-def test_choosing() -> None:
+def test_points_and_variants_are_chosen_by_name() -> None:
     assert choose_point(DEVICE, "A020").name == "base_frequency"
     with pytest.raises(UnclearError, match="several points"):
         choose_point(DEVICE, str(0x2003))
@@ -282,7 +282,7 @@ def test_halves_go_away_from_zero(number: Fraction) -> None:
         assert abs(nearest) > abs(number)
 
 
-def test_codes_are_no_neighbours_of_quantities() -> None:
+def test_special_codes_are_never_the_nearest_allowed_number() -> None:
     off = Special(0, 0, "off", titles("Off"), False)
     speed = point("speed", 1, allowed=allowed((0, 0), (100, 200)), specials=(off,), scale=scaled(10), unit=HERTZ)
     assert codec.nearest_allowed(speed, 10, {}) == 100
@@ -332,7 +332,7 @@ def test_bytes_in_many_forms(text: str) -> None:
         ("０５", "is not hexadecimal"),
     ],
 )
-def test_bytes_that_are_none(text: str, words: str) -> None:
+def test_texts_that_are_no_bytes(text: str, words: str) -> None:
     with pytest.raises(HexError) as caught:
         parse_hex(text)
     assert words in str(caught.value)

@@ -70,7 +70,7 @@ class _Overlaps:
         """Return True if two points at one address have bits in common and can exist in the same device."""
         (high, low), (other_high, other_low) = mine.point.bits or _WHOLE, other.point.bits or _WHOLE
         common = low <= other_high and other_low <= high and other is not mine
-        return common and not self._coexistence.never(mine, other)
+        return common and not self._coexistence.exclude(mine, other)
 
 
 def _stands(point: Point) -> Iterator[tuple[int, str]]:

@@ -42,7 +42,7 @@ class Coexistence:
         """Return True if all comparisons of a clause can be true at once."""
         return possible(clause, self.domain)
 
-    def never(self, resolved: ResolvedPoint, other: ResolvedPoint) -> bool:
+    def exclude(self, resolved: ResolvedPoint, other: ResolvedPoint) -> bool:
         """Return True if no device can have both points."""
         if "when" in resolved.facts.failed or "when" in other.facts.failed:
             return True  # the condition could not be read, and has a finding

@@ -19,7 +19,7 @@ _MOST_SHOWN = 12
 def check(analysis: Analysis) -> None:
     """Report comparisons and clauses that can never be true, and conditions that need each other."""
     _circles(analysis)
-    meetings = Coexistence(analysis)
+    coexistence = Coexistence(analysis)
     known: dict[Clause, bool] = {}
     for resolved in analysis.resolved:
         point = resolved.point
@@ -31,9 +31,9 @@ def check(analysis: Analysis) -> None:
             continue
         for clause in clauses(point):
             if clause not in known:
-                known[clause] = meetings.possible(clause)
+                known[clause] = coexistence.possible(clause)
             if not known[clause]:
-                _report_never_true(analysis, resolved, meetings, clause)
+                _report_never_true(analysis, resolved, coexistence, clause)
 
 
 def _circles(analysis: Analysis) -> None:
@@ -55,14 +55,14 @@ def _circles(analysis: Analysis) -> None:
             return
 
 
-def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, meetings: Coexistence, clause: Clause) -> None:
+def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, coexistence: Coexistence, clause: Clause) -> None:
     """Report the first comparison that is never true, or all of them together."""
-    points = {name: points_of_name[0] for name, points_of_name in meetings.points.items()}
-    alone = next((part for part in clause if not meetings.possible((part,))), None)
+    points = {name: points_of_name[0] for name, points_of_name in coexistence.points.items()}
+    alone = next((part for part in clause if not coexistence.possible((part,))), None)
     text = wording.clause_text(clause if alone is None else (alone,), points)
     hint = "one thing has one value at a time: correct the condition, or join its parts with `or`"
     if alone is not None:
-        hint = f"`{alone.of}` can be {_shown(meetings.domain(alone.of))}"
+        hint = f"`{alone.of}` can be {_shown(coexistence.domain(alone.of))}"
     analysis.report.error("never-true", f"`{text}` is never true", resolved.facts.span("when"), hint)
 
 

@@ -21,7 +21,7 @@ _MOST = 64
 
 def check(analysis: Analysis) -> None:
     """Report fixed bits that no allowed number has, that two points write differently, or that another point takes."""
-    meetings = Coexistence(analysis)
+    coexistence = Coexistence(analysis)
     words: dict[tuple[str, str | None, int, int], list[ResolvedPoint]] = {}
     fixed = [resolved for resolved in analysis.resolved if resolved.point.fixed is not None]
     for resolved in analysis.resolved if fixed else ():
@@ -40,7 +40,7 @@ def check(analysis: Analysis) -> None:
             others = words[_word(analysis, point)][:_MOST]
             behind = False
             for other in others:
-                if other is not resolved and not meetings.never(resolved, other):
+                if other is not resolved and not coexistence.exclude(resolved, other):
                     _compare(analysis, resolved, point.fixed, other, behind=behind)
                 behind = behind or other is resolved
 

@@ -46,40 +46,40 @@ def check(analysis: Analysis) -> None:
     seen: dict[str, Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in analysis.resolved}
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
-    for open_frame in analysis.open_frames:
-        read_frame = read(analysis, open_frame, seen)
+    for located in analysis.located_frames:
+        read_frame = read(analysis, located, seen)
         if read_frame.carries is not None:
-            _compare_meaning(analysis, open_frame, read_frame.carries, points)
-            if open_frame.frame.direction == "request":
-                _compare_fixed_bits(analysis, open_frame, read_frame.carries, fixed)
-        ids = tuple(erratum.erratum.id for erratum in analysis.cited.get(open_frame.about, ()))
-        seen[open_frame.frame.name] = read_frame
+            _compare_meaning(analysis, located, read_frame.carries, points)
+            if located.frame.direction == "request":
+                _compare_fixed_bits(analysis, located, read_frame.carries, fixed)
+        ids = tuple(erratum.erratum.id for erratum in analysis.cited.get(located.about, ()))
+        seen[located.frame.name] = read_frame
         analysis.frames.append(replace(read_frame.frame, errata=ids))
 
 
-def _unread(analysis: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
+def _unread(analysis: Analysis, located: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """Read nothing, for families that do not read frames."""
     del analysis, seen
-    return Seen(open_frame.frame)
+    return Seen(located.frame)
 
 
-def _compare_meaning(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: dict[str, Point]) -> None:
-    says = open_frame.node.get("says")
+def _compare_meaning(analysis: Analysis, located: LocatedFrame, carries: Carries, points: dict[str, Point]) -> None:
+    says = located.node.get("says")
     if not isinstance(says, Map):
         return
     for word in says:
-        facts = analysis.index.find(word.removesuffix(".raw"))
+        facts = analysis.symbols.find(word.removesuffix(".raw"))
         point = points.get(facts.item) if facts is not None else None
-        if facts is None or point is None or point.item not in open_frame.frame.meaning or "at" in facts.failed:
+        if facts is None or point is None or point.item not in located.frame.meaning or "at" in facts.failed:
             continue
-        wanted, carried = open_frame.frame.meaning[point.item], carries(point)
+        wanted, carried = located.frame.meaning[point.item], carries(point)
         if carried != wanted:
             shown = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
-            analysis.report_printed(PrintedFact(open_frame.about, "says", says[word], None, says.span(word), message))
+            analysis.report_printed(PrintedFact(located.about, "says", says[word], None, says.span(word), message))
 
 
-def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: Carries, points: list[Point]) -> None:
+def _compare_fixed_bits(analysis: Analysis, located: LocatedFrame, carries: Carries, points: list[Point]) -> None:
     """Report requests that write a word without its constant bits."""
     for point in points:
         word = carries(_whole_word(point))
@@ -87,7 +87,7 @@ def _compare_fixed_bits(analysis: Analysis, open_frame: LocatedFrame, carries: C
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
         printed = f"{word & 0xFFFF:04X}h"
-        analysis.report_printed(open_frame.printed("fixed", printed, None, message))
+        analysis.report_printed(located.printed("fixed", printed, None, message))
 
 
 def _whole_word(point: Point) -> Point:
@@ -97,45 +97,45 @@ def _whole_word(point: Point) -> Point:
     return replace(point, terms=replace(point.terms, bits=None), shape=replace(point.shape, type="u16", width=16))
 
 
-def report_no_frame(analysis: Analysis, open_frame: LocatedFrame, message: str) -> Seen:
+def report_no_frame(analysis: Analysis, located: LocatedFrame, message: str) -> Seen:
     """Report bytes that are no frame of the device; an erratum may give the right ones."""
-    printed = hex_of(open_frame.frame.printed)
-    analysis.report_printed(open_frame.printed("form", printed, None, message))
-    return Seen(replace(open_frame.frame, valid=False))
+    printed = hex_of(located.frame.printed)
+    analysis.report_printed(located.printed("form", printed, None, message))
+    return Seen(replace(located.frame, valid=False))
 
 
-def report_refused(analysis: Analysis, open_frame: LocatedFrame, status: str) -> Seen:
+def report_refused(analysis: Analysis, located: LocatedFrame, status: str) -> Seen:
     """Report a request that the device does not take, or a response that does not answer its request."""
-    frame = open_frame.frame
+    frame = located.frame
     asks = frame.direction == "request"
     what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
-    return report_no_frame(analysis, open_frame, f"{what}: {status.replace('_', ' ')}")
+    return report_no_frame(analysis, located, f"{what}: {status.replace('_', ' ')}")
 
 
-def report_no_request(analysis: Analysis, open_frame: LocatedFrame) -> None:
+def report_no_request(analysis: Analysis, located: LocatedFrame) -> None:
     """Report a response that names no request."""
-    if open_frame.frame.answers is None:
-        message = f"the response `{open_frame.frame.name}` answers nothing"
-        span = open_frame.node.span("name")
+    if located.frame.answers is None:
+        message = f"the response `{located.frame.name}` answers nothing"
+        span = located.node.span("name")
         analysis.report.error("unknown-frame", message, span, "name the request under `answers`")
 
 
-def report_wrong_error(analysis: Analysis, open_frame: LocatedFrame, carried: int | None) -> None:
+def report_wrong_error(analysis: Analysis, located: LocatedFrame, carried: int | None) -> None:
     """Report a frame that carries another error than the description states."""
-    stated = open_frame.node.get("error")
+    stated = located.node.get("error")
     if stated is not None and stated != carried:
         shown = "refuses nothing" if carried is None else f"carries {carried}"
         message = f"the error {stated} is said to be answered, the frame {shown}"
-        analysis.report_printed(open_frame.printed("error", stated, carried, message, at="error"))
+        analysis.report_printed(located.printed("error", stated, carried, message, at="error"))
 
 
-def report_wrong_sum(analysis: Analysis, open_frame: LocatedFrame, key: str, here: bytes, right: bytes) -> None:
+def report_wrong_sum(analysis: Analysis, located: LocatedFrame, key: str, here: bytes, right: bytes) -> None:
     """Report a checksum or a length that the bytes do not give."""
     printed, taken = hex_of(here), hex_of(right)
     if printed != taken:
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
-        analysis.report_printed(open_frame.printed(key, printed, taken, message))
+        analysis.report_printed(located.printed(key, printed, taken, message))
 
 
 def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:

@@ -56,7 +56,7 @@ def _names_of_point(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tup
     where, point, facts = "generated code", resolved.point, resolved.facts
     yield where, facts.item, partial(_point_thing, facts)
     if point.variant is not None:
-        first = analysis.index.by_name[point.name][0]
+        first = analysis.symbols.by_name[point.name][0]
         yield where, point.name, partial(Thing, f"the point `{point.name}`", first.span())
     for old in point.was:
         place = facts.span("was")
@@ -123,7 +123,7 @@ class IdentifierPlaces:
         return {enum.name: enum for enum in reversed(list(_enums(self._analysis)))}
 
     def _facts(self, point: Owner) -> PointFacts:
-        return self._analysis.index.by_item(point.name)
+        return self._analysis.symbols.by_item(point.name)
 
     def _point_words(self, owner: Owner) -> str:
         facts = self._facts(owner)

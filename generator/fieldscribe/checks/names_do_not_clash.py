@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 
 def check(analysis: Analysis) -> None:
     """Report equal names in the description, then equal identifiers in a target."""
-    told_pairs: set[frozenset[Thing]] = set()
+    reported: set[frozenset[Thing]] = set()
     first: dict[tuple[str, str], Callable[[], Thing]] = {}
     for namespace, name, whose in given_names(analysis):
         known = first.setdefault((namespace, name), whose)
         if known is not whose and (other := known()) != (thing := whose()):
-            _report(analysis, other, thing, f"`{name}` in {namespace}", told_pairs)
-    _compare_targets(analysis, told_pairs)
+            _report(analysis, other, thing, f"`{name}` in {namespace}", reported)
+    _compare_targets(analysis, reported)
 
 
-def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> None:
+def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> None:
     from fieldscribe.targets import TARGETS, knows, target
     from fieldscribe.targets.identifiers import clashes
 
@@ -40,17 +40,17 @@ def _compare_targets(analysis: Analysis, told_pairs: set[frozenset[Thing]]) -> N
             continue
         for clash in clashes(language.identifiers(device)):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
-            _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", told_pairs)
+            _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", reported)
 
 
-def _report(analysis: Analysis, first: Thing, second: Thing, where: str, told_pairs: set[frozenset[Thing]]) -> None:
+def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reported: set[frozenset[Thing]]) -> None:
     """Report a pair once, because names that clash in one language mostly clash in the others too."""
     pair = frozenset((first, second))
     if second.place is None:
         first, second = second, first
-    if pair in told_pairs or second.place is None:
+    if pair in reported or second.place is None:
         return
-    told_pairs.add(pair)
+    reported.add(pair)
     hint = "rename one of them" if first.place is not None else "choose another name"
     related = [] if first.place is None else [(first.place, f"{first.words} stands here")]
     message = f"{first.words} and {second.words} would both be {where}"

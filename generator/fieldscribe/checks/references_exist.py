@@ -28,5 +28,5 @@ def check(analysis: Analysis) -> None:
             scope.unknown("command", str(keeps), resolved.facts.span("keep_with"), sorted(declared))
     for node in scope.listed("commands"):
         busy = node.get("busy")
-        if busy is not None and analysis.index.find(busy) is None:
-            analysis.index.unknown(busy, node.span("busy"))
+        if busy is not None and analysis.symbols.find(busy) is None:
+            analysis.symbols.unknown(busy, node.span("busy"))

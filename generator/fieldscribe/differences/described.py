@@ -39,7 +39,7 @@ class Described:
 
     def written(self, item: str) -> PointFacts:
         """Return the point as the text has it."""
-        return self.analysis.index.by_item(item)
+        return self.analysis.symbols.by_item(item)
 
     @cached_property
     def _owners(self) -> IdentifierPlaces:
@@ -50,8 +50,8 @@ class Described:
         """Kinds and names of what the text has and did not resolve; None where even that is not known."""
         if not self.analysis.scope.complete:
             return None
-        drafts = self.analysis.index.by_items.keys()
-        frames = {open_frame.frame.name for open_frame in self.analysis.open_frames}
+        drafts = self.analysis.symbols.by_items.keys()
+        frames = {open_frame.frame.name for open_frame in self.analysis.located_frames}
         known_frames = {frame.name for frame in self.device.frames}
         return frozenset(
             {("point", item) for item in drafts - self.points.keys()}
@@ -101,7 +101,7 @@ class Described:
             return self._of_device(fact)
         (kind, name), parts = names[0], names[1:]
         if kind == "point":
-            return self._of_point(name, names, fact) if name in self.analysis.index.by_items else None
+            return self._of_point(name, names, fact) if name in self.analysis.symbols.by_items else None
         node = next((node for node in self._nodes(kind) if name in (node.get("name"), node.get("id"))), None)
         if node is not None:
             return _said(node, fact) or node.span("name" if "name" in node else "id")
@@ -122,7 +122,7 @@ class Described:
     def _nodes(self, kind: str) -> Iterator[Map]:
         analysis = self.analysis
         if kind == "frame":
-            return (open_frame.node for open_frame in analysis.open_frames)
+            return (open_frame.node for open_frame in analysis.located_frames)
         if kind == "erratum":
             return (open_erratum.node for open_erratum in analysis.errata)
         return analysis.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())

@@ -38,14 +38,14 @@ class Analysis:
     """One resolved device. The checks fill `frames`; `cited` finds errata by what they are about."""
 
     scope: Scope
-    index: SymbolTable
+    symbols: SymbolTable
     ranges: Ranges
     places: Places
     resolved: list[ResolvedPoint]
     bus: Bus
     messages: tuple[Message, ...]
     commands: tuple[Command, ...]
-    open_frames: list[LocatedFrame]
+    located_frames: list[LocatedFrame]
     errata: list[LocatedErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[About, list[LocatedErratum]] = field(default_factory=dict)

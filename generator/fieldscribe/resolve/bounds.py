@@ -63,8 +63,8 @@ class Bounds:
 
     def hull(self, item: str) -> tuple[int, int]:
         """Return the least and greatest raw number of a point, over its variants and moving limits at their widest."""
-        index = self.scales.index
-        ends = [self.own_hull(sibling) for sibling in index.siblings(index.by_item(item))]
+        symbols = self.scales.symbols
+        ends = [self.own_hull(sibling) for sibling in symbols.siblings(symbols.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)
 
     def own_hull(self, facts: PointFacts) -> tuple[int, int]:
@@ -105,7 +105,7 @@ class Bounds:
 
     def float_range(self, factor: Factor) -> tuple[Fraction, Fraction] | None:
         """Return the limits of a floating-point factor; None if its point has none."""
-        facts = self.scales.index.by_item(factor.point)
+        facts = self.scales.symbols.by_item(factor.point)
         if facts.layer("range_in_units") is None:
             return None
         try:
@@ -116,7 +116,7 @@ class Bounds:
 
     def _factor_ends(self, factor: Factor) -> set[Fraction]:
         """Return the extreme values of a factor: a number, its reciprocal, or a power of ten."""
-        if self.scales.index.by_item(factor.point).floating:
+        if self.scales.symbols.by_item(factor.point).floating:
             ends = set(self.float_range(factor) or ())
             return {end**factor.power for end in ends if end} or {Fraction(1)}
         low, high = self.ends_of(factor)
@@ -140,7 +140,7 @@ class Bounds:
             return factor
         low, high = self.ends_of(factor)
         if max(abs(low), abs(high)) > MOST_EXPONENT:
-            name = self.scales.index.by_item(factor.point).name
+            name = self.scales.symbols.by_item(factor.point).name
             message = f"`{name}` is an exponent and can be {low}..{high}"
             hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
             self.scales.scope.report.error("exponent-range", message, span, hint)
@@ -150,7 +150,7 @@ class Bounds:
     def _without_codes(self, item: str) -> tuple[int, int]:
         """Return the hull of a point without the special codes at its ends."""
         low, high = self.hull(item)
-        codes = self.encodings[self.scales.index.by_item(item)].specials
+        codes = self.encodings[self.scales.symbols.by_item(item)].specials
         for code in sorted(codes, key=lambda code: code.low):
             low = code.high + 1 if code.low <= low <= code.high else low
         for code in sorted(codes, key=lambda code: -code.high):
@@ -203,7 +203,7 @@ class Bounds:
 
     def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
         """Return a point's number in a limit of another point. Raises UnknownError after a finding."""
-        used = self.scales.index.find(name, facts.variant)
+        used = self.scales.symbols.find(name, facts.variant)
         if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
             hint = "name another point, or write the fixed end that the manual prints"

@@ -69,9 +69,9 @@ def _comparison(
     if name in scope.axes:
         values = [_value(scope, name, constant, written) for constant in comparison.constants]
         return conditions.Comparison(name, comparison.op, tuple(values))
-    used = scales.index.find(name, facts.variant)
+    used = scales.symbols.find(name, facts.variant)
     if used is None:
-        scales.index.unknown(name, written.of(name), scope.axes)
+        scales.symbols.unknown(name, written.of(name), scope.axes)
         raise UnknownError
     if used.floating:
         message = f"`{name}` is a floating-point number"

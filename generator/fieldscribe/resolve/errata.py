@@ -68,15 +68,15 @@ class LocatedErratum:
         return printed.get(key) if isinstance(printed, Map) else None
 
 
-def errata_of(scope: Scope, index: SymbolTable, bus: Bus) -> list[LocatedErratum]:
+def errata_of(scope: Scope, symbols: SymbolTable, bus: Bus) -> list[LocatedErratum]:
     """Return all errata in the order of the text, without those that are about nothing that exists."""
     result = []
     for node in scope.unique("errata", "id"):
-        points = tuple(_points(scope, index, node))
+        points = tuple(_points(scope, symbols, node))
         where = _where(scope, node, bus)
         if not points and where is None:
             continue
-        _flag_exists(scope, index, node)
+        _flag_exists(scope, symbols, node)
         source = source_of(scope, node)
         if source.document not in scope.documents:
             scope.unknown("document", source.document, node.span("document"), scope.documents)
@@ -95,23 +95,23 @@ def errata_of(scope: Scope, index: SymbolTable, bus: Bus) -> list[LocatedErratum
     return result
 
 
-def _points(scope: Scope, index: SymbolTable, node: Map) -> Iterator[str]:
+def _points(scope: Scope, symbols: SymbolTable, node: Map) -> Iterator[str]:
     """Yield the names of the points that an erratum is about; report unknown ones."""
     words = [(node["point"], node.span("point"))] if "point" in node else []
     words += [(word, node["points"].span(number)) for number, word in enumerate(node.get("points", ()))]
     for word, span in words:
-        named = index.all(word)
+        named = symbols.all(word)
         if not named:
-            index.unknown(word, span)
+            symbols.unknown(word, span)
         yield from dict.fromkeys(facts.name for facts in named)
 
 
-def _flag_exists(scope: Scope, index: SymbolTable, node: Map) -> None:
+def _flag_exists(scope: Scope, symbols: SymbolTable, node: Map) -> None:
     """Report an erratum about a flag that its points do not have."""
     if "flag" not in node:
         return
     words = [node["point"]] if "point" in node else list(node.get("points", ()))
-    flags = [value for word in words for facts in index.all(word) for value in (facts.get("flags") or {}).values()]
+    flags = [value for word in words for facts in symbols.all(word) for value in (facts.get("flags") or {}).values()]
     names = [str(value if isinstance(value, str) else value["name"]) for value in flags]
     if node["flag"] not in names:
         scope.unknown("flag", node["flag"], node.span("flag"), names)

@@ -44,7 +44,7 @@ class LocatedFrame:
         return PrintedFact(self.about, key, printed, taken, self.node.span(at), message)
 
 
-def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:
+def frames_of(scope: Scope, bus: Bus, symbols: SymbolTable, points: Mapping[str, Point]) -> list[LocatedFrame]:
     """Return all frames in the order of the text; the checks set `valid` and `corrected` later."""
     result: dict[str, LocatedFrame] = {}
     seen: set[str] = set()
@@ -64,7 +64,7 @@ def frames_of(scope: Scope, bus: Bus, index: SymbolTable, points: Mapping[str, P
         if not _known_framing(scope, node) or reader_of(scope).refuses(scope, bus, node):
             continue
         result[name] = LocatedFrame(
-            _frame(scope, bus, node, bytes.fromhex(digits), _meaning_of(scope, node, index, points)), node
+            _frame(scope, bus, node, bytes.fromhex(digits), _meaning_of(scope, node, symbols, points)), node
         )
     return list(result.values())
 
@@ -115,16 +115,16 @@ def _foreign_keys(scope: Scope, node: Map) -> None:
                 scope.report.error("family-key", message, node.key_span(key), hint)
 
 
-def _meaning_of(scope: Scope, node: Map, index: SymbolTable, points: Mapping[str, Point]) -> dict[str, int]:
+def _meaning_of(scope: Scope, node: Map, symbols: SymbolTable, points: Mapping[str, Point]) -> dict[str, int]:
     """Return the raw numbers that a frame carries according to `says`, by item."""
     held: dict[str, int | Fraction] = {}
     settings: Map | None = node.get("with")
-    for point, raw_number in _StatedValues(scope, settings).numbers(index, points) if settings is not None else ():
+    for point, raw_number in _StatedValues(scope, settings).numbers(symbols, points) if settings is not None else ():
         held[point.item] = held[point.name] = setting_of(point, raw_number)
     says: Map | None = node.get("says")
     if says is None:
         return {}
-    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(index, points)}
+    return {point.item: raw_number for point, raw_number in _StatedValues(scope, says, held).numbers(symbols, points)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,13 +135,13 @@ class _StatedValues:
     values: Map
     held: Mapping[str, int | Fraction] = field(default_factory=dict)
 
-    def numbers(self, index: SymbolTable, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
+    def numbers(self, symbols: SymbolTable, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
         """Yield each named point with its raw number; report and leave out those without a clear number."""
         for word, value in self.values.items():
             name = word.removesuffix(RAW)
-            facts = index.find(name)
+            facts = symbols.find(name)
             if facts is None:
-                index.unknown(name, self.values.key_span(word))
+                symbols.unknown(name, self.values.key_span(word))
                 continue
             point = points.get(facts.item)
             if point is None or facts.failed & {"scale", "type", "enum"}:

@@ -196,7 +196,7 @@ def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
     """Return a hint for a scale whose integers do not fit: a change that helps and causes no other finding."""
     factors = [factor for case in cases for factor in case.rule.factors]
     names = " and ".join(
-        f"`{name}`" for name in sorted({bounds.scales.index.by_item(factor.point).name for factor in factors})
+        f"`{name}`" for name in sorted({bounds.scales.symbols.by_item(factor.point).name for factor in factors})
     )
     tens = [factor.ten_to for factor in factors]
 

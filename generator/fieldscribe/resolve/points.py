@@ -42,13 +42,13 @@ class ResolvedPoint:
 
 
 def resolve_points(
-    scope: Scope, all_facts: list[PointFacts], index: SymbolTable, telegrams: Telegrams
+    scope: Scope, all_facts: list[PointFacts], symbols: SymbolTable, telegrams: Telegrams
 ) -> tuple[list[ResolvedPoint], Ranges, Places]:
     """Return all points of the device; a wrong fact is reported, and the usual one is assumed in its place."""
     kind_of, encoding_of = FactKeys().of, Encodings(scope).of
     kinds = {facts: kind_of(facts) for facts in all_facts}
     encodings = {facts: encoding_of(facts, kind) for facts, kind in kinds.items()}
-    scales = Scales(scope, index)
+    scales = Scales(scope, symbols)
     ranges, places = Ranges(Bounds(scales, encodings)), Places(scope, telegrams)
     shape_of = Shapes(scope, encodings, ranges, places).of
     points = _Points(scope, scales, places)
@@ -125,7 +125,7 @@ class _Points:
             generated=reason is None,
             reason=reason,
             telegram=facts.group.get("telegram") if encoding.space == SPACE else None,
-            changes_with=_changes_with(facts, self._scales.index),
+            changes_with=_changes_with(facts, self._scales.symbols),
             untyped=_untyped(scope, facts),
         )
 
@@ -194,17 +194,17 @@ def _steps(scope: Scope, facts: PointFacts) -> tuple[tuple[int, int], ...]:
     return tuple(sorted(steps.items()))
 
 
-def _changes_with(facts: PointFacts, index: SymbolTable) -> tuple[str, ...]:
+def _changes_with(facts: PointFacts, symbols: SymbolTable) -> tuple[str, ...]:
     """Return the names of the points whose writing changes this one; report words that name none."""
     words = facts.get("changes_with")
     names: dict[str, None] = {}
     for place, word in enumerate(words if words is not None else ()):
-        used = index.all(word)
+        used = symbols.all(word)
         if not used:
-            index.unknown(word, words.span(place))
+            symbols.unknown(word, words.span(place))
         if facts in used:
             message = f"`{facts.name}` cannot change with itself"
-            index.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
+            symbols.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
         names.update(dict.fromkeys(writer.name for writer in used))
     return tuple(names)
 

@@ -170,7 +170,7 @@ class Ranges:
 
     def _codes(self, name: str) -> tuple[tuple[int, int], ...]:
         """Return the special codes of a point: while it holds one of them, a limit that it sets does not apply."""
-        specials = self.bounds.encodings[self.bounds.scales.index.by_item(name)].specials
+        specials = self.bounds.encodings[self.bounds.scales.symbols.by_item(name)].specials
         return tuple(sorted((special.low, special.high) for special in specials))
 
     def _float_range(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...]:

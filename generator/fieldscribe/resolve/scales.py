@@ -34,9 +34,9 @@ class UnknownError(Exception):
 class Scales:
     """Resolves the scale of every point when it is first asked for; reports scales that need themselves."""
 
-    def __init__(self, scope: Scope, index: SymbolTable) -> None:
+    def __init__(self, scope: Scope, symbols: SymbolTable) -> None:
         self.scope = scope
-        self.index = index
+        self.symbols = symbols
         self._known: dict[PointFacts, tuple[ScaleCase, ...] | None] = {}
 
     def cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
@@ -47,10 +47,10 @@ class Scales:
 
     def affine(self, facts: PointFacts, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
         """Return a point's number in a formula as raw * slope + intercept. Raises UnknownError after a finding."""
-        used = self.index.find(name, facts.variant)
+        used = self.symbols.find(name, facts.variant)
         place = formula.of(name)
         if used is None:
-            self.index.unknown(name, place)
+            self.symbols.unknown(name, place)
             raise UnknownError
         self._check_settled(used, name, part, place)
         if used.floating:
@@ -64,7 +64,7 @@ class Scales:
             self.scope.report.error("scale-cycle", message, place, hint)
             raise UnknownError
         rule = self._rule_of_its_own(used, name, place)
-        if len({self.cases(sibling) for sibling in self.index.siblings(used)}) > 1 and used.variant != facts.variant:
+        if len({self.cases(sibling) for sibling in self.symbols.siblings(used)}) > 1 and used.variant != facts.variant:
             self._refuse(
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
@@ -85,7 +85,7 @@ class Scales:
         """Return the model's name of a point that `facts` uses: its item in the same variant, else its plain name."""
         if used.variant is None or used.variant == facts.variant:
             return used.item
-        if len({sibling.get("type") or "" for sibling in self.index.siblings(used)}) > 1:
+        if len({sibling.get("type") or "" for sibling in self.symbols.siblings(used)}) > 1:
             hint = "give `variants` here too"
             self._refuse(place, f"the type of `{used.name}` differs by variant", hint)
         return used.name
@@ -103,7 +103,7 @@ class Scales:
 
     def floats(self, rule: Linear) -> list[Factor]:
         """Return the factors of a rule that are floating-point numbers."""
-        return [factor for factor in rule.factors if self.index.by_item(factor.point).floating]
+        return [factor for factor in rule.factors if self.symbols.by_item(factor.point).floating]
 
     def _cases(self, facts: PointFacts) -> tuple[ScaleCase, ...] | None:
         raw = facts.get("scale")
@@ -127,9 +127,9 @@ class Scales:
             formula_finding(error, place, self.scope.report)
             facts.failed.add("scale")
             return None
-        chosen = self.index.find(name.name, facts.variant)
+        chosen = self.symbols.find(name.name, facts.variant)
         if chosen is None:
-            self.index.unknown(name.name, place.moved(name.column))
+            self.symbols.unknown(name.name, place.moved(name.column))
             facts.failed.add("scale")
             return None
         try:
@@ -209,7 +209,7 @@ class Scales:
             except FormulaError:
                 continue
             for name in uses:
-                needed = self.index.find(name.name, facts.variant) if name.part == "value" else None
+                needed = self.symbols.find(name.name, facts.variant) if name.part == "value" else None
                 if needed is not None:
                     yield needed
 

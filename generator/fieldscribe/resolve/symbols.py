@@ -63,10 +63,10 @@ class SymbolTable:
 
 def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
     """Return the symbol table; report and remove points whose name another point has that is not their variant."""
-    index = SymbolTable(scope, {}, {}, {})
+    symbols = SymbolTable(scope, {}, {}, {})
     kept = []
     for facts in points:
-        known = index.by_name.setdefault(facts.name, [])
+        known = symbols.by_name.setdefault(facts.name, [])
         first = _other(known, facts) if known else None
         if first is not None:
             related = [(first.span(), "first given here")]
@@ -75,12 +75,12 @@ def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
             scope.report.error("duplicate-name", message, facts.span(), hint, related)
             continue
         known.append(facts)
-        index.by_items.setdefault(facts.item, facts)
+        symbols.by_items.setdefault(facts.item, facts)
         if facts.code is not None:
-            index.by_code.setdefault(facts.code, []).append(facts)
+            symbols.by_code.setdefault(facts.code, []).append(facts)
         kept.append(facts)
     points[:] = kept
-    return index
+    return symbols
 
 
 def _other(known: list[PointFacts], facts: PointFacts) -> PointFacts | None:

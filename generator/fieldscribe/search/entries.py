@@ -58,7 +58,7 @@ def entries_of(subject: Analysis) -> Iterator[Entry]:
     for section in ("commands", "messages", "telegrams"):
         for node in subject.scope.listed(section):
             yield _named(device, section[:-1], node)
-    for opened in subject.open_frames:
+    for opened in subject.located_frames:
         yield _named(device, "frame", opened.node)
     yield from _codes(device, subject)
 

@@ -32,7 +32,7 @@ def _comparison(chance: random.Random) -> Comparison:
     return Comparison(name, test, numbers)
 
 
-def test_possible_is_what_trying_shows() -> None:
+def test_possible_agrees_with_trying_all_values() -> None:
     """A clause can be true exactly if some values make it true."""
     for seed in range(400):
         chance = random.Random(seed)
@@ -61,7 +61,7 @@ def _python(text: str, values: Mapping[str, Any]) -> bool:
     return bool(eval(text.replace(" 550", " '550'").replace("(550", "('550'"), {"__builtins__": {}}, names))
 
 
-def test_clauses_mean_what_the_text_means() -> None:
+def test_clauses_are_true_when_the_text_is() -> None:
     """The condition of the author, as Python reads it, and its clauses agree for all values."""
     for seed in range(200):
         _means_what_it_says(_text(random.Random(seed), 3))
@@ -95,7 +95,7 @@ def _means_what_it_says(text: str) -> None:
         (None, "firmware 2", False),
     ],
 )
-def test_versions_are_compared_as_such(until: str | None, since: str | None, before: bool) -> None:
+def test_versions_are_compared_number_by_number(until: str | None, since: str | None, before: bool) -> None:
     """Number by number, of what counts the same."""
     assert ends_before(until, since) == before
 
@@ -116,7 +116,7 @@ POINTS = """\
 """
 
 
-def test_points_apart_share_an_address(tmp_path: Path) -> None:
+def test_points_that_never_coexist_may_share_an_address(tmp_path: Path) -> None:
     """What is never there at once may stand at one address; the model has the conditions as structure."""
     variants = '{model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}}'
     device, findings = compile_in(tmp_path, described(POINTS, variants=variants))
