@@ -13,9 +13,9 @@ from fieldscribe.model import (
     Device,
     Entry,
     Enum,
+    FamilyFacts,
     Flag,
     Interner,
-    Own,
     Point,
     ScaleCase,
     Shape,
@@ -48,7 +48,7 @@ def for_code(device: Device) -> Device:
             serial={},
             functions=_codes(device.bus.functions),
             exceptions=_codes(device.bus.exceptions),
-            own=device.bus.own and _own(device.bus.own),
+            family_facts=device.bus.family_facts and _own(device.bus.family_facts),
         ),
         groups=tuple(replace(group, title=_title(group.name), note={}, source=_NOWHERE) for group in device.groups),
         points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
@@ -69,7 +69,7 @@ def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
     return tuple(replace(code, title=_title(code.name)) for code in codes)
 
 
-def _own(own: Own) -> Own:
+def _own(own: FamilyFacts) -> FamilyFacts:
     """The facts of one family, with names as the titles of their codes."""
     held = {field.name: getattr(own, field.name) for field in fields(own)}
     codes = {

@@ -334,7 +334,7 @@ def test_refusals(device: Device, unit: int | None, why: str) -> None:
 
 
 def test_extended_identifiers() -> None:
-    device = replace(DEVICE, bus=replace(DEVICE.bus, own=replace(of_bus(DEVICE.bus), identifier_bits=29)))
+    device = replace(DEVICE, bus=replace(DEVICE.bus, family_facts=replace(of_bus(DEVICE.bus), identifier_bits=29)))
     message = loaded(export_dbc(device)).get_message_by_frame_id(0x321, force_extended_id=True)
     assert message.is_extended_frame
 

@@ -93,14 +93,30 @@ def code(device: Device) -> dict[str, str]:
 
 
 NO_FACTS = (
-    *("Device.id", "Device.version", "Device.digest", "Device.asked", "Device.family", "Device.blocks", "Device.enums"),
-    *("Block.space", "Block.function", "Block.address", "Block.count", "Block.points", "Code.most", "Frame.own"),
+    *(
+        "Device.id",
+        "Device.version",
+        "Device.digest",
+        "Device.command",
+        "Device.family",
+        "Device.blocks",
+        "Device.enums",
+    ),
+    *(
+        "Block.space",
+        "Block.function",
+        "Block.address",
+        "Block.count",
+        "Block.points",
+        "Code.most",
+        "Frame.family_facts",
+    ),
     *("Point.errata", "Frame.errata", "Enum.title", "Enum.was", "Erratum.where", "ScaleCase.written"),
     *("Shape.width", "Shape.encodes_values", "Shape.most_raw", "Text.characters", "ScaleCase.raw", "Factor.exponents"),
     *("Factor.slope", "Factor.intercept", "Limit.least", "Limit.greatest", "Allowed.listed", "Point.default"),
 )
 """Fields that follow from others, that cannot be changed alone, or that `diff` does not compare."""
-UNPUBLISHED = ("Special.hexadecimal", "Special.own", "Erratum.facts", "Place.references", "Terms.reason")
+UNPUBLISHED = ("Special.hexadecimal", "Special.shared", "Erratum.facts", "Place.references", "Terms.reason")
 """Facts that count in digests and are not told by `diff`, or only with others."""
 
 

@@ -13,7 +13,7 @@ from fieldscribe.families.modbus.frames import Flaw, crc16, frame
 from fieldscribe.families.modbus.reading import plan_blocks
 from fieldscribe.families.modbus.remarks import exception_text, flaw_text
 from fieldscribe.families.modbus.targets.vectors import ModbusWire
-from fieldscribe.model import Bus, Code, Own, Point, Variant
+from fieldscribe.model import Bus, Code, FamilyFacts, Point, Variant
 from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerRTU, FramerSocket
@@ -485,8 +485,8 @@ def test_vectors_exchange_nothing_that_one_request_cannot_carry(
 
 
 def test_a_bus_of_which_nothing_is_said_pads_nothing() -> None:
-    assert not profile_of(bus(own=Own())).pad_coil_bytes_even
-    assert profile_of(bus(own=ModbusBus("even"))).pad_coil_bytes_even
+    assert not profile_of(bus(family_facts=FamilyFacts())).pad_coil_bytes_even
+    assert profile_of(bus(family_facts=ModbusBus("even"))).pad_coil_bytes_even
 
 
 def test_profile_takes_the_smaller_most() -> None:

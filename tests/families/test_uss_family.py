@@ -44,7 +44,7 @@ BUS = Bus(
     timing={},
     serial={},
     note={},
-    own=UssBus(pkw=(0, 3, 4, 127), pzd=(0, 8)),
+    family_facts=UssBus(pkw=(0, 3, 4, 127), pzd=(0, 8)),
 )
 VARIABLE, FIXED, SHORT, NONE = Link(127, 0), Link(4, 0), Link(3, 0), Link(0, 2)
 
@@ -200,7 +200,7 @@ def test_what_must_not_be_broadcast(bus: Bus, pzd: int, mask: str, data: str, st
 )
 def test_the_link_if_nobody_says_another(pkw: tuple[int, ...], pzd: tuple[int, int], link: Link) -> None:
     """Variable length where the device has it, else the longest; two words of process data, or what comes near."""
-    assert default_link(replace(BUS, own=UssBus(pkw=pkw, pzd=pzd))) == link
+    assert default_link(replace(BUS, family_facts=UssBus(pkw=pkw, pzd=pzd))) == link
 
 
 @given(st.binary(max_size=40), st.sampled_from([VARIABLE, FIXED, SHORT, NONE]))

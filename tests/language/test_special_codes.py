@@ -47,7 +47,7 @@ def test_short_form_mapping_and_band() -> None:
     assert codes_of("voltage")["transducer_fault"] == (0xFFF4, 0xFFF4)
     assert codes_of("voltage")["reserved"] == (0xFFF8, 0xFFFF)
     assert voltage.special(0xFFFB) == Special(
-        0xFFF8, 0xFFFF, "reserved", {"en": "Reserved"}, no_value=False, hexadecimal=True, own=False
+        0xFFF8, 0xFFFF, "reserved", {"en": "Reserved"}, no_value=False, hexadecimal=True, shared=True
     )
     fitted = {one.name: one.no_value for one in named(device(), "level").specials}
     assert fitted == {"not_fitted": True, "transducer_fault": False, "out_of_order": False}

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Family
-from fieldscribe.model import Own
+from fieldscribe.model import FamilyFacts
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus
@@ -22,7 +22,7 @@ FAMILY = Family(
 
 
 @dataclass(frozen=True, slots=True)
-class BellBus(Own):
+class BellBus(FamilyFacts):
     """How often a bell may be struck in a minute."""
 
     strikes: int = 60
@@ -30,4 +30,4 @@ class BellBus(Own):
 
 def of_bus(bus: Bus) -> BellBus:
     """What bells alone have on a bus."""
-    return bus.own if isinstance(bus.own, BellBus) else BellBus()
+    return bus.family_facts if isinstance(bus.family_facts, BellBus) else BellBus()

@@ -106,7 +106,7 @@ def _place_in_words(analysis: Analysis, point: Point, address: int) -> str:
 def _row(mine: ResolvedPoint, other: ResolvedPoint) -> int | None:
     """Return the row of the manual if both points were expanded from it: all its overlaps are one finding."""
     expanded = mine.facts.element and other.facts.element
-    return id(mine.facts.own) if expanded and mine.facts.own is other.facts.own else None
+    return id(mine.facts.node) if expanded and mine.facts.node is other.facts.node else None
 
 
 def _report_overlap(report: Report, together: list[ResolvedPoint], address: int, key: str, place: str) -> None:

@@ -38,8 +38,8 @@ def _fault(point: Point) -> str | None:
     rule = fixed_rule(point)
     if rule is None:
         return None
-    shown = number_text(rule.argument(default))
-    return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
+    text = number_text(rule.argument(default))
+    return f"it lies between two raw numbers{f' (raw {text})' if len(text) < _LONGEST else ''}"
 
 
 def _forbidden(point: Point, raw: int) -> str | None:
@@ -59,15 +59,15 @@ def _report(analysis: Analysis, resolved: ResolvedPoint, fault: str) -> None:
     raw = facts.layer("default") is not None
     key = "default" if raw else "default_in_units"
     unit = f" {point.unit.symbol}" if point.unit.symbol and not raw else ""
-    said = facts.get(key)
+    stated = facts.get(key)
     hint = "it is in the unit; correct it, the range or the scale"
     if raw:
         hint = (
-            f"write `default_in_units: {said}`"
+            f"write `default_in_units: {stated}`"
             if _fits_in_units(point)
             else "it is a raw number; correct it, or the range"
         )
-    message = f"the default {said}{unit} cannot be written: {fault}"
+    message = f"the default {stated}{unit} cannot be written: {fault}"
     analysis.report.error("default-outside-range", message, facts.span(key), hint)
 
 

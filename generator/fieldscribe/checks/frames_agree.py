@@ -74,8 +74,8 @@ def _compare_meaning(analysis: Analysis, located: LocatedFrame, carries: Carries
             continue
         wanted, carried = located.frame.meaning[point.item], carries(point)
         if carried != wanted:
-            shown = "does not carry it" if carried is None else f"carries raw {carried}"
-            message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
+            text = "does not carry it" if carried is None else f"carries raw {carried}"
+            message = f"`{word}` is said to be raw {wanted}, the frame {text}"
             analysis.report_printed(PrintedFact(located.about, "says", says[word], None, says.span(word), message))
 
 
@@ -124,8 +124,8 @@ def report_wrong_error(analysis: Analysis, located: LocatedFrame, carried: int |
     """Report a frame that carries another error than the description states."""
     stated = located.node.get("error")
     if stated is not None and stated != carried:
-        shown = "refuses nothing" if carried is None else f"carries {carried}"
-        message = f"the error {stated} is said to be answered, the frame {shown}"
+        text = "refuses nothing" if carried is None else f"carries {carried}"
+        message = f"the error {stated} is said to be answered, the frame {text}"
         analysis.report_printed(located.printed("error", stated, carried, message, at="error"))
 
 

@@ -268,9 +268,9 @@ def _flags(analysis: Analysis, resolved: ResolvedPoint) -> None:
             span = printed.span(key)
             printed_number = integer(printed[key], span, analysis.report)
             if printed_number not in (None, right, other):
-                as_printed, shown = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
-                message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {shown}"
-                analysis.report_printed(PrintedFact(point.name, key, as_printed, shown, span, message, flag=flag.name))
+                as_printed, taken = (f"{raw:04X}h" if key == "mask" else str(raw) for raw in (printed_number, right))
+                message = f"the {_FLAG_WORDS[key]} {as_printed} is printed for `{flag.name}`, taken is {taken}"
+                analysis.report_printed(PrintedFact(point.name, key, as_printed, taken, span, message, flag=flag.name))
 
 
 def _choices(analysis: Analysis, resolved: ResolvedPoint, value: int, span: Span) -> None:

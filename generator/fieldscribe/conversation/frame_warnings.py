@@ -24,7 +24,7 @@ class FrameWarnings:
     def __init__(self, device: Device, directory: Directory) -> None:
         self._framings = device.bus.framings
         self._directory = directory
-        misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.own is None)
+        misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
 
     def findings(self, decoded: DecodedFrame) -> tuple[str, ...]:

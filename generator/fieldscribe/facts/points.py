@@ -99,7 +99,7 @@ SPECIAL: Table = (
         "shared",
         "Whether the point gets it from a type, a group or a format.",
         BOOLEAN,
-        value=lambda special, _: not special.own,
+        value=lambda special, _: special.shared,
         published=False,
     ),
 )

@@ -57,7 +57,7 @@ class Erratum:
 
 
 @dataclass(frozen=True, slots=True)
-class Own:
+class FamilyFacts:
     """Facts of one family, which its folder defines."""
 
 
@@ -80,7 +80,7 @@ class Frame:
     title: Titles
     source: Source
     errata: tuple[str, ...]
-    own: Own | None = None
+    family_facts: FamilyFacts | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +174,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the frames need to know of the device; `own` has the facts of its family."""
+    """What the frames need to know of the device; `family_facts` are those of its family alone."""
 
     framings: tuple[str, ...]
     units: tuple[int, int]
@@ -185,11 +185,11 @@ class Bus:
     timing: Mapping[str, str]
     serial: Mapping[str, Mapping[str, str]]
     note: Titles
-    own: Own | None = None
+    family_facts: FamilyFacts | None = None
 
     def codes(self, section: str) -> tuple[Code, ...]:
         """Return the numbered codes under a key of `bus`, which only this family may have."""
-        codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.own, section, ())
+        codes: tuple[Code, ...] = getattr(self if hasattr(self, section) else self.family_facts, section, ())
         return codes
 
     @property
@@ -214,7 +214,7 @@ class Document:
 class Device:
     """One product with one register map. `digest` covers the facts that generated code depends on, and no others.
 
-    `asked` has the words of the command that writes the output, if that is not `fieldscribe generate`; it is no fact.
+    `command` has the words of the command that writes the output, if that is not `fieldscribe generate`; it is no fact.
     """
 
     id: str
@@ -237,7 +237,7 @@ class Device:
     digest: str
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
-    asked: tuple[str, ...] = field(default=(), repr=False)
+    command: tuple[str, ...] = field(default=(), repr=False)
 
 
 class Version(NamedTuple):

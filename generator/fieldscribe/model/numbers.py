@@ -67,7 +67,7 @@ class Special:
     no_value: bool
     writable: bool = False
     hexadecimal: bool = False
-    own: bool = True
+    shared: bool = False
 
 
 @dataclass(frozen=True, slots=True)

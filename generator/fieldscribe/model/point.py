@@ -222,8 +222,8 @@ class Point:
     @property
     def places(self) -> tuple[Place, ...]:
         """Return where the point is read, and where else it is written; empty if the manual prints no address."""
-        apart = () if self.write_place is None else (self.write_place,)
-        return (self.place, *apart) if self.addresses else ()
+        elsewhere = () if self.write_place is None else (self.write_place,)
+        return (self.place, *elsewhere) if self.addresses else ()
 
     def special(self, raw: int) -> Special | None:
         """Return the special code with that raw number, if there is one."""

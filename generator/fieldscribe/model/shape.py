@@ -90,7 +90,7 @@ class Shape:
     @cached_property
     def shared_codes(self) -> str:
         """Return the name of the shared special codes if the point has no others; else an empty text."""
-        return "" if any(code.own for code in self.specials) else self.specials_of
+        return "" if any(not code.shared for code in self.specials) else self.specials_of
 
     @cached_property
     def form(self) -> str:

@@ -36,7 +36,7 @@ def bus_of(scope: Scope) -> Bus:
     node: Map = holders[0]["bus"]
     _check_keys(scope, node, keys)
     functions = codes_under(scope, node, "functions")
-    own = reader_of(scope).bus(scope, node, functions)
+    family_facts = reader_of(scope).bus(scope, node, functions)
     return Bus(
         framings=tuple(node.get("framings", ())),
         units=ends_of(scope, node, "units", "are no unit addresses", keys.last_unit),
@@ -47,7 +47,7 @@ def bus_of(scope: Scope) -> Bus:
         timing={key: str(value) for key, value in node.get("timing", {}).items()},
         serial={key: _setting(value) for key, value in node.get("serial", {}).items()},
         note=titles(node.get("note")),
-        own=own,
+        family_facts=family_facts,
     )
 
 
@@ -64,9 +64,9 @@ def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:
             message = f"`{key}` is nothing that the family {family} knows"
             hint = f"it belongs to {' and '.join(known)}: leave it out"
             scope.report.error("family-key", message, node.key_span(key), hint)
-    said = {*node, *(key for holder in ("serial", "timing") for key in node.get(holder, ()))}
+    stated = {*node, *(key for holder in ("serial", "timing") for key in node.get(holder, ()))}
     for key in node.get("lines", ()):
-        if key not in said:
+        if key not in stated:
             message = f"`lines` names `{key}`, which the bus does not say"
             scope.report.error("unknown-key", message, node["lines"].key_span(key), "leave it out, or say it")
     if keys.broadcast is not None and node.get("broadcast", keys.broadcast) != keys.broadcast:

@@ -32,8 +32,8 @@ def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition |
     try:
         stated = clauses_of(parse_condition(text))
     except FormulaError as error:
-        meant = condition_meant(text)
-        error.hint = f"write `{meant}`" if meant else error.hint
+        suggestion = condition_meant(text)
+        error.hint = f"write `{suggestion}`" if suggestion else error.hint
         formula_finding(error, written.span, scope.report)
         stated = ()
     resolved = {

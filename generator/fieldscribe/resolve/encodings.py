@@ -82,10 +82,10 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
 
 
 def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
-    meant = bits_meant(text)
-    if meant is not None:
+    suggestion = bits_meant(text)
+    if suggestion is not None:
         message = f"{quoted(text)} is not a bit or bits"
-        scope.report.error("wrong-form", message, span, f"write `bits: {meant}`")
+        scope.report.error("wrong-form", message, span, f"write `bits: {suggestion}`")
         return None
     ends = bit_range(text, span, scope.report)
     outside = next((bit for bit in ends or () if not 0 <= bit <= 15), None)

@@ -68,16 +68,16 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
 
 def _title(point: Map) -> Titles:
     """Return the title of a row; without one, its name in words."""
-    said = point.get("title")
-    return titles(said, "" if isinstance(said, Map) and "en" in said else humanised(point["name"]))
+    title = point.get("title")
+    return titles(title, "" if isinstance(title, Map) and "en" in title else humanised(point["name"]))
 
 
 def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
     """Yield the point in its own set, and in each further set that has a row under `sets`."""
-    if "indices" in first.own:
+    if "indices" in first.node:
         message = f"`{first.name}` repeats in indices, and in sets that have rows of their own"
         hint = "write a point with its `indices` for each set"
-        scope.report.error("two-meanings", message, first.own.key_span("indices"), hint)
+        scope.report.error("two-meanings", message, first.node.key_span("indices"), hint)
     first.set_number = first.get("set", 1)
     first.element = _single_element(scope, first)
     yield from _variants(scope, first)
@@ -87,7 +87,7 @@ def _sets(scope: Scope, first: PointFacts, rows: Map) -> Iterator[PointFacts]:
             first,
             name=own_name,
             layers=(override, *first.layers),
-            own=override,
+            node=override,
             title=titles(override.get("title")) or set_title(first.title, number),
             set_number=number,
             enum_name=own_name if "enum" in override else first.name,
@@ -144,20 +144,20 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
             hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
             scope.report.error("unknown-element", message, rows.key_span(key), hint)
     for element in elements:
-        own = tuple(overrides[key] for key in element.keys if key in overrides)
+        overriding = tuple(overrides[key] for key in element.keys if key in overrides)
         name = point["name"] + element.suffix
-        own_title = next((titles(override["title"]) for override in own if "title" in override), None)
+        own_title = next((titles(override["title"]) for override in overriding if "title" in override), None)
         yield from _variants(
             scope,
             PointFacts(
                 name,
-                (*own, *layers),
+                (*overriding, *layers),
                 group,
                 point,
                 own_title or element.titled(title),
                 set_number=element.set_number,
                 element=element,
-                enum_name=name if any("enum" in override for override in own) else point["name"],
+                enum_name=name if any("enum" in override for override in overriding) else point["name"],
             ),
         )
 
@@ -201,7 +201,7 @@ def _varied(scope: Scope, facts: PointFacts, variant: Variant, override: Map) ->
     if own_key is None:
         return varied
     if facts.suffix:
-        message = f"the row of `{facts.own['name']}` stands for several points, and its variant for one of them"
+        message = f"the row of `{facts.node['name']}` stands for several points, and its variant for one of them"
         hint = "give the variant a row of its own"
         scope.report.error("two-meanings", message, override.key_span(own_key), hint)
         return varied

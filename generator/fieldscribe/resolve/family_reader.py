@@ -10,19 +10,19 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Block, Bus, Code, Message, Own, Point, Telegram
+    from fieldscribe.model import Block, Bus, Code, FamilyFacts, Message, Point, Telegram
     from fieldscribe.resolve.scope import Scope
 
 
 class FamilyReader:
     """Reads the facts that only one family has. A family offers its reader as `READING` in its module `reading`."""
 
-    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> Own | None:
+    def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> FamilyFacts | None:
         """Return what only the family knows of the bus; report what its protocol cannot do."""
         del scope, node, functions
         return None
 
-    def frame(self, scope: Scope, node: Map, framing: str) -> Own | None:
+    def frame(self, scope: Scope, node: Map, framing: str) -> FamilyFacts | None:
         """Return what only the family knows of a worked example."""
         del scope, node, framing
         return None

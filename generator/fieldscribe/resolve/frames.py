@@ -85,7 +85,7 @@ def _frame(scope: Scope, bus: Bus, node: Map, data: bytes, meaning: Mapping[str,
         title=titles(node.get("title"), humanised(node["name"])),
         source=source_of(scope, node),
         errata=(),
-        own=reader_of(scope).frame(scope, node, framing),
+        family_facts=reader_of(scope).frame(scope, node, framing),
     )
 
 

@@ -38,7 +38,7 @@ class FactKeys:
         else:
             first, *others = point.layers
             shared = tuple(map(self._shared, others)) if others else ()
-            stated = id(point.group), first is point.own, bool(point.hidden), _stated(first), shared
+            stated = id(point.group), first is point.node, bool(point.hidden), _stated(first), shared
         return self._keys.setdefault(stated, len(self._keys))
 
     def _shared(self, layer: Map) -> Hashable:

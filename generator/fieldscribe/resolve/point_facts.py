@@ -101,7 +101,7 @@ class PointFacts:
     name: str
     layers: tuple[Map, ...]
     group: Map
-    own: Map
+    node: Map
     title: Titles
     variant: Variant | None = None
     record: str | None = None
@@ -119,7 +119,7 @@ class PointFacts:
             if key in group:
                 where[key] = group
         for layer in reversed(self.layers):
-            keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
+            keys = layer if layer is self.node or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
             for stated in _RIVALS.keys() & keys:
                 if _RIVALS[stated] not in keys:
@@ -178,7 +178,7 @@ class PointFacts:
         layer = self._where.get(key) if key is not None else None
         if layer is not None and key is not None:
             return layer.span(key)
-        return self.own.span("name" if "name" in self.own else None)
+        return self.node.span("name" if "name" in self.node else None)
 
     @property
     def suffix(self) -> str:
@@ -204,7 +204,7 @@ class PointFacts:
     @property
     def row(self) -> Map:
         """Return the row that the point comes from, also if a further set has facts of its own."""
-        return next((layer for layer in self.layers if "name" in layer), self.own)
+        return next((layer for layer in self.layers if "name" in layer), self.node)
 
     @property
     def code(self) -> str | None:

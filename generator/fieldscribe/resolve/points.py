@@ -100,8 +100,8 @@ class _Points:
         """Return the factory setting in the unit and as raw number."""
         if facts.layer("default") is None and facts.layer("default_in_units") is None:
             return None, None
-        said = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
-        return self._defaults.of(said, facts, lambda _: _default_of(self._scope, facts, shape), lambda _: True)
+        stated = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
+        return self._defaults.of(stated, facts, lambda _: _default_of(self._scope, facts, shape), lambda _: True)
 
     def _new_terms(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Terms:
         return self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
@@ -154,7 +154,7 @@ def _untyped(scope: Scope, facts: PointFacts) -> str | None:
     if words is not None and words is typed and words["type"] is not None:
         message, hint = f"`{facts.name}` has a type, and words that stand in place of one", "leave one of them out"
         scope.report.error("two-meanings", message, words.span("untyped"), hint)
-    elif facts.untyped is None and "length" in facts.own and not facts.failed & {"type", "untyped"}:
+    elif facts.untyped is None and "length" in facts.node and not facts.failed & {"type", "untyped"}:
         hint = "its type says how many words it takes: leave `length` out"
         scope.report.error("two-meanings", f"`{facts.name}` has a type", facts.span("length"), hint)
     return facts.untyped

@@ -81,12 +81,14 @@ class Ranges:
                     pairs = [(high, low) for low, high in pairs]
             listed = parse_range(text).listed
         except FormulaError as error:
-            meant = interval_meant(text)
+            suggestion = interval_meant(text)
             if text.lstrip()[:1] in _ONE_SIDED:
                 error.hint = "an interval has both ends, low..high; those of the type where nothing else limits it"
-            elif meant is not None:
+            elif suggestion is not None:
                 error.hint = (
-                    f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
+                    f"write `{suggestion}`"
+                    if printed
+                    else f"write `{'range_in_units' if in_units else 'range'}: {suggestion}`"
                 )
             formula_finding(error, span, self.report)
             return None

@@ -228,6 +228,6 @@ def _suggest_scale(error: FormulaError, text: str, key: str) -> None:
     try:
         parse_scale(text)
     except FormulaError:
-        meant = scale_meant(text)
-        if meant is not None:
-            error.hint = f"write `{key}: {meant}`"
+        suggestion = scale_meant(text)
+        if suggestion is not None:
+            error.hint = f"write `{key}: {suggestion}`"

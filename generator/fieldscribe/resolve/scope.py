@@ -201,16 +201,16 @@ class Sources:
 
     def of(self, facts: PointFacts) -> Source:
         """Return the source of a point: usually that of its group, with the point's own line."""
-        own, *others = facts.layers
+        nearest_layer, *others = facts.layers
         key = (*map(id, others), id(facts.group))
         known = self._shared.get(key)
         if known is None:
             cited = _cited((*others, facts.group))
             known = self._shared[key] = cited, _source(self._scope, cited)
-        stated = own.keys() & _STATED
+        stated = nearest_layer.keys() & _STATED
         if stated == _LINE:
-            return Source(known[1].document, known[1].section, known[1].page, first_line(own["line"]))
-        return _source(self._scope, {**known[0], **_cited((own,))}) if stated else known[1]
+            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
+        return _source(self._scope, {**known[0], **_cited((nearest_layer,))}) if stated else known[1]
 
 
 def _cited(layers: Iterable[Map]) -> dict[str, object]:

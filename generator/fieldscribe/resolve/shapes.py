@@ -85,8 +85,8 @@ class Shapes:
         enum, name = found.shape.enum, facts.enum_name
         if enum is None or enum.name == name or not isinstance(facts.get("enum"), Map):
             return found
-        own = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed, facts.old_enum_names)
-        return found._replace(shape=self._interner.shape(replace(found.shape, enum=own)))
+        renamed = Enum(name, {"en": humanised(name)}, enum.entries, enum.closed, facts.old_enum_names)
+        return found._replace(shape=self._interner.shape(replace(found.shape, enum=renamed)))
 
     def _shape_of(self, facts: PointFacts) -> ShapeAndLimits:
         scope, bounds, encoding = self._scope, self._ranges.bounds, self._encodings[facts]

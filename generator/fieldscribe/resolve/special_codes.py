@@ -81,8 +81,8 @@ class SpecialCodes:
         places = {code.span for code in codes}
         all_kept = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
         labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
-        own = {id(level.codes) for level in levels if not level.label or not all_kept}
-        specials = tuple(_special(code, id(code.holder) in own) for code in codes)
+        private = {id(level.codes) for level in levels if not level.label or not all_kept}
+        specials = tuple(_special(code, shared=id(code.holder) not in private) for code in codes)
         return specials, "_".join((*labels, kind)) if all_kept else ""
 
     def held(self, node: Map, kind: str, width: int) -> tuple[_Code, ...]:
@@ -102,9 +102,9 @@ class SpecialCodes:
         least, greatest = ends_of(width, signed=info.signed)
         for key, value in node.items():
             span = node.key_span(key)
-            meant = None if ".." in key else interval_meant(key)
-            if meant is not None:
-                self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {meant}")
+            suggestion = None if ".." in key else interval_meant(key)
+            if suggestion is not None:
+                self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {suggestion}")
                 continue
             first, dots, last = key.partition("..")
             texts = [first.strip(), last.strip()] if dots else [first.strip()]
@@ -255,7 +255,7 @@ def _without(low: int, high: int, specials: tuple[Special, ...]) -> list[Interva
     return [*parts, Interval(low, high)] if low <= high else parts
 
 
-def _special(code: _Code, own: bool) -> Special:
+def _special(code: _Code, *, shared: bool) -> Special:
     value = code.holder[code.key]
     facts = {} if isinstance(value, str) else value
     name = str(code.name)
@@ -267,5 +267,5 @@ def _special(code: _Code, own: bool) -> Special:
         facts.get("no_value", False),
         facts.get("writable", False),
         code.hexadecimal,
-        own,
+        shared,
     )

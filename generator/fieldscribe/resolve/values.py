@@ -53,9 +53,9 @@ def integer(value: Any, span: Span, report: Report) -> int | None:
 
 def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """Return the ends of `a..b`, or of a single number; None after a finding."""
-    meant = None if ".." in text else interval_meant(text)
-    if meant is not None:
-        report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {meant}")
+    suggestion = None if ".." in text else interval_meant(text)
+    if suggestion is not None:
+        report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {suggestion}")
         return None
     low_text, dots, high_text = text.partition("..")
     low = integer(low_text.strip(), span, report)

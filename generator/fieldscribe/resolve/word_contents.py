@@ -89,7 +89,7 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
     if node is None:
         return None
     word = WORD_BITS if bits is not None else width
-    own = 0 if bits is None else ((1 << width) - 1) << bits[1]
+    taken = 0 if bits is None else ((1 << width) - 1) << bits[1]
     mask = value = 0
     for key, content in node.items():
         span, text = node.key_span(key), f"bits {key}" if ".." in key else f"bit {key}"
@@ -106,7 +106,7 @@ def fixed_of(scope: Scope, facts: PointFacts, bits: tuple[int, int] | None, widt
             scope.report.error("range-outside-type", message, node.span(key), f"write 0..{greatest}")
         elif mask & greatest << low:
             scope.report.error("bits-overlap", f"{text} cannot be fixed twice", span, "remove one of them")
-        elif own & greatest << low:
+        elif taken & greatest << low:
             message = f"{text} cannot be fixed, for the point itself takes it"
             scope.report.error("bits-overlap", message, span, "`fixed` names the bits beside it")
         else:

@@ -18,5 +18,5 @@ LEFT_OUT = "..."
 
 def command(device: Device, target: str, encode: Callable[[str], str] = line) -> str:
     """Return the shell command that makes the output again, encoded for a comment of the language."""
-    words = map(quote, device.asked or ("fieldscribe", "generate", device.id, "--target", target))
+    words = map(quote, device.command or ("fieldscribe", "generate", device.id, "--target", target))
     return " ".join(word if encode(word) == word else LEFT_OUT for word in words)

@@ -108,7 +108,7 @@ class DocumentRequest:
 
         Raises ModuleNotFoundError for a workbook without XlsxWriter.
         """
-        scope = scope_of(replace(device, asked=self.command(device.id)))
+        scope = scope_of(replace(device, command=self.command(device.id)))
         if self.language == "xlsx":
             yield from xlsx_files(scope)
             return
@@ -120,7 +120,7 @@ class DocumentRequest:
 def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
     """Yield the files of a code request: path below the folder, and text. Raises UnclearError."""
     reduced = select(device, request.points) if request.points else device
-    named = replace(for_code(reduced), id=request.name or device.id, asked=request.command(device.id))
+    named = replace(for_code(reduced), id=request.name or device.id, command=request.command(device.id))
     language = target(request.language)
     files = {path: (templates_dir() / source).read_text("utf-8") for path, source in language.vendored_runtime(named)}
     files |= language.vendored(named, render)

@@ -259,7 +259,7 @@ def test_a_point(made: Point, facts: dict[str, str]) -> None:
 
 
 def test_meanings() -> None:
-    shared = Special(0xFFF0, 0xFFFF, "reserved", titles("Reserved"), True, own=False)
+    shared = Special(0xFFF0, 0xFFFF, "reserved", titles("Reserved"), True, shared=True)
     own = Special(0, 0, "off", titles("Off", "Aus"), False, writable=True)
     word = Flag(0, 1, "fault", titles("Fault"), 0, (entry(0, "zero", "a fault"), entry(1, "fine", "none")))
     device = sample_device(

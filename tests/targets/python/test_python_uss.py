@@ -262,7 +262,9 @@ def test_the_link_is_held_against_the_variant(tmp_path: Path) -> None:
     own = of_bus(device.bus)
     bus = replace(
         device.bus,
-        own=replace(own, variant_pzd=((Variant("model", "small"), 2), (Variant("model", "large"), own.pzd[1]))),
+        family_facts=replace(
+            own, variant_pzd=((Variant("model", "small"), 2), (Variant("model", "large"), own.pzd[1]))
+        ),
     )
     folder = write_package(replace(device, bus=bus), tmp_path)
     for package in imported(folder, "sizes"):

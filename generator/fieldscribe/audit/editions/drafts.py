@@ -129,7 +129,7 @@ class Drafts:
 
     def _points_beside(self, described: Described, beside: list[Described], points: list[DraftPoint]) -> Draft:
         group = described.group
-        own_section = described.resolved.facts.own.get("section", "")
+        own_section = described.resolved.facts.node.get("section", "")
         lines: list[str] = []
         for point in points:
             lines += self._lines(replace(point, section=own_section), beside, group.get("access"), "")

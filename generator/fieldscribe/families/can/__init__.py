@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family, Option
-from fieldscribe.model import Own
+from fieldscribe.model import FamilyFacts
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Frame
@@ -35,7 +35,7 @@ FAMILY = Family(
 
 
 @dataclass(frozen=True, slots=True)
-class CanBus(Own):
+class CanBus(FamilyFacts):
     """The speed of the bus and the bits of its identifiers; None where the description does not give them."""
 
     bitrate: int | None = None
@@ -43,7 +43,7 @@ class CanBus(Own):
 
 
 @dataclass(frozen=True, slots=True)
-class CanExample(Own):
+class CanExample(FamilyFacts):
     """The identifier of a worked example; None after a finding."""
 
     identifier: int | None = None
@@ -51,7 +51,7 @@ class CanExample(Own):
 
 def of_bus(bus: Bus) -> CanBus:
     """Return the facts of a bus that only this family has."""
-    return bus.own if isinstance(bus.own, CanBus) else CanBus()
+    return bus.family_facts if isinstance(bus.family_facts, CanBus) else CanBus()
 
 
 def identifier_bits(bus: Bus) -> int:
@@ -61,4 +61,4 @@ def identifier_bits(bus: Bus) -> int:
 
 def identifier_of(frame: Frame) -> int | None:
     """Return the identifier of a worked example; None if it has none."""
-    return frame.own.identifier if isinstance(frame.own, CanExample) else None
+    return frame.family_facts.identifier if isinstance(frame.family_facts, CanExample) else None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family
-from fieldscribe.model import Own
+from fieldscribe.model import FamilyFacts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -74,7 +74,7 @@ SPACES: Mapping[str, Space] = {
 
 
 @dataclass(frozen=True, slots=True)
-class ModbusBus(Own):
+class ModbusBus(FamilyFacts):
     """`pad_coil_bytes` is "even" if the bytes of several coils are padded to an even number."""
 
     pad_coil_bytes: str | None = None
@@ -82,7 +82,7 @@ class ModbusBus(Own):
 
 def of_bus(bus: Bus) -> ModbusBus:
     """Return the facts of a bus that only this family has."""
-    return bus.own if isinstance(bus.own, ModbusBus) else ModbusBus()
+    return bus.family_facts if isinstance(bus.family_facts, ModbusBus) else ModbusBus()
 
 
 def framings_of(bus: Bus) -> tuple[str, ...]:

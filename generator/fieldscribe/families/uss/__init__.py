@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family, Option
-from fieldscribe.model import Own
+from fieldscribe.model import FamilyFacts
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Code, Frame, Variant
@@ -51,7 +51,7 @@ FAMILY = Family(
 
 
 @dataclass(frozen=True, slots=True)
-class UssBus(Own):
+class UssBus(FamilyFacts):
     """The response ids, and the lengths that the parts of a telegram may have.
 
     `pkw` are the lengths in words that the parameter part may have (127 is variable), `pzd` how many words of process
@@ -66,7 +66,7 @@ class UssBus(Own):
 
 
 @dataclass(frozen=True, slots=True)
-class UssFrame(Own):
+class UssFrame(FamilyFacts):
     """`pkw`: the words of the parameter part, as set for the link (127 is variable); None without such a part."""
 
     pkw: int | None = None
@@ -74,9 +74,9 @@ class UssFrame(Own):
 
 def of_bus(bus: Bus) -> UssBus:
     """Return the facts of a bus that only this family has."""
-    return bus.own if isinstance(bus.own, UssBus) else UssBus()
+    return bus.family_facts if isinstance(bus.family_facts, UssBus) else UssBus()
 
 
 def of_frame(frame: Frame) -> UssFrame:
     """Return the facts of a worked example that only this family has."""
-    return frame.own if isinstance(frame.own, UssFrame) else UssFrame()
+    return frame.family_facts if isinstance(frame.family_facts, UssFrame) else UssFrame()

@@ -227,7 +227,7 @@ def _codes(device: Device) -> str:
             cell(wording.special_remarks(special)),
         )
         for name, points in _sharing(device).items()
-        for first, special in _marked([special for special in points[0].specials if not special.own])
+        for first, special in _marked([special for special in points[0].specials if special.shared])
     ]
     return by_rows(("Codes of", "Raw", "Name", "Title", "Remarks"), rows)
 

@@ -175,7 +175,7 @@ class _Rows:
         scale = narrow(cell(wording.formula_text(point, self.scope.by_code)))
         enum = point.shape.enum
         names = [_listed(enum)] if enum is not None and len(enum.entries) <= _SHORT_LIST else []
-        own = [special for special in point.shape.specials if special.own]
+        own = [special for special in point.shape.specials if not special.shared]
         names += [narrow(cell(wording.special_text(special, point.shape.width))) for special in own]
         unit, type_text = cell(point.unit.symbol), wording.type_text(point)
         return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names))

@@ -42,7 +42,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     project = {
         "name": toml_string(names.package.replace("_", "-")),
         "package": toml_string(names.package),
-        "version": toml_string(device.version + (f"+{device.digest[:8]}" if device.asked else "")),
+        "version": toml_string(device.version + (f"+{device.digest[:8]}" if device.command else "")),
         "description": toml_string(f"{device.vendor} {device.model}"),
         "runtime": __version__,
     }
