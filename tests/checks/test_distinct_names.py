@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 import pytest
 from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.targets import knows, target
-from support.described import made, shipped
+from support.described import compile_in, group, head, made, shipped, together
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from fieldscribe.model import Device, Point
 
@@ -30,7 +31,7 @@ def strangers(device: Device, kinds: PointKinds, language: str) -> Iterator[str]
     """Yield the identifiers of points that the first point of their kind lacks, with its own name put in."""
     identifiers = target(language).identifiers
     sample = {(space, name) for space, _, names in identifiers(kinds.sample) for name in map(plain, names)}
-    known = {name for names in kinds.names.values() for name in names}
+    known = kinds.names
     first: dict[object, str] = {}
     stands_for = {point.item: first.setdefault(kinds.kind(point), point.item) for point in device.points}
     for space, owner, names in identifiers(device):
@@ -68,3 +69,15 @@ def test_a_kind_that_forgets_shape_and_terms_is_noticed() -> None:
 def test_large_devices_are_proven() -> None:
     for device in (shipped("hitachi_l200"), shipped("woodward_mpu2s")):
         assert all(PointKinds(device).are_distinct(target(language).identifiers) for language in LANGUAGES)
+
+
+
+@pytest.mark.parametrize(("second", "clash"), [("x_y", True), ("x_w", False), ("xy", False)])
+def test_a_name_and_its_ending_may_be_another_name_and_its_ending(second: str, clash: bool, tmp_path: Path) -> None:
+    """`x` with `y_z` is what `x_y` is with `z`; the other points make the kinds large, so that the proof is tried."""
+    first = [*(f"first_{number}" for number in range(9)), "x"]
+    others = [*(f"second_{number}" for number in range(9)), second]
+    rows = "".join(f"- {{name: {name}, at: {at}, enum: {{0: y_z, 1: q}}}}\n" for at, name in enumerate(first))
+    rows += "".join(f"- {{name: {name}, at: {at}, enum: {{0: z, 1: p}}}}\n" for at, name in enumerate(others, 50))
+    _, findings = compile_in(tmp_path, together(head(device="pair"), group(rows)))
+    assert [finding.rule for finding in findings] == ["name-clash"] * clash

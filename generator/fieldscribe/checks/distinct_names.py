@@ -1,14 +1,16 @@
 """A quick proof that no two identifiers of a device are equal, without asking the targets for all of them.
 
 Points of one kind have the same identifiers but for the point's name. So a target lists the identifiers of one point of
-each kind, and the others follow by putting in the other names. Names are compared without case and underscores, because
-languages write them differently. Where the proof fails, nothing is wrong yet: then all identifiers are compared.
+each kind: a start, the name, and an ending. Two names that differ can only give equal identifiers if one name begins
+with the other, and an ending begins with the rest. Names are compared without case and underscores, because languages
+write them differently. If the proof fails, nothing is wrong yet: then all identifiers are compared.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import fields, replace
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -29,8 +31,8 @@ _SHAPE_WITHOUT_NAMES = attrgetter(
 class PointKinds:
     """The points of a device by kind.
 
-    `names` has the plain names of all points of a kind, under the plain name of its first point. `sample` is the device
-    with the first point of each kind and with all points that belong to no kind.
+    `names` are the plain names of all points that belong to a kind, each with that of the first point of its kind.
+    `sample` is the device with the first point of each kind and with all points that belong to no kind.
     """
 
     def __init__(self, device: Device) -> None:
@@ -39,20 +41,22 @@ class PointKinds:
         self._limits = {key: _form_of_limits(allowed) for key, allowed in limits.items()}
         special = {key for key, shared in terms.items() if shared.when or shared.telegram or shared.changes_with}
         needed = _needed(device)
-        first: dict[object, list[str]] = {}
-        self.names: dict[str, list[str]] = {}
+        first: dict[object, str] = {}
+        items: list[str] = []
+        self.names: dict[str, str] = {}
         kept: list[Point] = []
         for point in device.points:
             item = point.item
             if id(point.terms) in special or point.variant or point.was or point.index or {item, point.name} & needed:
                 kept.append(point)
                 continue
-            names = first.setdefault(self.kind(point), [])
-            if not names:
+            items.append(item)
+            name = _plain(item)
+            self.names[name] = first.setdefault(self.kind(point), name)
+            if self.names[name] == name:
                 kept.append(point)
-                self.names[_plain(item)] = names
-            names.append(_plain(item))
-        self.sample = _sample(device, kept)
+        self._are_unique = len(self.names) == len(items)
+        self.sample = _sample(device, kept, set(items))
 
     def kind(self, point: Point) -> object:
         """Return what decides which identifiers a point has, apart from its name."""
@@ -69,46 +73,80 @@ class PointKinds:
 
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]]) -> bool:
         """Return True if all identifiers of a target are proven to differ; False also if the proof is not worth it."""
-        if len(self.sample.points) > sum(map(len, self.names.values())):
+        if not self._are_unique or len(self.sample.points) > len(self.names):
             return False
         listed = list(identifiers(self.sample))
         if next(clashes(listed), None) is not None:
             return False
-        spaces: defaultdict[str, set[tuple[str, str, str]]] = defaultdict(set)
+        spaces: defaultdict[str, _Space] = defaultdict(_Space)
         device = _plain(self.sample.id)
         for namespace, owner, names in listed:
             point = _point_of(owner)
             item = _plain(point)
-            shared = item in self.names and point not in namespace  # a namespace of one point meets no other
+            shared = self.names.get(item) == item and point not in namespace  # a namespace of one point meets no other
+            space = spaces[namespace]
             for name in map(_plain, names):
-                before = next((start for start in (device, "") if shared and name.startswith(start + item)), None)
-                if before is not None:
-                    spaces[namespace].add((before, item, name[len(before) + len(item) :]))
+                start = next((start for start in (device, "") if shared and name.startswith(start + item)), None)
+                if start is not None:
+                    space.starts.add(start)
+                    space.endings[name[len(start) + len(item) :]].add(item)
                 elif shared:
                     return False
                 else:
-                    spaces[namespace].add((name, "", ""))
-        return all(self._differ(space) for space in spaces.values())
+                    space.others.add(name)
+        return all(map(self._differ, spaces.values()))
 
-    def _differ(self, patterns: Iterable[tuple[str, str, str]]) -> bool:
-        """Return True if the patterns, with each name of the kind in the middle, give no name twice."""
-        taken: set[int] = set()
-        count = 0
-        for before, item, behind in patterns:
-            names = self.names.get(item, [item])
-            count += len(names)
-            taken.update([hash(before + name + behind) for name in names])
-        return len(taken) == count
+    def _differ(self, space: _Space) -> bool:
+        """Return True if no name gives an identifier that another name, or another thing, has in this namespace."""
+        if len(space.starts) > 1:
+            return False
+        for ending, longer in space.endings.items():
+            for end in range(1, len(ending) + 1):
+                pairs, shorter = self._rests.get(ending[:end]), space.endings.get(ending[end:])
+                if pairs and shorter and any(first in longer and second in shorter for first, second in pairs):
+                    return False
+        return not any(
+            other[at:end] in self.names and other[end:] in space.endings
+            for start in space.starts
+            for other in space.others
+            if other.startswith(start)
+            for at in [len(start)]
+            for end in range(at + 1, len(other) + 1)
+        )
+
+    @cached_property
+    def _rests(self) -> dict[str, set[tuple[str, str]]]:
+        """What follows in names that begin with another name, with the kinds of both names, the shorter one first."""
+        rests: defaultdict[str, set[tuple[str, str]]] = defaultdict(set)
+        for name, kind in self.names.items():
+            for end in range(1, len(name)):
+                if (shorter := self.names.get(name[:end])) is not None:
+                    rests[name[end:]].add((shorter, kind))
+        return rests
 
 
-def _sample(device: Device, points: list[Point]) -> Device:
-    """Return the device with these points alone."""
+@dataclass
+class _Space:
+    """The identifiers of a namespace: what stands before and behind the names of points, and those of other things.
+
+    Each ending has the kinds of points that have it.
+    """
+
+    starts: set[str] = field(default_factory=set)
+    endings: defaultdict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+    others: set[str] = field(default_factory=set)
+
+
+def _sample(device: Device, points: list[Point], items: set[str]) -> Device:
+    """Return the device with these points alone; an enum that is named after another one of the items is left out."""
+    left_out = items - {point.item for point in points}
     first = {point.group: point for point in reversed(points)}
     blocks = {
         group: tuple([replace(block, points=(first[group].name,)) for block in blocks[:1]])
         for group, blocks in device.blocks.items()
     }
-    return replace(device, points=tuple(points), blocks=blocks)
+    enums = tuple([enum for enum in device.enums if enum.name not in left_out])
+    return replace(device, points=tuple(points), blocks=blocks, enums=enums)
 
 
 def _needed(device: Device) -> set[str]:
