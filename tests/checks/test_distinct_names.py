@@ -71,7 +71,6 @@ def test_large_devices_are_proven() -> None:
         assert all(PointKinds(device).are_distinct(target(language).identifiers) for language in LANGUAGES)
 
 
-
 @pytest.mark.parametrize(("second", "clash"), [("x_y", True), ("x_w", False), ("xy", False)])
 def test_a_name_and_its_ending_may_be_another_name_and_its_ending(second: str, clash: bool, tmp_path: Path) -> None:
     """`x` with `y_z` is what `x_y` is with `z`; the other points make the kinds large, so that the proof is tried."""
