@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.audit import audit
+from fieldscribe.audit import Citations, audit
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
@@ -97,7 +97,7 @@ DEVICES = {
         ("words", "067E 0000", "067E 0008", ["bytes 067E0000"]),  # 0000 stands in the other frame, too
         ("settings", "", "", []),
         ("settings", "2 stop bits, no", "2 stop bits, odd", ["format 3: 8 bits, 2 stop bits, no parity"]),
-        ("settings", "2 stop", "1 stop", ["format 3: 8 bits, 2 stop bits, no parity"]),
+        ("settings", "2 stop", "1 stop", ["format 3: 8 bits, 2 stop bits, no parity"] * 2),
         ("flags", "", "", []),
         ("flags", "Bit 1", "Bit 2", ["flags 1 = Door east"]),  # 2 is the mask of bit 1
         ("default", "", "", []),
@@ -110,5 +110,5 @@ def test_a_changed_number(device: str, old: str, new: str, expected: list[str], 
     report = Report()
     subject = load_analysis(write(tmp_path / "plant", description), report)
     assert subject is not None, report.findings
-    outcome = audit(subject, "manual.txt", text.replace(old, new) if old else text, same_text=None)
+    outcome = audit(Citations(subject), "manual.txt", text.replace(old, new) if old else text, same_text=None)
     assert [f"{one.fact} {one.wanted}" for one in outcome.missing] == expected

@@ -1,1 +1,1 @@
-"""How many changes of a manual the audit reports: facts of a description, each changed where it is cited."""
+"""How many changes of a manual the audit reports: facts of a description, each changed where it is printed."""

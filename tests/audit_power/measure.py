@@ -1,86 +1,94 @@
-"""The measurement of one manual."""
+"""The measurement of one manual: how many changed facts the audit reports, and `--old` shows with what cites them."""
 
 from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from functools import cache
 from random import Random
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit import Audit, Auditor
-from fieldscribe.audit.comparison import Comparison
-from fieldscribe.audit.layout import Fingerprint
-from fieldscribe.audit.manual import Manual
+from fieldscribe.audit import Citations, Editions, audit
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.resources import descriptions_dir
 
-from audit_power.changes import Change, Changes
+from audit_power.changes import change_of
+from audit_power.facts import facts_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
+
+    from audit_power.changes import Change
+    from audit_power.facts import CitedFact
+
+_FACTS_OF_KEY = {"at": ("address", "printed", "code", "number"), "range_in_units": ("range",)}
+"""The names that reports have for facts whose key in the YAML is another."""
 
 
 @dataclass(slots=True)
 class Power:
-    """How many claims there are, how many were changed, and which changes the audit did not report."""
+    """The changes that were tried, those that the plain audit missed, and those that `--old` did not list in full."""
 
-    claims: int
-    changed: int = 0
-    kinds: Counter[str] = field(default_factory=Counter)
+    facts: int
+    changes: list[Change]
     missed: list[Change] = field(default_factory=list)
+    unlisted: list[Change] = field(default_factory=list)
+    without_fact: list[Change] = field(default_factory=list)
 
-    @property
-    def reported(self) -> int:
-        """How many changes the audit reported."""
-        return self.changed - len(self.missed)
+    def share(self, failed: list[Change]) -> float:
+        """Return the share of changes that did not fail."""
+        return 1 - len(failed) / max(1, len(self.changes))
+
+    def kinds(self, failed: list[Change]) -> Counter[str]:
+        """Count failed changes by kind and key."""
+        return Counter(f"{change.fact.kind} of {change.fact.key}" for change in failed)
 
 
-class Sound:
-    """A device with the text that it was transcribed from, audited once."""
+class Reading:
+    """A description with the text that it was transcribed from."""
 
     def __init__(self, device: str, manuals: Path) -> None:
         subject = load_analysis(descriptions_dir() / device / "device.yaml", Report())
         assert subject is not None, device
         file = next(document.file for document in subject.scope.documents.values() if document.file)
-        self.device = device
-        self.auditor = Auditor(subject)
-        text = (manuals / file).read_text("utf-8")
-        self.fingerprint = Fingerprint.of(text, "")
-        self.manual = Manual(text, self.auditor.names)
-        self.comparison = Comparison(self.manual, self.auditor, Audit(device, file, True, len(self.manual)))
-        self.outcome = self.comparison.run()
+        self.text = (manuals / file).read_text("utf-8")
+        self.lines = self.text.splitlines()
+        self.facts: list[CitedFact] = facts_of(subject)
+        self.citations = Citations(subject)
 
-    def changes(self, random: Random) -> Changes:
-        """What can be changed in the text."""
-        return Changes(self.comparison, random)
+    def changes(self, random: Random) -> Iterator[Change]:
+        """Yield one change of each fact that the manual prints as the YAML has it, in any order."""
+        for fact in random.sample(self.facts, len(self.facts)):
+            change = change_of(fact, self.lines, random)
+            if change is not None:
+                yield change
 
-    def audited(self, text: str) -> Audit:
-        """Another text against the same description."""
-        return self.auditor.audit("", text, same_text=False, kept=self.fingerprint)
-
-
-@cache
-def sound(device: str, manuals: Path) -> Sound:
-    """A device, read once."""
-    return Sound(device, manuals)
+    def is_reported(self, text: str) -> bool:
+        """Return True if the plain audit of a text has a finding."""
+        return not audit(self.citations, "", text, same_text=False).is_clean
 
 
 def measure(device: str, manuals: Path, seed: int, count: int) -> Power:
-    """Changes so many claims of a device, each in a text of its own."""
-    read = sound(device, manuals)
-    assert read.outcome.clean, device
-    claims = [claim for claim in read.auditor.claims if not claim.optional]
-    random = Random(f"{seed} {device}")
-    changes = read.changes(random)
-    power = Power(len(claims))
-    for claim in random.sample(claims, len(claims)):
-        change = changes.of(claim) if power.changed < count else None
-        if change is None:
-            continue
-        power.changed += 1
-        power.kinds[change.kind] += 1
-        if read.audited(change.text(read.manual.lines)).clean:
+    """Change up to so many facts of a device, each in a text of its own."""
+    reading = Reading(device, manuals)
+    assert not reading.is_reported(reading.text), device
+    changes = [change for _, change in zip(range(count), reading.changes(Random(f"{seed} {device}")), strict=False)]
+    power = Power(len(reading.facts), changes)
+    for change in changes:
+        text = change.applied(reading.lines)
+        if not reading.is_reported(text):
             power.missed.append(change)
+        outcome = Editions(reading.citations, reading.text, text).compare("", "")
+        listed = [line for line in outcome.lines if change.line in (line.old_line, line.new_line)]
+        if not listed:
+            power.unlisted.append(change)
+        elif not any(_is_about(change.fact, fact.subject, fact.fact) for line in listed for fact in line.facts):
+            power.without_fact.append(change)
     return power
+
+
+def _is_about(wanted: CitedFact, subject: str, fact: str) -> bool:
+    """An address may be claimed as the number of a code, or in one of the manual's numberings."""
+    names = _FACTS_OF_KEY.get(wanted.key, (wanted.key.removesuffix("s"),))
+    return subject == wanted.subject and any(name in fact for name in names)

@@ -1,22 +1,21 @@
-"""Holding a description against the text of its manual: what it cites must stand where it says.
+"""Holds a description against the text of its manual: what it cites must be printed where it says.
 
-manual.py      the text: its lines, sections, table rows, and the numbers in them
-pages.py       heads and feet of its pages
-claims.py      what a description takes from the manual: facts of points (claims_of_points.py), of flags
-               (claims_of_flags.py) and others (claims_of_bus.py), each with the lines that it cites (citing.py)
-printed_errata.py  what errata say that the manual prints
-layout/        a new text in the layout of the one that was transcribed, by the fingerprint of that one
-places.py      the places that are cited, as they stand in the text
-errata.py      whether the manual prints what errata say, and what the description took against it
-facts.py       whether facts stand in their places: numbers (passage.py), labels (labels.py)
-columns.py     what nearly all rows print in one column, siblings.py what places print equally often
-comparison.py  all of it, and what is left over
-auditing.py    from a text to its findings
-outcome.py     the findings, as plain data
-report.py      the findings for people, as lines of text or a page
+Plain audit: `Citations` are what a description cites, `Held` finds them in a text, `audit` lists what is missing there.
+Two editions: `Editions` aligns both texts, `compare` lists every line that differs with the facts that cite it.
+
+numbers.py, manual.py, passage.py    a text: its numbers, its sections and rows, a piece of it
+claims.py                            one shape of a claim, with few kinds of evidence, and how claims are made
+point_claims.py, flag_claims.py, claims_of_device.py    the claims of points, of flags, and all of a description
+notation.py, errata.py               how the manual writes things; what errata say that it prints
+evidence.py, held.py                 whether a passage has the evidence; all claims in a text
+plain_audit.py                       the plain audit and its findings
+alignment.py, comparison.py          two texts line by line; what cites the lines that differ
+renumbering.py, recording.py         writing new line numbers, and the new text's checksum, into the YAML
+report.py                            both for people
 """
 
-from fieldscribe.audit.auditing import Auditor, audit
-from fieldscribe.audit.outcome import Audit
+from fieldscribe.audit.comparison import Comparison, Editions
+from fieldscribe.audit.held import Citations
+from fieldscribe.audit.plain_audit import Audit, audit, audit_of
 
-__all__ = ["Audit", "Auditor", "audit"]
+__all__ = ["Audit", "Citations", "Comparison", "Editions", "audit", "audit_of"]

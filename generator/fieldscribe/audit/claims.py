@@ -1,85 +1,239 @@
-"""What a description takes from its manual: all facts that name a line, and the lines that hold nothing for it."""
+"""A claim: one fact that a description takes from its manual, the lines that it cites, and what must be printed there.
+
+`ClaimMaker` makes the claims of one subject: a point, a message, a code of the bus, a frame.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from fieldscribe.audit.citing import Citing, numbers_in, spans_of
-from fieldscribe.audit.claims_of_bus import claims_of_codes, claims_of_entry, claims_of_frames, claims_of_line_settings
-from fieldscribe.audit.claims_of_points import claims_of_point
-from fieldscribe.audit.wordings import Wordings
-from fieldscribe.families import sections_of_codes
-from fieldscribe.language.nodes import Map
+from fieldscribe.audit.passage import letters_of
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
+    from fractions import Fraction
 
-    from fieldscribe.audit.citing import Claim
-    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import About
 
-_ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
-"""Sections of named entries, by what one is called."""
-
-
-def claims_of(subject: Analysis) -> Iterator[Claim]:
-    """All facts of points, frames, codes of the bus, messages and telegrams that name a line."""
-    wordings = Wordings(subject.scope.header["documents"])
-    parts = _parts_of_addresses(subject)
-    for resolved in subject.resolved:
-        yield from claims_of_point(resolved.point, resolved.facts, subject.scope.named_enums, wordings, parts)
-    for name, entries in subject.scope.named_enums.items():
-        yield from _claims_of_enum(name, entries, wordings)
-    for file in subject.scope.files:
-        for kind, section in _ENTRIES.items():
-            for entry in file.get(section, ()):
-                yield from claims_of_entry(kind, entry, wordings)
-        yield from claims_of_frames(file)
-        bus = file.get("bus")
-        if isinstance(bus, Map):
-            yield from claims_of_line_settings(bus)
-            for kind, section in sections_of_codes().items():
-                yield from claims_of_codes(kind, bus.get(section))
+_LITERAL = re.compile(
+    r"(?<![\w.'])(?:0[xX][0-9A-Fa-f]+|[Hh]'[0-9A-Fa-f]+|(?:[0-9][0-9A-Fa-f]*[hH]|[A-F][0-9A-F]*h)\b|0b[01]+|[0-9]+(?:\.[0-9]+)?)(?!\w)"
+)
 
 
-def _parts_of_addresses(subject: Analysis) -> frozenset[str]:
-    """The numberings of which one number belongs to several addresses, such as `mux` of `Mux 3 Word 2`."""
-    addresses: dict[tuple[str, object], set[int]] = {}
-    for resolved in subject.resolved:
-        for place in resolved.point.places:
-            for name, number in place.references.items():
-                addresses.setdefault((name, number), set()).add(min(place.addresses))
-    return frozenset(name for (name, _), places in addresses.items() if len(places) > 1)
+class Cited(NamedTuple):
+    """Lines that a description cites at `key` of the YAML; `last` is 0 where `first` opens a row or section."""
+
+    first: int
+    last: int
+    key: Span
+
+    @property
+    def lines(self) -> tuple[int, int]:
+        """First and last line."""
+        return self.first, self.last
 
 
-def _claims_of_enum(name: str, entries: Map, wordings: Wordings) -> Iterator[Claim]:
-    for key, entry in entries.items():
-        if isinstance(entry, Map) and "line" in entry:
-            place = entries.key_span(key)
-            citing = Citing(f"enum {name}", place, entry["line"], None)
-            yield from citing.numbers("enum", str(key), numbers_in(key), anchor=True)
-            yield from citing.label("enum", wordings.label(entry), beside=numbers_in(key), place=place)
+class Number(NamedTuple):
+    """One of these numbers, `times` times; or a word that contains it (`PZD2`); or a run from `ends` to `ends`."""
+
+    numbers: frozenset[Fraction]
+    words: tuple[str, ...] = ()
+    ends: frozenset[Fraction] = frozenset()
+    times: int = 1
+    names: tuple[str, ...] = ()
+    """What stands before the number, such as `Mux` in `Mux 3`, unless the number opens a line."""
 
 
-def looked_through_of(subject: Analysis) -> dict[int, frozenset[str]]:
-    """The lines that the description says hold nothing for it, or only facts and these numbers that are none."""
-    return by_line(
-        (line, listed_in(passage))
-        for file in subject.scope.files
-        for passage in file.get("looked_through", ())
-        for first, last in spans_of(passage["lines"])
-        for line in range(first, max(first, last) + 1)
-    )
+class Run(NamedTuple):
+    """Numbers that follow each other in one of these ways; if `spread`, they may have other numbers between them."""
+
+    ways: tuple[tuple[frozenset[Fraction], ...], ...]
+    spread: bool = False
 
 
-def listed_in(passage: Map) -> frozenset[str]:
-    """The numbers and words that a passage under `looked_through` says are no facts."""
-    return frozenset(str(text) for key in ("numbers", "words") for text in passage.get(key, ()))
+class Label(NamedTuple):
+    """One of these labels, beside one of some numbers: `beside` has the numbers for each way to print the list.
+
+    A table prints flags beside their bits, or beside their masks; values beside themselves, or beside their flag's bit.
+    """
+
+    words: tuple[str, ...]
+    beside: tuple[frozenset[Fraction], ...] = ()
+
+    def numbers(self, way: int) -> frozenset[Fraction]:
+        """Return the numbers that it stands beside in one way to print the list."""
+        return self.beside[min(way, len(self.beside) - 1)] if self.beside else frozenset()
 
 
-def by_line(passed_over: Iterable[tuple[int, frozenset[str]]]) -> dict[int, frozenset[str]]:
-    """The numbers of each line that are no facts; none where the line as a whole holds nothing."""
-    numbers_of_line: dict[int, frozenset[str]] = {}
-    for line, numbers in passed_over:
-        before = numbers_of_line.get(line, numbers)
-        numbers_of_line[line] = before | numbers if before and numbers else frozenset()
-    return numbers_of_line
+class Word(NamedTuple):
+    """One of these words by itself. `rivals` would say another fact in its place, such as `R/W` for `R`.
+
+    With rivals a place that prints neither agrees. In `cells` only whole cells count.
+    """
+
+    words: tuple[str, ...]
+    rivals: tuple[str, ...] = ()
+    cells: bool = False
+
+
+class Bytes(NamedTuple):
+    """The bytes of a frame, as hexadecimal digits."""
+
+    digits: str
+
+
+Evidence: TypeAlias = "Number | Run | Label | Word | Bytes"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Claim:
+    """A fact of a subject, as `shown` in reports, and the evidence for it at every place that it cites.
+
+    An `optional` fact need not be printed. Between two editions one that the old one prints must stay.
+    """
+
+    subject: str
+    fact: str
+    shown: str
+    cited: tuple[Cited, ...]
+    place: Span
+    """Where the description says the fact."""
+    evidence: Evidence
+    optional: bool = False
+    about: About = ""
+    """The subject as errata name it: a point without its variant, or another thing."""
+
+    @property
+    def where(self) -> str:
+        """Its place in the description as findings show it: file:line:column."""
+        return f"{self.place.file}:{self.place.line}:{self.place.column}"
+
+    @property
+    def identity(self) -> tuple[object, ...]:
+        """What tells it from other claims: the same fact may be stated in three notations."""
+        lines = tuple(cited.lines for cited in self.cited)
+        return self.subject, self.fact, self.shown, lines, self.evidence, self.optional
+
+    @property
+    def numbers(self) -> frozenset[Fraction]:
+        """The numbers that can state it."""
+        if isinstance(self.evidence, Number):
+            return self.evidence.numbers
+        if isinstance(self.evidence, Run):
+            return frozenset().union(*(numbers for way in self.evidence.ways for numbers in way))
+        return frozenset()
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words that can state it."""
+        return self.evidence.words if isinstance(self.evidence, Number | Label | Word) else ()
+
+
+class ClaimMaker:
+    """Makes the claims of one subject, at its `line` or at the lines that its key `lines` names for a fact."""
+
+    def __init__(self, subject: str, place: Span, line: tuple[int, Span] | None, lines: Any, about: About = "") -> None:
+        self.subject, self.place, self.about = subject, place, about
+        self.own_line = () if line is None else (Cited(line[0], 0, line[1]),)
+        self.lines_of_fact = (
+            {key: tuple(cited_lines(value, lines.span(key))) for key, value in lines.items()}
+            if isinstance(lines, Map)
+            else {}
+        )
+
+    def claim(  # noqa: PLR0913 - a row of the table of facts
+        self,
+        fact: str,
+        shown: str,
+        evidence: Evidence,
+        place: Span | None = None,
+        *,
+        key: str = "",
+        optional: bool = False,
+    ) -> Iterator[Claim]:
+        """Yield the claim, unless the description cites no line for it; `key` is its key in `lines` if not `fact`."""
+        cited = self.lines_of_fact.get(key or fact, self.own_line)
+        if cited:
+            yield Claim(self.subject, fact, shown, cited, place or self.place, evidence, optional, self.about)
+
+    def number(
+        self, fact: str, number: Fraction, place: Span | None = None, *, key: str = "", optional: bool = False
+    ) -> Iterator[Claim]:
+        """Yield the claim that one number is printed."""
+        yield from self.claim(fact, str(number), Number(absolute((number,))), place, key=key, optional=optional)
+
+    def run(  # noqa: PLR0913 - a row of the table of facts
+        self,
+        fact: str,
+        shown: str,
+        ways: Sequence[Sequence[Fraction]],
+        place: Span,
+        *,
+        key: str = "",
+        spread: bool = False,
+        optional: bool = False,
+    ) -> Iterator[Claim]:
+        """Yield the claim that numbers are printed one after the other in one of these ways."""
+        runs = tuple(tuple(absolute((number,)) for number in way) for way in ways)
+        if len(runs[0]) == 1:
+            evidence: Evidence = Number(absolute(number for way in ways for number in way))
+            yield from self.claim(fact, shown, evidence, place, key=key, optional=optional)
+        elif runs[0]:
+            yield from self.claim(fact, shown, Run(runs, spread), place, key=key, optional=optional)
+
+    def label(
+        self,
+        fact: str,
+        words: tuple[str, ...],
+        place: Span,
+        *,
+        key: str = "",
+        beside: Sequence[Sequence[Fraction]] = (),
+    ) -> Iterator[Claim]:
+        """Yield the claim that words of the manual are printed, as a title or beside numbers."""
+        if any(map(letters_of, words)):
+            shown = f"{abs(beside[0][0])} = {words[0]}" if beside else words[0]
+            yield from self.claim(fact, shown, Label(words, tuple(map(absolute, beside))), place, key=key)
+
+    def word(self, fact: str, words: tuple[str, ...], place: Span | None = None) -> Iterator[Claim]:
+        """Yield the claim that one of these words is printed."""
+        yield from self.claim(fact, words[0], Word(words), place)
+
+
+def line_of(node: Map) -> tuple[int, Span] | None:
+    """Return the `line` of a thing with the place of that key, as `ClaimMaker` takes it."""
+    return (node["line"], node.span("line")) if node.get("line") is not None else None
+
+
+def absolute(numbers: Iterable[Fraction]) -> frozenset[Fraction]:
+    """Return numbers without their signs: a minus in a text is often a dash."""
+    return frozenset(map(abs, numbers))
+
+
+def cited_lines(value: Any, key: Span) -> Iterator[Cited]:
+    """Read `780`, `[780, 790]` or `780..790`."""
+    for item in value if isinstance(value, Seq) else (value,):
+        first, dots, last = str(item).partition("..")
+        yield Cited(parse_integer(first), parse_integer(last) if dots else 0, key)
+
+
+def numbers_in(value: Any) -> list[Fraction]:
+    """Return all numbers in a fact as the author wrote it; digits that belong to a name are not numbers."""
+    if value is None or isinstance(value, bool):
+        return []
+    if isinstance(value, Map):
+        return [number for item in value.values() for number in numbers_in(item)]
+    if isinstance(value, Seq | list | tuple):
+        return [number for item in value for number in numbers_in(item)]
+    numbers = []
+    for literal in _LITERAL.findall(str(value).replace("..", " ")):
+        try:
+            numbers.append(parse_number(literal))
+        except NumberError:
+            continue
+    return numbers

@@ -1,292 +1,230 @@
-"""A description's claims held against a manual's text."""
+"""Two editions of a manual: every line that differs, with the facts that cite it and whether they still stand."""
 
 from __future__ import annotations
 
-import re
 from collections import Counter
-from functools import cached_property
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.facts import Facts
-from fieldscribe.audit.instead import instead
-from fieldscribe.audit.labels import Standing, standing
-from fieldscribe.audit.outcome import Missing, Uncited, Unused
-from fieldscribe.audit.places import nearly_all
+from fieldscribe.audit.alignment import Alignment, changed_words
+from fieldscribe.audit.claims import Word
+from fieldscribe.audit.held import Held
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Callable, Iterable
 
-    from fieldscribe.audit.citing import Claim
-    from fieldscribe.audit.manual import Extent, Token
-    from fieldscribe.audit.outcome import Audit
+    from fieldscribe.audit.claims import Cited, Claim
+    from fieldscribe.audit.errata import PrintedErratum
+    from fieldscribe.audit.held import Citations
+    from fieldscribe.diagnostics import Span
 
-_SHORT = 100
-"""Findings show at most so many characters of a line."""
-_LISTED = 4
-"""So many labels are a list: where nearly all of them stand, all have to."""
-_COMPOUND = re.compile(r"-[^\W\d]{2,}")
-"""What makes a number part of a word: `16-bit`."""
-_CAPTION = re.compile(
-    r"[\s*_]*(?:Abbildung|Abb\.|Bild|Tabelle|Tab\.|Figure|Fig\.|Picture|Table)\s+[0-9]+(?:[-.][0-9]+)*\s*[:.\u2013-]",
-    re.I,
-)
-"""What counts a picture or a table is no fact."""
-_FEWEST_LOST, _LOST = 4, 0.5
-"""A place is lost where so many facts of a subject are missing, such a share of all, and nearly all its names."""
-_LISTS = ("enum", "flags", "flag values", "answers", "refusals")
-_LONGEST_MERGED = 10
-"""A fact that rows share is printed once, in a cell merged with those below: it is missed once."""
+    _Mapping = Callable[[Cited], tuple[int, int] | None]
 
 
-class Comparison(Facts):
-    """The state of one audit: what is absent, and which numbers were used."""
+@dataclass(frozen=True, slots=True)
+class CitedFact:
+    """A fact that cites a line; `stands` says whether the new edition prints it where it is cited."""
 
-    def run(self, held: Collection[Claim] = ()) -> Audit:
-        """All findings, but for claims that are known to hold."""
-        self._held = held
-        labels: dict[tuple[str, str, tuple[tuple[int, int], ...]], list[Claim]] = {}
-        for claim in self.claims:
-            if claim.entry is None and not claim.beside and claim.fact != "title":
-                self._check(claim)
-            else:
-                labels.setdefault((claim.subject, claim.fact, claim.cited), []).append(claim)
-        for together in labels.values():
-            self._check_labels(together)
-        strays = self.columns.strays(
-            lambda extent: len(self.subjects[extent]) > 1, lambda claim, extent: self._is_taken(claim, [extent])
+    subject: str
+    fact: str
+    says: str
+    place: str
+    stands: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ChangedLine:
+    """A line that was changed, added, removed or moved, with its numbers and texts in both editions."""
+
+    kind: str
+    old_line: int | None
+    new_line: int | None
+    old: str
+    new: str
+    words: list[tuple[str, str]]
+    facts: list[CitedFact]
+
+
+@dataclass(slots=True)
+class Comparison:
+    """All lines that differ, all facts and errata that do not stand in the new edition, and what lines are counted."""
+
+    device: str
+    old: str
+    new: str
+    lines: list[ChangedLine]
+    fallen: list[CitedFact]
+    errata: list[str]
+    """The errata whose printed text the new edition does not print."""
+    left_to_renumber: int
+    """The cited places that count the lines of the old edition, where the new one has other numbers."""
+    findings: list[str] = field(default_factory=list)
+
+    @property
+    def stands(self) -> bool:
+        """Whether every cited fact, errata too, stands in the new edition."""
+        return not self.fallen and not self.errata
+
+    @property
+    def uncited(self) -> int:
+        """How many lines that differ have no fact that cites them."""
+        return sum(not line.facts for line in self.lines)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many lines there are of each kind, and what is open."""
+        kinds = Counter(line.kind for line in self.lines)
+        return {
+            **{kind: kinds[kind] for kind in ("changed", "added", "removed", "moved")},
+            "without_facts": self.uncited,
+            "facts_that_fell": len(self.fallen),
+            "errata_not_printed": len(self.errata),
+            "to_renumber": self.left_to_renumber,
+        }
+
+    def as_data(self) -> dict[str, object]:
+        """Return the same for JSON."""
+        return {
+            "device": self.device,
+            "old": self.old,
+            "new": self.new,
+            "stands": self.stands,
+            "counts": self.counts,
+            "lines": [asdict(line) for line in self.lines],
+            "facts_that_fell": [asdict(fact) for fact in self.fallen],
+            "errata_not_printed": self.errata,
+        }
+
+
+class Editions:
+    """A description between two texts. It counts the lines of the old one until it is renumbered.
+
+    What was added or edited meanwhile may count the lines of the new one: each place where lines are cited counts those
+    at which more of its facts stand; where that says nothing, those that most other places count.
+    """
+
+    def __init__(self, citations: Citations, old: str, new: str) -> None:
+        self.citations = citations
+        self._old, self._new = citations.manual(old), citations.manual(new)
+        self.alignment = Alignment(self._old.lines, self._new.lines)
+        self._counting_new: set[tuple[str, int, int]] = set()
+        self._others_count_new = False
+        self._decide()
+        self.in_old = Held(citations, self._old, self._then)
+        self.in_new = Held(citations, self._new, self._now, self._added_rows())
+
+    def _added_rows(self) -> list[int]:
+        """The rows of tables that only the new edition has: a fact of the row above does not stand in them."""
+        added = (change.new for change in self.alignment.changes if change.kind == "added" and change.new is not None)
+        return list(filter(self._new.opens_row, added))
+
+    def counts_new(self, key: Span) -> bool:
+        """Return True if the lines at a place of the YAML are those of the new edition."""
+        return _identity(key) in self._counting_new or (
+            self._others_count_new and _identity(key) not in self._counting_old
         )
-        for claim, extent in (*strays, *self.siblings.lacking(lambda extent: len(self.subjects[extent]))):
-            if all(claim is not absent for absent, _ in self.absent):
-                self._misses(claim, [extent])
-        for erratum in self.errata:
-            self._check_erratum(erratum)
-        self._unused()
-        self._report_absent()
-        self._uncited()
-        self.outcome.facts = sum(not claim.optional for claim in self.claims)
-        self.outcome.errata = len(self.errata)
-        return self.outcome
 
-    def _check_labels(self, claims: list[Claim]) -> None:
-        """Labels of one list are looked for together: beside their numbers, in their order."""
-        extents = self._cited_by(claims[0])
-        for claim in claims[1:]:
-            self._cited_by(claim)
-        places = [(extent, self._standing(claims, extent)) for extent in extents]
-        for extent, here in places:
-            for label in here:
-                self.columns.note_columns(label.claim, extent, self._columns_of(label, extent))
-                if label.claim.fact == "title":
-                    self.columns.note_heading(label.claim, extent, self._stands_in_heading(label.claim, extent))
-        labels = [label for _, here in places for label in here]
-        self._use(token for label in labels for token in label.tokens)
-        self.added += (token for extent, here in places for token in self._added_to(here, extent))
-        stands = {label.claim for label in labels}
-        for extent, here in places:
-            listed = {label.claim for label in here}
-            if len(claims) >= _LISTED and nearly_all([claim in listed for claim in claims]):
-                stands -= {claim for claim in stands - listed if not self._is_added(claim, extent)}
-        masks = [claim for claim in stands if claim.fact == "flags" and not claim.words]
-        for passage in (self._own_passage(claims[0], extent) for extent in extents):  # 0x0001 may be any 1 of the list
-            self._use(token for mask in masks for token in passage.reading(mask.numbers))
-        for claim in claims:
-            if claim not in stands and not any(self._stands_in_line(claim, extent) for extent in extents):
-                self._misses(claim, extents)
+    def is_blank_in_new(self, line: int) -> bool:
+        """Return True if a line of the new edition holds nothing."""
+        return not self._new.line(line).strip()
 
-    def _stands_in_line(self, claim: Claim, extent: Extent) -> bool:
-        """Whether a place prints a flag's value in a line of its own: `Bit 8 = 0: input 4 not delayed`."""
-        return any(
-            self._stands(line, extent)
-            for line in self._claims_in[extent, claim.fact]
-            if line.in_order and line.words and line.place == claim.place
-            if line.in_order[-1] == claim.beside or (not claim.words and line.in_order[0] <= claim.numbers)
-        )
-
-    def _added_to(self, labels: list[Standing], extent: Extent) -> Iterator[Token]:
-        """The number right behind the last label of an enum, if it is the next one and has a label, too."""
-        listed = [label for label in labels if label.claim.fact == "enum" and label.claim.beside]
-        if len(listed) < 2:
+    def _decide(self) -> None:
+        """Find out which places count the lines of the new edition; lines that did not move tell nothing."""
+        claims = [claim for claim in self.citations.claims if any(self._has_moved(cited) for cited in claim.cited)]
+        self._counting_old: set[tuple[str, int, int]] = set()
+        if not claims:
             return
-        passage, end = self._own_passage(listed[0].claim, extent), max(label.end for label in listed)
-        token = passage.after(end)
-        highest = max(number for label in listed for number in label.claim.beside)
-        if token is not None and highest + 1 in token.readings and passage.follows_as_entry(token, end):
-            yield token
+        as_old = self._standing(claims, lambda cited: cited.lines, self._moved(self.alignment.now))
+        as_new = self._standing(claims, self._moved(self.alignment.then), lambda cited: cited.lines)
+        for key in as_old.keys() | as_new.keys():
+            if as_new[key] > as_old[key]:
+                self._counting_new.add(key)
+            elif as_old[key] > as_new[key]:
+                self._counting_old.add(key)
+        self._others_count_new = len(self._counting_new) > len(self._counting_old)
 
-    def _columns_of(self, label: Standing, extent: Extent) -> set[int | None]:
-        """The column of a label, or all in which a title stands."""
-        passage = self._own_passage(label.claim, extent)
-        titles = [first for word in label.claim.words for first, _ in passage.places(word)]
-        return {passage.column(place) for place in ([label.place] if label.claim.beside else titles or [label.place])}
+    def _has_moved(self, cited: Cited) -> bool:
+        return self.alignment.now(cited.first) != cited.first
 
-    def _stands_in_heading(self, claim: Claim, extent: Extent) -> bool:
-        """Whether a title stands in the first line of its place."""
-        passage = self.passage(extent)
-        end = len(self.manual.line(extent.first))
-        return any(place <= end for word in claim.words for _, place in passage.places(word))
+    def _standing(self, claims: list[Claim], in_old: _Mapping, in_new: _Mapping) -> Counter[tuple[str, int, int]]:
+        """Count the claims that one of both texts prints, by the place of their lines in the YAML."""
+        texts = [
+            Held(self.citations, manual, now, filter(manual.opens_row, range(1, len(manual) + 1)))
+            for manual, now in ((self._old, in_old), (self._new, in_new))
+        ]  # each row by itself: the one below would have the facts of another numbering
+        printed = [claim for claim in claims if any(held.is_printed(claim) for held in texts)]
+        return Counter(_identity(cited.key) for claim in printed for cited in claim.cited if self._has_moved(cited))
 
-    def _standing(self, claims: list[Claim], extent: Extent) -> list[Standing]:
-        """The labels that stand in a place, or in the claims' own part of it."""
-        return standing(claims, self._own_passage(claims[0], extent))
+    def _now(self, cited: Cited) -> tuple[int, int] | None:
+        return cited.lines if self.counts_new(cited.key) else self._moved(self.alignment.now)(cited)
 
-    def _cited_by(self, claim: Claim) -> list[Extent]:
-        extents = [self.extent(*cited) for cited in claim.cited]
-        for extent in extents:
-            self.subjects.setdefault(extent, {}).setdefault(claim.subject, claim.where)
-            self.siblings.note(claim, extent, self.passage(extent).folded)
-        return extents
+    def _then(self, cited: Cited) -> tuple[int, int] | None:
+        return self._moved(self.alignment.then)(cited) if self.counts_new(cited.key) else cited.lines
 
-    def _check(self, claim: Claim) -> None:
-        extents = self._cited_by(claim)
-        stands = [self._stands(claim, extent) for extent in extents]  # no short cut: each call marks the numbers used
-        enough = all(stands) if claim.fact == "code" else sum(stands) >= claim.times
-        expected = not claim.optional or any(self._prints_alike(claim, extent) for extent in extents)
-        if (not enough and expected) or any(self._lists_another(claim, extent) for extent in extents):
-            self._misses(claim, extents)
+    def _moved(self, line_of: Callable[[int], int | None]) -> _Mapping:
+        def moved(cited: Cited) -> tuple[int, int] | None:
+            first = line_of(cited.first)
+            last = line_of(cited.last) if cited.last else 0
+            if cited.last:  # a range keeps what is left of it
+                lines = [line for old in range(cited.first, cited.last + 1) if (line := line_of(old)) is not None]
+                return (min(lines), max(lines)) if lines else None
+            return None if first is None or last is None else (first, last)
 
-    def _misses(self, claim: Claim, extents: list[Extent]) -> None:
-        if claim in self._held or self._is_taken(claim, extents):
-            return
-        self.absent.append((claim, extents))
+        return moved
 
-    def _report_absent(self) -> None:
-        """What does not stand where it is cited, with what stands there instead."""
-        numbers = self.outcome.unused
-        unused = {extent: [number for number in numbers if number.line in extent] for extent in self.subjects}
-        told: set[Unused] = set()
-        nearby: dict[tuple[str, str, str | None], Missing] = {}
-        told_once = list(self._without_repetition())
-        lost = self._lost_together([claim for claim, _ in told_once])
-        subjects = {claim.subject for claim in lost}
-        for claim, extents in told_once:
-            gone = lost.get(claim, [claim])
-            if claim is not gone[0]:
-                continue
-            there = [number for extent in extents for number in unused[extent]]
-            printed = instead(claim, [self.passage(extent) for extent in extents], there)
-            told.update(number for number in there if number.number == printed)
-            first, last = extents[0].first, extents[0].last
-            nearest = None if printed else self._nearest(claim, first)
-            shown = claim.shown
-            if claim.fact in _LISTS and len(gone) > 1:
-                shown = ", ".join(one.shown for one in gone[:_LISTED]) + (", ..." if len(gone) > _LISTED else "")
-            missing = Missing(claim.subject, claim.fact, shown, first, last, nearest, claim.where, printed)
-            missing.lost = len(gone)
-            if len(gone) > 1:  # what stands there now is not of this subject
-                told.update(number for number in there if subjects.issuperset(number.subjects))
-            same = (claim.fact, shown, printed)
-            if same in nearby and first - nearby[same].last <= _LONGEST_MERGED:
-                nearby[same].spread(missing)
-            else:
-                nearby[same] = missing
-                self.outcome.missing.append(missing)
-        self.outcome.unused = [number for number in numbers if number not in told]
+    def compare(self, old_name: str, new_name: str) -> Comparison:
+        """Return every line that differs with the facts that cite it."""
+        facts = {claim: self._fact(claim) for claim in self.citations.claims}
+        fallen = {claim for claim, fact in facts.items() if not fact.stands}
+        by_old = _by_line(self.in_old, fallen)
+        by_new = _by_line(self.in_new, {claim for claim in fallen if not _lines(self.in_old, claim)})
+        lines = []
+        for change in self.alignment.changes:
+            claims = {**by_old.get(change.old or 0, {}), **by_new.get(change.new or 0, {})}
+            old, new = self._old.line(change.old or 0), self._new.line(change.new or 0)
+            words = changed_words(old, new) if change.kind == "changed" else []
+            cited = [facts[claim] for claim in claims]
+            lines.append(ChangedLine(change.kind, change.old, change.new, old, new, words, cited))
+        errata = [erratum.id for erratum in self.citations.errata if self._fell(erratum)]
+        cited_lines = (cited for claim in self.citations.claims for cited in claim.cited)
+        left = {_identity(cited.key) for cited in cited_lines if self._is_left(cited)}
+        facts_that_fell = [fact for fact in facts.values() if not fact.stands]
+        return Comparison(self.citations.device, old_name, new_name, lines, facts_that_fell, errata, len(left))
 
-    def _lost_together(self, missing: Iterable[Claim]) -> dict[Claim, list[Claim]]:
-        """What is missing together, by each of its facts: nearly all of a subject, its name first; most of a list."""
-        absent: dict[tuple[str, tuple[tuple[int, int], ...]], list[Claim]] = {}
-        of_list: dict[tuple[str, tuple[tuple[int, int], ...], str], list[Claim]] = {}
-        for claim in missing:
-            if not claim.optional:
-                absent.setdefault((claim.subject, claim.cited), []).append(claim)
-            if claim.fact in _LISTS:
-                of_list.setdefault((claim.subject, claim.cited, claim.fact), []).append(claim)
-        stated = Counter((claim.subject, claim.cited) for claim in self.claims if not claim.optional)
-        anchors = Counter((claim.subject, claim.cited) for claim in self.claims if claim.anchor)
-        listed = Counter((claim.subject, claim.cited, claim.fact) for claim in self.claims)
-        gone = (claims for key, claims in of_list.items() if len(claims) >= min(_LISTED, listed[key]))
-        lost = {claim: claims for claims in gone for claim in claims}
-        for key, claims in absent.items():
-            is_lost = _FEWEST_LOST <= len(claims) >= _LOST * stated[key]
-            if is_lost and sum(claim.anchor for claim in claims) >= anchors[key] - (anchors[key] > 1):
-                lost |= dict.fromkeys(claims, sorted(claims, key=lambda claim: not claim.anchor))
-        return lost
+    def _fact(self, claim: Claim) -> CitedFact:
+        """A fact that need not be printed, such as a unit, stands where the old edition prints it."""
+        stands = self.in_new.stands(claim)
+        if claim.optional and not isinstance(claim.evidence, Word):
+            stands = stands or not self.in_old.is_printed(claim)
+        elif isinstance(claim.evidence, Word) and (claim.optional or claim.evidence.rivals):
+            was, now = (_lines(held, claim) for held in (self.in_old, self.in_new))
+            there = {self.alignment.now(line) for line in was} - {None}
+            may_be_gone = claim.optional or not self.in_new.places[claim]
+            stands = ((stands or may_be_gone) and there <= now) or self.in_new.is_taken(claim)
+        return CitedFact(claim.subject, claim.fact, claim.shown, claim.where, stands)
 
-    def _without_repetition(self) -> Iterator[tuple[Claim, list[Extent]]]:
-        """What is absent, without what only tells the same of a thing in another way."""
-        told = {(claim.subject, claim.where) for claim, _ in self.absent if not claim.optional}
-        for claim, extents in self.absent:
-            if not claim.optional or (claim.subject, claim.where) not in told:
-                told.add((claim.subject, claim.where))
-                yield claim, extents
+    def _fell(self, erratum: PrintedErratum) -> bool:
+        has_text = bool(erratum.numbers or erratum.texts)
+        return has_text and not self.in_new.erratum_stands(erratum)
 
-    def _nearest(self, claim: Claim, line: int) -> int | None:
-        places: Iterable[int] = ()
-        if claim.numbers:
-            places = [place for number in claim.numbers for place in self.manual.lines_of.get(number, ())]
-        elif claim.words:
-            places = self.manual.lines_with(claim.words[0])
-        return min(places, key=lambda place: (abs(place - line), place), default=None)
-
-    def _unused(self) -> None:
-        self.strays: set[tuple[int, int]] = set()
-        self.used -= {(token.line, token.column) for token in self.added}
-        passed_over = self.empty | self.manual.page_lines
-        for extent, subjects in self.subjects.items():
-            place = next(iter(subjects.values()))
-            for line in (number for number in range(extent.first, extent.last + 1) if number not in passed_over):
-                for column, text in self._without_fact(line):
-                    if (line, column) not in self.used:
-                        self.used.add((line, column))
-                        self.strays.add((line, column))
-                        self.outcome.unused.append(Unused(line, column, text, tuple(subjects), place))
-        self.outcome.unused.sort(key=lambda unused: (unused.line, unused.column))
-
-    def _without_fact(self, line: int) -> Iterator[tuple[int, str]]:
-        """The numbers of a line, and the words that look like codes but are none of the description."""
-        passed_over = self.codes | self.no_facts.get(line, frozenset())
-        text = self.manual.line(line)
-        for token in self._of_line(line):
-            if (
-                token.text not in passed_over
-                and not is_of_caption(text, token.column)
-                and not _COMPOUND.match(text, token.column - 1 + len(token.text))
-            ):
-                yield token.column, token.text
-        for match in self._code_forms.finditer(self.manual.line(line)):
-            if match[0] not in passed_over and (line, match.start() + 1) not in self.used:
-                yield match.start() + 1, match[0]
-
-    @cached_property
-    def _code_forms(self) -> re.Pattern[str]:
-        """Letters and at least three digits, as some code of the description has them."""
-        codes = [code for code in self.codes if re.fullmatch("[A-Za-z]+[0-9]{3,}", code)]
-        forms = {re.sub("[0-9]", "[0-9]", code) for code in codes}
-        return re.compile(rf"(?<!\w)(?:{'|'.join(sorted(forms))})(?!\w)" if forms else "(?!)")
-
-    def _uncited(self) -> None:
-        covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
-        cited = [self.extent(first, last or first) for erratum in self.errata for first, last in erratum.cited]
-        covered |= {line for extent in cited for line in range(extent.first, extent.last + 1)}
-        covered |= self.empty
-        manual = self.manual
-        for line in manual.headings:
-            section = manual.section_of(line)
-            if not any(number in covered for number in range(section.first, section.last + 1)):
-                self.outcome.uncited.append(Uncited(line, line, "section", manual.line(line).strip()[:_SHORT]))
-        rows = (line for line in range(1, len(manual) + 1) if line not in manual.page_lines and line not in covered)
-        for first, last in _runs(line for line in rows if manual.is_row(line) and manual.tokens[line - 1]):
-            section = manual.section_of(first)
-            among_cited = any(number in covered for number in range(section.first, section.last + 1))
-            shown = manual.line(first).strip()[:_SHORT]
-            self.outcome.uncited.append(Uncited(first, last, "row", shown, among_cited=among_cited))
-        self.outcome.uncited.sort(key=lambda uncited: uncited.line)
+    def _is_left(self, cited: Cited) -> bool:
+        return not self.counts_new(cited.key) and self._now(cited) not in (None, cited.lines)
 
 
-def is_of_caption(text: str, column: int) -> bool:
-    """Whether a place of a line is in what counts a picture or a table: `Figure 2-1:`."""
-    caption = _CAPTION.match(text)
-    return caption is not None and column <= caption.end()
+def _by_line(held: Held, fallen: Iterable[Claim]) -> dict[int, dict[Claim, None]]:
+    """Return the claims on each line: where their evidence stands, or at the cited line what fell."""
+    lines: dict[int, dict[Claim, None]] = {}
+    for claim, places in held.places.items():
+        for place in places:
+            for line in place.found.lines or ((place.extent.first,) if claim in fallen else ()):
+                lines.setdefault(line, {})[claim] = None
+    return lines
 
 
-def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:
-    """The first and last of lines that follow each other."""
-    first = last = 0
-    for line in lines:
-        if line != last + 1:
-            if first:
-                yield first, last
-            first = line
-        last = line
-    if first:
-        yield first, last
+def _lines(held: Held, claim: Claim) -> set[int]:
+    """Return the lines on which a claim's evidence stands."""
+    return {line for place in held.places[claim] for line in place.found.lines}
+
+
+def _identity(span: Span) -> tuple[str, int, int]:
+    return span.file, span.line, span.column

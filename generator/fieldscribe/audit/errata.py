@@ -1,128 +1,86 @@
-"""Errata: whether the manual prints what they say, and which facts the description took against it."""
+"""What errata say: what the manual prints, on which lines, and what the description took instead."""
 
 from __future__ import annotations
 
 import re
-from bisect import bisect_left, bisect_right
-from functools import cached_property
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.audit.manual import Extent, Token, has_word
-from fieldscribe.audit.outcome import Unprinted
-from fieldscribe.audit.places import Places
+from fieldscribe.audit.claims import Cited, absolute, cited_lines, numbers_in
+from fieldscribe.language.nodes import Map
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from fractions import Fraction
+    from collections.abc import Iterator
 
-    from fieldscribe.audit.citing import Claim
-    from fieldscribe.audit.printed_errata import PrintedErratum
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import About
+    from fieldscribe.resolve.analysis import Analysis
+    from fieldscribe.resolve.errata import LocatedErratum
 
-_NEVER_PRINTED = ("scale", "default")
-"""Facts that an erratum took of which it does not say that the manual prints them."""
-_TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
-"""Facts of which an erratum may speak that cites another place."""
-_TOLD = 2
-"""A number of so many digits is known as that of a code without its letter."""
+_LINES_NAMED = re.compile(r"\blines?\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*(?:\s+and\s+[0-9]+)?")
+_QUOTED = re.compile('["\u201e\u201c]([^"\u201c\u201d]+)["\u201c\u201d]')
 
 
-class Errata(Places):
-    """What errata say of the places of a text."""
+class PrintedErratum(NamedTuple):
+    """What an erratum says that the manual prints, and where."""
 
-    def _is_taken(self, claim: Claim, extents: list[Extent]) -> bool:
-        """Whether the description took this fact against the manual, as an erratum says."""
-        codes = claim.words if claim.entry is not None or self._lacks_a_letter(claim, extents) else ()
-        printed = claim.fact.startswith("printed ")
-        for erratum in self.taken.get(claim.about, ()):
-            here = self._speaks_of(erratum, extents)
-            if claim.fact not in _TAKEN_ANYWHERE and not here:
-                continue
-            if self._is_of(erratum, claim, here=here) and (erratum.is_sentence or not printed):
-                return True  # an erratum that gives printed facts tells apart what is printed and what was taken
-            if any(has_word(erratum.taken_text, code) for code in codes):
-                return True
-        return False
+    id: str
+    shown: str
+    place: Span
+    numbers: tuple[Fraction, ...]
+    texts: tuple[str, ...]
+    """What a sentence quotes."""
+    cited: tuple[Cited, ...]
+    subjects: tuple[About, ...]
+    taken: frozenset[Fraction]
+    """The numbers that the description has instead. The manual need not print them there."""
+    taken_text: str
+    """`taken` as the author wrote it: it may name codes that the manual does not print."""
+    is_sentence: bool
+    """Whether `printed` is a sentence: then it may speak of what stands around the cited line too."""
 
-    def _is_of(self, erratum: PrintedErratum, claim: Claim, *, here: bool) -> bool:
-        """Whether an erratum took a number for such a fact: addresses for addresses, limits that are not printed."""
-        if (claim.optional and not claim.names) or claim.row:
-            return False
-        if claim.is_address:
-            return erratum.taken <= self._numbers_of_addresses[claim.subject] and bool(claim.numbers & erratum.taken)
-        alone = erratum.taken.difference(erratum.numbers)
-        if claim.fact in _NEVER_PRINTED or (claim.fact == "range" and (alone or not (here or claim.apart))):
-            return bool(claim.numbers & alone)
-        return bool(claim.numbers & erratum.taken)
 
-    @cached_property
-    def _numbers_of_addresses(self) -> dict[str, frozenset[Fraction]]:
-        """All numbers of the addresses of each subject."""
-        numbers: dict[str, frozenset[Fraction]] = {}
-        for claim in self.claims:
-            if claim.is_address:
-                numbers[claim.subject] = numbers.get(claim.subject, frozenset()) | claim.numbers
-        return numbers
+def printed_errata(subject: Analysis) -> list[PrintedErratum]:
+    """Return all errata that name a line."""
+    return [_printed_erratum(erratum) for erratum in subject.errata if erratum.erratum.source.line is not None]
 
-    def _lacks_a_letter(self, claim: Claim, extents: list[Extent]) -> bool:
-        """Whether the manual nowhere prints a code, but its number in these places."""
-        digits = "".join(filter(str.isdigit, claim.words[0])) if claim.fact == "code" else ""
-        if len(digits.lstrip("0")) < _TOLD or any(map(self.manual.lines_with, claim.words)):
-            return False
-        alone = re.compile(rf"(?<![0-9])0*{int(digits)}(?![0-9])")
-        return any(alone.search(self._text(extent)) for extent in extents)
 
-    def _is_added(self, claim: Claim, extent: Extent) -> bool:
-        """Whether an erratum says of a list that it lacks a number, which stands elsewhere."""
-        errata = (erratum for erratum in self.taken.get(claim.about, ()) if self._speaks_of(erratum, [extent]))
-        return any(claim.beside & erratum.taken for erratum in errata)
+def _printed_erratum(written: LocatedErratum) -> PrintedErratum:
+    node = written.node
+    printed, taken, lines = (node.get(key) for key in ("printed", "taken", "lines"))
+    cited = list(cited_lines(node["line"], node.span("line")))
+    if isinstance(lines, Map):
+        cited += [line for key, value in lines.items() for line in cited_lines(value, lines.span(key))]
+    texts: list[str] = []
+    if isinstance(printed, Map):
+        numbers = _numbers_of(printed)
+    else:
+        sentence = str(printed)
+        named = [line for lines in _LINES_NAMED.findall(sentence) for line in re.findall("[0-9]+", lines)]
+        cited += [Cited(int(line), 0, node.span("printed")) for line in named]
+        texts = [text for text in _QUOTED.findall(sentence) if len(text) > 1]
+        numbers = numbers_in(_LINES_NAMED.sub("", sentence))
+    return PrintedErratum(
+        written.erratum.id,
+        written.erratum.printed,
+        node.span("id"),
+        tuple(map(abs, numbers)),
+        tuple(texts),
+        tuple(cited),
+        written.subjects,
+        absolute(_numbers_of(taken) if isinstance(taken, Map) else numbers_in(taken)),
+        written.erratum.taken,
+        not isinstance(printed, Map),
+    )
 
-    def _speaks_of(self, erratum: PrintedErratum, extents: list[Extent]) -> bool:
-        """Whether an erratum cites lines of a place."""
-        lines = [self.extent(*cited) for cited in erratum.cited]
-        return any(one.first <= extent.last and extent.first <= one.last for one in lines for extent in extents)
 
-    def _check_erratum(self, erratum: PrintedErratum) -> None:
-        if not erratum.numbers and not erratum.texts:
-            self.outcome.uncheckable += 1
-            return
-        cited = [self.extent(*lines) for lines in erratum.cited]
-        extents = self._spoken_of(erratum)
-        absent = False
-        for number in map(abs, erratum.numbers):
-            hits = [token for extent in extents for token in self._with(number, extent)]
-            near = (token for token in hits if any(token.line in extent for extent in cited))
-            self.used.update((token.line, token.column) for token in near)
-            absent = absent or not (hits or any(self._in_a_name(number, extent) for extent in extents))
-        if absent or (erratum.texts and self._lacks(erratum.texts, extents)):
-            first = extents[0].first
-            places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
-            nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
-            self.outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
+def _numbers_of(facts: Map) -> list[Fraction]:
+    return [number for key, value in facts.items() for number in _printed_numbers(key, value)]
 
-    def _spoken_of(self, erratum: PrintedErratum) -> list[Extent]:
-        """The lines that an erratum cites. A sentence may speak of the whole section; only numbers there are used."""
-        cited = [self.extent(*lines) for lines in erratum.cited]
-        if not erratum.is_sentence:
-            return cited
-        sections = [self.manual.section_of(extent.first) for extent in cited]
-        return [
-            Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
-            for extent, section in zip(cited, sections, strict=True)
-        ]
 
-    def _in_a_name(self, number: Fraction, extent: Extent) -> bool:
-        """Whether a number stands in an extent at least as part of a name or of another number."""
-        return has_word(self._text(extent), str(number))
-
-    def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
-        """The tokens of an extent that can mean a number."""
-        lines = self.manual.lines_of.get(number, [])
-        for line in lines[bisect_left(lines, extent.first) : bisect_right(lines, extent.last)]:
-            yield from (token for token in self._of_line(line) if number in token.readings)
-        for line, column, cell in self.manual.merged_cells(extent.first):
-            yield from (token for token in self.manual.tokens_in(cell, line, column) if number in token.readings)
-
-    def _lacks(self, texts: Iterable[str], extents: list[Extent]) -> bool:
-        """Whether one of the texts does not stand in the extents."""
-        printed = " ".join(" ".join(self._text(extent) for extent in extents).split())
-        return any(" ".join(text.split()) not in printed for text in texts)
+def _printed_numbers(key: str, value: Any) -> Iterator[Fraction]:
+    """The numbers of a printed fact; a checksum is bytes."""
+    if key == "crc":
+        yield from map(Fraction, bytes.fromhex("".join(str(value).split())))
+    else:
+        yield from numbers_in(value)

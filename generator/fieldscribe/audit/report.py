@@ -1,70 +1,73 @@
-"""An audit for people: lines of text for a terminal, and a page that stands alone."""
+"""The audit for people: lines of text for a terminal, and a page that stands alone."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from itertools import groupby
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.report import visible
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
-    from fieldscribe.audit.outcome import Audit, Missing, Unused
+    from fieldscribe.audit.comparison import ChangedLine, CitedFact, Comparison
+    from fieldscribe.audit.plain_audit import Audit, Missing, Unused
     from fieldscribe.report import Line
 
-_SHOWN = 8
+_MOST_NUMBERS = 8
 """A finding shows so many of the numbers of one place."""
+_FEWEST_TOGETHER = 4
+"""So many facts of a subject that are missing at one place are one finding."""
+_MOST_WORDS = 200
 _TEXTS = {
     True: "the text that was transcribed",
     False: "not the text that was transcribed",
     None: "a text without a known checksum",
 }
-_NO_LAYOUT = "no fingerprint of the text that was transcribed is kept: each line is looked for where it was"
-_KEEP = "audit that text with --fingerprint, or give it as --old"
 
 
-def as_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
-    """The findings, worst first, then the figures; `everything` adds unused numbers and uncited rows."""
-    for fact in outcome.missing:
-        yield [("", visible(fact.place) + ": "), ("error", "missing"), ("", visible(_missing(fact)))]
+def audit_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
+    """Yield the findings and the figures; `everything` adds the sections and rows that nothing cites."""
+    for _, facts in groupby(outcome.missing, key=lambda fact: (fact.subject, fact.line)):
+        yield from _missing_together(list(facts))
     for erratum in outcome.unprinted:
-        message = f": {erratum.erratum}: {erratum.printed} is not at line {erratum.line}; {_near(erratum.nearest)}"
-        yield [("error", "erratum"), ("", visible(message))]
-    for first, last, by, count in outcome.shifts():
-        lines = _lines(first, last)
-        places = f"{count} cited place{'' if count == 1 else 's'}"
-        side = "below" if by > 0 else "above"
-        yield [("warning", "moved"), ("", f": {places} of {lines} stand {abs(by)} lines {side}")]
-    for numbers in _together(outcome.unused):
-        yield [("", visible(numbers[0].place) + ": "), ("error", "unused"), ("", visible(_unused(numbers)))]
+        yield _finding(erratum.place, "erratum", f"{erratum.erratum}: {erratum.printed} is not at line {erratum.line}")
+    for numbers in _unused_together(outcome.unused):
+        yield _finding(numbers[0].place, "unused", _unused(numbers))
     for place in outcome.uncited:
-        kind = "error" if place.among_cited else "hint"
         if place.among_cited or everything:
             rows = f"{place.last - place.line + 1} rows" if place.last > place.line else place.kind
-            yield [(kind, "uncited"), ("", visible(f": {_lines(place.line, place.last)}: {rows}: {place.text}"))]
-    if outcome.same_text is False and not outcome.has_fingerprint:
-        yield [("hint", "hint"), ("", f": {_NO_LAYOUT}; {_KEEP}")]
-    yield from _figures(outcome, everything)
+            text = f": {_lines(place.line, place.last)}: {rows}: {place.text}"
+            yield [("error" if place.among_cited else "hint", "uncited"), ("", visible(text))]
+    if outcome.same_text is False and not outcome.is_clean:
+        yield [("hint", "hint"), ("", ": each fact is looked for at its line: give the text before with --old")]
+    yield from _figures_of_audit(outcome, everything)
+
+
+def _missing_together(facts: list[Missing]) -> Iterator[Line]:
+    """One finding for each fact, or one for all facts of a subject of which nearly nothing is at its place."""
+    if len(facts) < _FEWEST_TOGETHER:
+        for fact in facts:
+            yield _finding(fact.place, "missing", f"{fact.subject}: {_missing(fact)}")
+        return
+    first = facts[0]
+    named = "; ".join(f"{fact.fact} {fact.wanted}" for fact in facts[:_FEWEST_TOGETHER])
+    more = f" and {len(facts) - _FEWEST_TOGETHER} more" if len(facts) > _FEWEST_TOGETHER else ""
+    where = f"{len(facts)} facts are not at {_lines(first.line, first.last)}"
+    yield _finding(first.place, "missing", f"{first.subject}: {where}: {named}{more}; {_near(first.nearest)}")
 
 
 def _missing(fact: Missing) -> str:
     where = _lines(fact.line, fact.last)
-    subject = f"{fact.subject} and {len(fact.also)} more" if fact.also else fact.subject
-    told = f"{fact.fact} {fact.wanted}"
-    if fact.lost > 1:
-        return f": {subject}: {fact.lost} facts are not at {where}; {told}: {_near(fact.nearest)}"
     if fact.printed is not None:
-        says = f"the description says {fact.wanted}, the manual prints {fact.printed}"
-        return f": {subject}: {fact.fact}: {says} at {where}"
-    if fact.nearest is not None and fact.line <= fact.nearest <= fact.last:
-        lacks = "is not everywhere where places like it have it"
-        return f": {subject}: {told} {lacks}, at {where}; line {fact.nearest} has it"
-    return f": {subject}: {told} is not at {where}; {_near(fact.nearest)}"
+        return f"{fact.fact}: the description says {fact.wanted}, the manual prints {fact.printed} at {where}"
+    if fact.nearest is not None and fact.line <= fact.nearest <= max(fact.line, fact.last):
+        return f"{fact.fact} {fact.wanted} is not printed as it should be at {where}"
+    return f"{fact.fact} {fact.wanted} is not at {where}; {_near(fact.nearest)}"
 
 
-def _together(unused: list[Unused]) -> Iterator[list[Unused]]:
-    """The numbers of one place that stand in lines one below the other."""
+def _unused_together(unused: list[Unused]) -> Iterator[list[Unused]]:
+    """Yield the numbers of one place that stand on lines one below the other."""
     numbers: list[Unused] = []
     for number in unused:
         if numbers and (number.subjects != numbers[-1].subjects or number.line > numbers[-1].line + 1):
@@ -78,10 +81,14 @@ def _together(unused: list[Unused]) -> Iterator[list[Unused]]:
 def _unused(numbers: list[Unused]) -> str:
     first = numbers[0]
     subjects = ", ".join(first.subjects[:3]) + (", ..." if len(first.subjects) > 3 else "")
-    shown = ", ".join(number.number for number in numbers[:_SHOWN])
-    more = f" and {len(numbers) - _SHOWN} more" if len(numbers) > _SHOWN else ""
+    shown = ", ".join(number.number[:_MOST_WORDS] for number in numbers[:_MOST_NUMBERS])
+    more = f" and {len(numbers) - _MOST_NUMBERS} more" if len(numbers) > _MOST_NUMBERS else ""
     column = f", column {first.column}" if len(numbers) == 1 else ""
-    return f": {subjects}: no fact uses {shown}{more} at {_lines(first.line, numbers[-1].line)}{column}"
+    return f"{subjects}: no fact uses {shown}{more} at {_lines(first.line, numbers[-1].line)}{column}"
+
+
+def _finding(place: str, kind: str, text: str) -> Line:
+    return [("", visible(f"{place}: ")), ("error", kind), ("", visible(f": {text}"))]
 
 
 def _lines(first: int, last: int) -> str:
@@ -89,10 +96,10 @@ def _lines(first: int, last: int) -> str:
 
 
 def _near(line: int | None) -> str:
-    return "it stands nowhere in the manual" if line is None else f"the nearest place is line {line}"
+    return "it is printed nowhere near" if line is None else f"the nearest place is line {line}"
 
 
-def _figures(outcome: Audit, everything: bool) -> Iterator[Line]:
+def _figures_of_audit(outcome: Audit, everything: bool) -> Iterator[Line]:
     counts = outcome.counts
     checked = counts["errata"] - counts["errata_uncheckable"]
     tail = "" if everything else " (--all lists them)"
@@ -100,53 +107,103 @@ def _figures(outcome: Audit, everything: bool) -> Iterator[Line]:
     for label, text in (
         ("facts", f"{counts['facts']}, {counts['missing']} of them not where they are cited"),
         ("errata", f"{checked} with a printed text to look for, {counts['errata_not_printed']} not there"),
-        ("moved", f"{counts['moved']} cited places"),
         ("unused", f"{counts['unused_numbers']} numbers in cited places that no fact uses"),
         ("uncited", f"{counts['uncited']} sections and rows{tail}"),
     ):
         yield [("", f"  {label:<8} {text}")]
 
 
-@dataclass(frozen=True, slots=True)
-class _Table:
+def comparison_lines(outcome: Comparison, *, with_lines: bool = True) -> Iterator[Line]:
+    """Yield every line that differs between two editions with what cites it, then what fell and the figures."""
+    lines = outcome.lines if with_lines else []
+    for line in lines:
+        yield from _changed_line(line)
+    shown = {fact for line in lines for fact in line.facts}
+    for fact in outcome.fallen:
+        if fact not in shown:
+            yield _finding(fact.place, "missing", f"{_named(fact)} is not printed where it is cited")
+    for erratum in outcome.errata:
+        yield [("error", "erratum"), ("", visible(f": {erratum}: its printed text is not there any more"))]
+    yield from _figures_of_comparison(outcome)
+
+
+def _changed_line(line: ChangedLine) -> Iterator[Line]:
+    words = ", ".join(f"`{_short(was)}` -> `{_short(now)}`" for was, now in line.words)
+    where = f"line {line.old_line}" if line.old_line is not None else f"line {line.new_line} of the new edition"
+    if line.old_line is not None and line.new_line not in (None, line.old_line):
+        where += f", now {line.new_line}"
+    uncited = "" if line.facts else "no fact cites it"
+    details = "".join(f": {visible(text)}" for text in (words, uncited) if text)
+    yield [("strong", line.kind), ("", f": {where}{details}")]
+    if line.old_line is not None:
+        yield [("", f"  - {visible(line.old.strip())}")]
+    if line.kind in ("changed", "added"):
+        yield [("", f"  + {visible(line.new.strip())}")]
+    fallen = [fact for fact in line.facts if not fact.stands]
+    for subject, facts in groupby(fallen, key=lambda fact: fact.subject):
+        for place, named in _listed(list(facts)):
+            yield [("", "  "), *_finding(place, "missing", f"{subject}: {named}: not printed there any more")]
+    standing = [fact for fact in line.facts if fact.stands]
+    for subject, facts in groupby(standing, key=lambda fact: fact.subject):
+        listed = list(facts)
+        named = ", ".join(dict.fromkeys(f"{fact.fact} {_short(fact.says)}" for fact in listed))
+        yield [("", visible(f"  {listed[0].place}: {subject}: stands: {named}"))]
+
+
+def _listed(facts: list[CitedFact]) -> list[tuple[str, str]]:
+    """Return place and name of each fact of a subject; many facts are named together, at the place of the first."""
+    named = [f"{fact.fact} {_short(fact.says)}" for fact in facts]
+    if len(facts) < _FEWEST_TOGETHER:
+        return [(fact.place, name) for fact, name in zip(facts, named, strict=True)]
+    return [(facts[0].place, ", ".join(dict.fromkeys(named)))]
+
+
+def _named(fact: CitedFact) -> str:
+    return f"{fact.subject}: {fact.fact} {_short(fact.says)}"
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _MOST_WORDS else text[:_MOST_WORDS] + "..."
+
+
+def _figures_of_comparison(outcome: Comparison) -> Iterator[Line]:
+    """Yield the figures of two editions."""
+    counts = outcome.counts
+    kinds = ", ".join(f"{counts[kind]} {kind}" for kind in ("changed", "added", "removed", "moved"))
+    fallen, errata = counts["facts_that_fell"], counts["errata_not_printed"]
+    missing = "every cited fact stands" if not fallen else f"{fallen} that {'does' if fallen == 1 else 'do'} not stand"
+    yield [("strong", f"{outcome.device}: {visible(outcome.old)} against {visible(outcome.new)}")]
+    yield [("", f"  lines    {kinds}; {counts['without_facts']} that no fact cites")]
+    yield [("", f"  facts    {missing}" + (f"; {errata} errata whose printed text is gone" if errata else ""))]
+    if counts["to_renumber"]:
+        yield [("", f"  numbers  {counts['to_renumber']} places cite lines of the old edition: add --renumber")]
+
+
+class _Table(NamedTuple):
     """One table of the page."""
 
     title: str
     heads: tuple[str, ...]
-    rows: list[tuple[object, ...]]
+    rows: Sequence[tuple[object, ...]]
 
 
-def as_html(outcome: Audit) -> str:
-    """A page of tables that needs nothing beside it."""
+def audit_page(outcome: Audit) -> str:
+    """Return a page of tables that needs nothing beside it."""
     from fieldscribe.render import render
 
-    where = "none"
     tables = [
         _Table(
             "Facts that are not where they are cited",
-            ("Place", "Subject", "Fact", "The description says", "The manual prints", "Line", "Nearest"),
+            ("Place", "Analysis", "Fact", "The description says", "The manual prints", "Line", "Nearest"),
             [
-                (
-                    *(fact.place, fact.subject, fact.fact, fact.wanted),
-                    fact.printed or "",
-                    fact.line,
-                    fact.nearest or where,
-                )
+                (fact.place, fact.subject, fact.fact, fact.wanted, fact.printed or "", fact.line, fact.nearest or "")
                 for fact in outcome.missing
             ],
         ),
         _Table(
             "Errata whose printed text is not there",
-            ("Erratum", "Printed", "Line", "Nearest"),
-            [
-                (erratum.erratum, erratum.printed, erratum.line, erratum.nearest or where)
-                for erratum in outcome.unprinted
-            ],
-        ),
-        _Table(
-            "Cited places that moved",
-            ("Subject", "Cited line", "Line now"),
-            [(place.subject, place.line, place.now) for place in outcome.moved],
+            ("Place", "Erratum", "Printed", "Line"),
+            [(erratum.place, erratum.erratum, erratum.printed, erratum.line) for erratum in outcome.unprinted],
         ),
         _Table(
             "Numbers in cited places that no fact uses",
@@ -159,10 +216,6 @@ def as_html(outcome: Audit) -> str:
             [(place.line, place.last, place.kind, place.text) for place in outcome.uncited],
         ),
     ]
-    seen = [_Table(table.title, table.heads, [tuple(map(_shown, row)) for row in table.rows]) for table in tables]
-    view = {"found": outcome, "manual": visible(outcome.manual), "text": _TEXTS[outcome.same_text], "tables": seen}
+    safe = [table._replace(rows=[tuple(visible(str(cell)) for cell in row) for row in table.rows]) for table in tables]
+    view = {"found": outcome, "manual": visible(outcome.manual), "text": _TEXTS[outcome.same_text], "tables": safe}
     return render("audit.html.j2", view)
-
-
-def _shown(cell: object) -> str:
-    return visible(str(cell))

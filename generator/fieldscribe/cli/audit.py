@@ -1,37 +1,49 @@
-"""`fieldscribe audit`: hold everything that a description cites against the text of its manual."""
+"""`fieldscribe audit`: hold what a description cites against the text of its manual, or compare two editions of it."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.audit import Audit
+    from fieldscribe.audit import Comparison, Editions
     from fieldscribe.model import Document
     from fieldscribe.resolve.analysis import Analysis
 
+HELP = "hold what a description cites against the text of its manual, or compare two editions of it"
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new.txt --report html > audit.html
-  fieldscribe audit hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt
-  fieldscribe audit hitachi_l200 --manual new.txt --old hitachi_l200_modbus.txt --renumber --accept --file new.txt
+  fieldscribe audit hitachi_l200 --old hitachi_l200_modbus.txt --manual new.txt
+  fieldscribe audit hitachi_l200 --old hitachi_l200_modbus.txt --manual new.txt --renumber --accept --file new.txt
 
-ends with 1 when a cited fact is not where it is cited, or is printed otherwise; when a cited place has a number that no
-fact uses, such as that of an added entry; for rows that nothing cites among rows that are cited; and with --old while a
-changed line is not explained or an erratum about one is not looked at"""
+ends with 1 when a cited fact is not printed where it is cited; without --old also for numbers in cited places that no
+fact uses, and for rows that nothing cites among rows that are cited"""
+
+_MOST_BYTES = 16 << 20
+_MOST_LINES, _LONGEST_LINE = 100_000, 20_000
+_MOST_NUMBERS = 500_000
+"""Limits of a manual's text: more than ten times those of the longest known one."""
 
 
-_MOST_BYTES = 256 << 20
-"""The largest manual text that is read: a hundred times the longest known one."""
+class _Text(NamedTuple):
+    """The text of a manual, and the document of the description that it is the text of."""
 
-_LONGEST_LINE = 20_000
-"""Characters of a line: a text without its line breaks tells no places."""
+    name: str
+    text: str
+    sha256: str
+    document: Document
+
+    @property
+    def is_recorded(self) -> bool | None:
+        """Whether it is the text that the description records; None if that is unknown."""
+        return None if self.document.sha256 is None else self.sha256 == self.document.sha256
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+    """Add the command's arguments."""
     from fieldscribe.cli.common import add_device, some_path
 
     add_device(parser, variants=False)
@@ -42,100 +54,160 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report"
     )
     parser.add_argument(
-        "--old",
-        type=some_path,
-        metavar="FILE",
-        help="the text of the edition before: say what changed, and what is open",
+        "--old", type=some_path, metavar="FILE", help="the text of the edition before: list every line that differs"
     )
     parser.add_argument(
         "--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description"
     )
     parser.add_argument(
-        "--accept", action="store_true", help="with --old: record the new text, if every change in it is explained"
-    )
-    parser.add_argument(
-        "--fingerprint",
-        action="store_true",
-        help="keep the fingerprint of the text that was transcribed: a new edition in another layout is read by it",
-    )
-    parser.add_argument(
-        "--holds",
-        action="append",
-        default=[],
-        metavar="ERRATA",
-        help="with --old: errata, with commas between, that were looked at and hold though lines they cite changed",
+        "--accept", action="store_true", help="with --old: record the new text, if every cited fact stands in it"
     )
     for key in ("file", "edition"):
-        parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: what `{key}` of the document says then")
-    parser.add_argument(
-        "--all", action="store_true", help="in text, list everything: also what nothing cites or what is explained"
-    )
+        parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: the `{key}` of the document to record")
+    parser.add_argument("--all", action="store_true", help="list also sections and rows that nothing cites")
 
 
 def run(arguments: Namespace) -> int:
-    """Audit; the exit code."""
-    from fieldscribe.audit.report import as_html, as_lines
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import StopError, print_json
-    from fieldscribe.cli.terminal import print_lines
+    """Audit, or compare two editions; return the exit code."""
+    from fieldscribe.cli.common import StopError
 
     if not arguments.accept and (arguments.file is not None or arguments.edition is not None):
-        raise StopError("--file and --edition say what --accept records", "give them with --accept")
-    if arguments.fingerprint and arguments.old is not None:
-        raise StopError(
-            "--fingerprint is of the text that was transcribed", "with --old say --accept: it keeps the new one's"
-        )
+        raise StopError("--file and --edition are what --accept records", "give them with --accept")
     if arguments.old is not None:
-        from fieldscribe.cli.audit_editions import run as run_editions
+        return _compare(arguments)
+    if arguments.renumber or arguments.accept:
+        raise StopError("--renumber and --accept need the old text", "give it with --old")
+    return _audit(arguments)
 
-        return run_editions(arguments)
-    if arguments.renumber or arguments.accept or arguments.holds:
-        raise StopError("--renumber, --accept and --holds need the old text", "give it with --old")
-    outcome = _audit(arguments)
+
+def _audit(arguments: Namespace) -> int:
+    from fieldscribe.audit import Citations, audit
+    from fieldscribe.audit.report import audit_lines, audit_page
+    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli.common import print_json
+    from fieldscribe.cli.terminal import print_lines
+
+    subject = _subject(arguments)
+    text = _text(subject, arguments.manual)
+    outcome = audit(Citations(subject), text.name, text.text, same_text=text.is_recorded)
     if arguments.format == "json":
         print_json(outcome.as_data())
     elif arguments.format == "html":
-        print(as_html(outcome))
+        print(audit_page(outcome))
     else:
-        print_lines(as_lines(outcome, everything=arguments.all))
-    if arguments.fingerprint:
-        _keep(arguments)
-    return FINE if outcome.clean else FINDINGS
+        print_lines(audit_lines(outcome, everything=arguments.all))
+    return FINE if outcome.is_clean else FINDINGS
 
 
-def _audit(arguments: Namespace) -> Audit:
-    from fieldscribe.audit import audit
-    from fieldscribe.cli.fingerprints import kept_of
-
-    subject = opened(arguments)
-    path, document = manual_of(subject, arguments.manual)
-    name, text, digest = text_of(path)
-    same = None if document.sha256 is None else digest == document.sha256
-    return audit(subject, name, text, same_text=same, kept=None if same else kept_of(subject, document))
-
-
-def _keep(arguments: Namespace) -> None:
-    """Keep the fingerprint of the text that was transcribed. Raises StopError."""
+def _compare(arguments: Namespace) -> int:
+    """Compare both editions; with --renumber and --accept, write."""
+    from fieldscribe.audit import Citations, Editions
+    from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.fingerprints import keeping, place_of
+
+    if arguments.format == "html":
+        raise StopError("two editions have no HTML report", "use --report text or json")
+    written: list[str] = []
+    refused: str | None = None
+    while True:
+        subject = _subject(arguments)
+        old, new = _text(subject, arguments.old), _text(subject, arguments.manual)
+        editions = Editions(Citations(subject), old.text, new.text)
+        outcome = editions.compare(old.name, new.name)
+        if not arguments.renumber or written:
+            break
+        written.append(_renumber(subject, new.document, editions))
+    if arguments.accept:
+        refused = _refusal(arguments, outcome, subject, new)
+        if refused is None:
+            written += _accept(arguments, outcome, editions, subject, new)
+    if new.is_recorded and old.is_recorded is False:
+        written.append(f"hint: {new.name} is the text that the description records: is it the old one?")
+    _report(arguments, outcome, written, refused)
+    return FINE if outcome.stands and refused is None else FINDINGS
+
+
+def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
+    """Write the lines of the new edition; return what was done. Raises StopError."""
+    from fieldscribe.audit.renumbering import renumber
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError
     from fieldscribe.cli.rewriting import rewrite
-    from fieldscribe.safe_files import shown_path
 
-    subject = opened(arguments)
-    path, document = manual_of(subject, arguments.manual)
-    name, text, digest = text_of(path)
-    if document.sha256 is None:
-        raise StopError(f"documents.{document.id} records no text", f"add `sha256: {digest}` there")
-    if digest != document.sha256:
-        raise StopError(f"`{name}` is not the text that documents.{document.id} records", "give that one as --manual")
-    changes = keeping(subject, document, text, digest)
-    rewrite(changes)
-    if arguments.format == "text":
-        print(f"{'kept' if changes else 'kept before'}: {shown_path(place_of(subject, document))}")
+    result = renumber(subject.scope.files, document.id, editions)
+    if result.hindrances:
+        raise StopError("not renumbered:\n  " + "\n  ".join(result.hindrances), "nothing was changed", FINDINGS)
+    before = {file.file.name: file.file.text for file in subject.scope.files}
+    rewrite({name: (before[name], text) for name, text in result.texts.items()})
+    by_hand = "".join(f"\n  {note}" for note in result.by_hand)
+    return f"renumbered: {_counted(result.count, 'line')} in {_counted(len(result.texts), 'file')}{by_hand}"
 
 
-def opened(arguments: Namespace) -> Analysis:
-    """The description that is meant, with its places. Raises StopError."""
+def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: _Text) -> str | None:
+    """Return why the new edition cannot be accepted; None if it can. Raises StopError."""
+    from fieldscribe.audit.recording import hindrances
+
+    if not outcome.stands:
+        return "not every cited fact stands in the new edition"
+    if outcome.left_to_renumber:
+        return f"{_counted(outcome.left_to_renumber, 'cited place')} have the lines of the old edition: add --renumber"
+    recorded = subject.scope.header["documents"][new.document.id]
+    return "; ".join(hindrances(new.document.id, recorded, _given(arguments), new.name, new.sha256)) or None
+
+
+def _given(arguments: Namespace) -> dict[str, str]:
+    """Return what is to be recorded beside the checksum. Raises StopError."""
+    from fieldscribe.audit.recording import LONGEST
+    from fieldscribe.cli.common import StopError
+
+    given = {key: str(value) for key in LONGEST if (value := getattr(arguments, key)) is not None}
+    for key, value in given.items():
+        if not value.strip() or not value.isprintable() or len(value) > LONGEST[key]:
+            raise StopError(f"--{key}: give a text of 1 to {LONGEST[key]} printable characters")
+    if "/" in given.get("file", "") or "\\" in given.get("file", ""):
+        raise StopError("--file: give the name alone, without folders", "nothing was changed")
+    return given
+
+
+def _accept(arguments: Namespace, outcome: Comparison, editions: Editions, subject: Analysis, new: _Text) -> list[str]:
+    """Record the new edition; return what was done and what is left to look at. Raises StopError."""
+    from fieldscribe.audit import audit_of
+    from fieldscribe.audit.recording import with_recorded
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.cli.rewriting import rewrite
+
+    recorded = subject.scope.header["documents"][new.document.id]
+    text = with_recorded(recorded, {"sha256": new.sha256, **_given(arguments)})
+    if text is None:
+        raise StopError(f"not accepted: documents.{new.document.id} has an alias: write it out", code=FINDINGS)
+    rewrite({recorded.file.name: (recorded.file.text, text)})
+    done = [f"accepted: {recorded.file.name}:{recorded.span('sha256').line} records the new edition"]
+    if outcome.uncited:
+        differ = "differs" if outcome.uncited == 1 else "differ"
+        done.append(f"look at them: {_counted(outcome.uncited, 'line')} that {differ}, which no fact cites")
+    if findings := audit_of(editions.in_new, new.name, same_text=True).findings:
+        done.append(f"look at them: {_counted(findings, 'finding')} of `fieldscribe audit` in the new text alone")
+    return done
+
+
+def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
+    from fieldscribe.audit.report import comparison_lines
+    from fieldscribe.cli.common import print_json
+    from fieldscribe.cli.terminal import print_lines
+    from fieldscribe.report import visible
+
+    if arguments.format == "json":
+        print_json({**outcome.as_data(), "written": written, "refused": refused})
+        return
+    print_lines(comparison_lines(outcome, with_lines=not (arguments.renumber or arguments.accept)))
+    print_lines([[("", visible(line))] for note in written for line in note.splitlines()])
+    if refused is not None:
+        print_lines([[("error", "not accepted"), ("", visible(f": {refused}"))]])
+
+
+def _subject(arguments: Namespace) -> Analysis:
+    """Return the description with the places of its facts. Raises StopError."""
     from fieldscribe.cli.common import StopError, device_file, report_findings
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_analysis
@@ -148,27 +220,34 @@ def opened(arguments: Namespace) -> Analysis:
     return subject
 
 
-def text_of(path: Path) -> tuple[str, str, str]:
-    """Name, text and checksum of a manual. Raises StopError."""
+def _text(subject: Analysis, place: Path) -> _Text:
+    """Read the text of a manual. Raises StopError."""
+    import re
     from hashlib import sha256
 
     from fieldscribe.cli.common import StopError
     from fieldscribe.safe_files import read_regular
 
+    path, document = _manual_of(subject, place)
     data = read_regular(path, _MOST_BYTES).data
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise StopError(f"`{path}` is no text in UTF-8", "extract the manual's text first") from error
+    lines = text.count("\n") + text.count("\r")
+    numbers = sum(1 for _ in re.finditer("[0-9]+", text))
+    for what, count, most in (("lines", lines, _MOST_LINES), ("numbers", numbers, _MOST_NUMBERS)):
+        if count > most:
+            raise StopError(f"`{path}` has more than {most} {what}", "give the text of one manual")
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > _LONGEST_LINE:
             hint = "extract the manual's text with its line breaks"
             raise StopError(f"`{path}`:{number} has more than {_LONGEST_LINE} characters in a line", hint)
-    return path.name, text, sha256(data).hexdigest()
+    return _Text(path.name, text, sha256(data).hexdigest(), document)
 
 
-def manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
-    """The file to read, and the document of the description whose text it is. Raises StopError."""
+def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
+    """Return the file to read, and the document of the description whose text it is. Raises StopError."""
     from fieldscribe.cli.common import StopError
 
     documents = list(subject.scope.documents.values())
@@ -184,3 +263,7 @@ def manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
             raise StopError(f"`{place}` holds no manual of this device", f"it would be {' or '.join(known)}")
         return place / present[0], known[present[0]]
     return place, known.get(place.name, next(iter((*known.values(), *documents))))
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"

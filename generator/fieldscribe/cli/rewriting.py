@@ -1,4 +1,4 @@
-"""Writes files of a description anew: all of them, or none."""
+"""Replaces files of a description: all of them, or none."""
 
 from __future__ import annotations
 
@@ -16,19 +16,15 @@ _FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL
 for _name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
     _FLAGS |= getattr(os, _name, 0)
 _MARK = b"\xef\xbb\xbf"
-"""What some editors put before a text in UTF-8."""
+"""The byte order mark that some editors put before a text in UTF-8."""
 
 
-def rewrite(texts: Mapping[str, tuple[str | None, str]]) -> None:
-    """Replace the text of each file, given as it was read (None: there was none) and as it shall be.
-
-    Raises StopError.
-    """
-    waiting: list[tuple[Path, Path, bytes | None]] = []
+def rewrite(texts: Mapping[str, tuple[str, str]]) -> None:
+    """Replace the text of each file, given as it was read and as it is to be. Raises StopError."""
+    waiting: list[tuple[Path, Path, bytes]] = []
     try:
         for name, (before, after) in texts.items():
-            place = Path(name).resolve()
-            waiting.append(_new(place, after) if before is None else _staged(place, before, after))
+            waiting.append(_staged(Path(name).resolve(), before, after))
         _replace_all(waiting)
     except OSError as error:
         raise StopError(f"cannot write {error.filename}: {error.strerror}", "nothing was changed") from error
@@ -37,19 +33,8 @@ def rewrite(texts: Mapping[str, tuple[str | None, str]]) -> None:
             new.unlink(missing_ok=True)
 
 
-def _new(place: Path, text: str) -> tuple[Path, Path, None]:
-    """A file where none is."""
-    if os.path.lexists(place):
-        raise StopError(f"`{place.name}` came while the command ran", "nothing was changed: run the command again")
-    new = place.with_name(f".{place.name}.fieldscribe-new")
-    new.unlink(missing_ok=True)
-    with open(os.open(new, _FLAGS, 0o666), "wb") as stream:
-        stream.write(text.encode())
-    return place, new, None
-
-
 def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
-    """The new file beside the old one, with its mode; and the bytes of the old one."""
+    """Write the new file beside the old one, with its mode; return both paths and the bytes of the old one."""
     from fieldscribe.language.source import MOST_BYTES
     from fieldscribe.safe_files import read_regular
 
@@ -65,12 +50,12 @@ def _staged(place: Path, before: str, after: str) -> tuple[Path, Path, bytes]:
     return place, new, data
 
 
-def _replace_all(waiting: list[tuple[Path, Path, bytes | None]]) -> None:
-    """Put all new files in place; if that fails for one, the others get back what they had."""
+def _replace_all(waiting: list[tuple[Path, Path, bytes]]) -> None:
+    """Put all new files in place; if that fails for one, restore the others."""
     for number, (place, new, _) in enumerate(waiting):
         try:
             os.replace(new, place)
         except OSError:
             for done, _, data in waiting[:number]:
-                done.unlink() if data is None else done.write_bytes(data)
+                done.write_bytes(data)
             raise

@@ -103,13 +103,6 @@ KEYS = (
         [[1, 2, "1028h"]],
         Items(PRINTED_NUMBER, 1),
     ),
-    Key(
-        "words",
-        LOOKED_THROUGH,
-        "If the lines hold facts too: the words and phrases in them that are no facts. The audit ignores these.",
-        [["wrench size"]],
-        Items(Shape("A word or phrase as printed.", ["wrench size"], Text(200), Whole()), 1),
-    ),
     Key("why", LOOKED_THROUGH, "What the lines are about, in a few words.", ["Wiring."], Text(500), required=True),
     Key("document", LOOKED_THROUGH, "The document, if it is not the first one.", ["manual"], Text()),
 )

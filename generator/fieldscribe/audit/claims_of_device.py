@@ -1,0 +1,182 @@
+"""All claims of a description: points, enums, messages, codes of the bus, frames; and the lines it passes over."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.audit.claims import Bytes, Cited, ClaimMaker, Label, Number, absolute, cited_lines, line_of, numbers_in
+from fieldscribe.audit.notation import Notation
+from fieldscribe.audit.point_claims import claims_of_point
+from fieldscribe.families import families, sections_of_codes
+from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import parse_integer
+from fieldscribe.model import Named
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.audit.claims import Claim
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.analysis import Analysis
+
+_ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
+"""Sections of named entries, by the word for one."""
+_SETTINGS = ("serial", "timing")
+"""The keys of the bus that hold settings by name."""
+_PARITIES = {
+    "none": ("none", "keine", "kein", "ohne", "no"),
+    "no parity": ("no parity", "keine", "kein", "ohne", "none"),
+    "even": ("even", "gerade"),
+    "odd": ("odd", "ungerade"),
+}
+
+
+def claims_of(subject: Analysis) -> list[Claim]:
+    """Return the claims of a description, each once: an address printed in three notations is one fact."""
+    return list({claim.identity: claim for claim in reversed(list(_all_claims(subject)))}.values())[::-1]
+
+
+def _all_claims(subject: Analysis) -> Iterator[Claim]:
+    notation = Notation(subject.scope.header["documents"])
+    shared = _shared_numberings(subject)
+    for resolved in subject.resolved:
+        yield from claims_of_point(resolved.point, resolved.facts, subject.scope.named_enums, notation, shared)
+    for name, entries in subject.scope.named_enums.items():
+        yield from _claims_of_enum(name, entries, notation)
+    for file in subject.scope.files:
+        for kind, section in _ENTRIES.items():
+            for entry in file.get(section, ()):
+                yield from claims_of_entry(kind, entry, notation)
+        yield from _claims_of_frames(file)
+        bus = file.get("bus")
+        if isinstance(bus, Map):
+            yield from claims_of_settings(bus)
+            for kind, section in sections_of_codes().items():
+                yield from claims_of_codes(kind, bus.get(section))
+
+
+def passed_over(subject: Analysis) -> list[tuple[Cited, frozenset[str]]]:
+    """Return each line of `looked_through` with its numbers that are no facts; none for a line without any fact."""
+    return [
+        (Cited(line, 0, cited.key), frozenset(map(str, passage.get("numbers", ()))))
+        for file in subject.scope.files
+        for passage in file.get("looked_through", ())
+        for cited in cited_lines(passage["lines"], passage.span("lines"))
+        for line in range(cited.first, max(cited.first, cited.last) + 1)
+    ]
+
+
+def _shared_numberings(subject: Analysis) -> frozenset[str]:
+    """Return the numberings of which one number belongs to several addresses, such as `mux` of `Mux 3 Word 2`."""
+    addresses: dict[tuple[str, object], set[int]] = {}
+    for resolved in subject.resolved:
+        for place in resolved.point.places:
+            for name, number in place.references.items():
+                addresses.setdefault((name, number), set()).add(min(place.addresses))
+    return frozenset(name for (name, _), places in addresses.items() if len(places) > 1)
+
+
+def _claims_of_enum(name: str, entries: Map, notation: Notation) -> Iterator[Claim]:
+    """Entries of a shared enum that cite a line themselves."""
+    for key, entry in entries.items():
+        if isinstance(entry, Map) and "line" in entry:
+            maker = ClaimMaker(f"enum {name}", entries.key_span(key), line_of(entry), None)
+            yield from maker.claim("enum", str(key), Number(absolute(numbers_in(key))))
+            yield from maker.label("enum", notation.label(entry), entries.key_span(key), beside=(numbers_in(key),))
+
+
+def claims_of_entry(kind: str, entry: Map, notation: Notation) -> Iterator[Claim]:
+    """The numbers and the title of a command, a message or a telegram."""
+    maker = ClaimMaker(f"{kind} {entry['name']}", entry.span("name"), line_of(entry), entry.get("lines"))
+    identifiers = tuple(key for family in families() if family.lays_out_messages for key in family.frame_keys)
+    for key in ("at", *identifiers, "value", "length", "wears"):
+        for number in numbers_in(entry.get(key)):
+            yield from maker.number(key, number, entry.span(key))
+    yield from maker.label("title", notation.label(entry.get("title")), entry.span("title"))
+    layout = entry.get("layout", Map(entry.file, entry.start))
+    names = ("Byte", *notation.written("byte"))
+    for run, carried in layout.items():
+        place, (first, *last) = layout.key_span(run), map(int, numbers_in(run))
+        for number in numbers_in(run):
+            yield from maker.claim("layout", str(number), Number(absolute((number,)), names=names), place, key="bytes")
+        for number in numbers_in(carried):
+            yield from maker.number("layout", number, place, key="bytes")
+        for byte in range(first + 1, max(last, default=first)):
+            yield from maker.number("layout", Fraction(byte), place, key="bytes", optional=True)
+
+
+def claims_of_settings(bus: Map) -> Iterator[Claim]:
+    """The bit rate, which may be printed in kBaud, the length of identifiers, and whatever `lines` names a place of."""
+    maker = ClaimMaker("bus", bus.span(), line_of(bus), bus.get("lines"))
+    for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
+        for number in numbers_in(bus.get(key)):
+            evidence = Number(absolute((number, number / unit)))
+            yield from maker.claim(key, str(number), evidence, bus.span(key))
+    for holder in (bus, *(bus[name] for name in _SETTINGS if name in bus)):
+        for key in maker.lines_of_fact:
+            if key in holder and key not in ("bitrate", "identifier_bits"):
+                yield from _claims_of_setting(maker, key, holder[key], holder.span(key))
+
+
+def _claims_of_setting(maker: ClaimMaker, key: str, value: Any, place: Span) -> Iterator[Claim]:
+    """The numbers and the parity of a setting; of codes with meanings, each code with its meaning."""
+    if not isinstance(value, Map):
+        for number in numbers_in(value):
+            yield from maker.number(key, number, place)
+        if words := _parity_words(value):
+            yield from maker.word(key, words, place)
+        return
+    for code, meaning in value.items():
+        run = [*numbers_in(code), *numbers_in(meaning)]
+        shown, at = f"{code}: {meaning}", value.span(code)
+        if len(run) > 1:
+            yield from maker.run(key, shown, [run], at)
+        if words := _parity_words(meaning):
+            yield from maker.claim(key, shown, Label(words, (absolute(run[-1:]),)), at)
+
+
+def _parity_words(setting: Any) -> tuple[str, ...]:
+    """Return how manuals write the parity that a setting names."""
+    named = next((words for parity, words in _PARITIES.items() if re.search(rf"\b{parity}\b", str(setting))), ())
+    return (*named, *map(str.capitalize, named))
+
+
+def claims_of_codes(kind: str, codes: Any) -> Iterator[Claim]:
+    """The numbers of function, response and exception codes; several codes may share a row, as in "9 - 12"."""
+    rows: dict[int, list[Fraction]] = {}
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map) and "line" in entry:
+            rows.setdefault(entry["line"], []).extend(numbers_in(key))
+    for key, entry in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(entry, Map):
+            about = Named(kind, parse_integer(key))
+            maker = ClaimMaker(f"{kind} {key}", codes.key_span(key), line_of(entry), entry.get("lines"), about)
+            row = rows.get(entry.get("line", 0), [])
+            ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()
+            for number in numbers_in(key):
+                yield from maker.claim("number", str(key), Number(absolute((number,)), ends=ends))
+            for fact in ("max", "answers", "refusals"):
+                for number in numbers_in(entry.get(fact)):
+                    yield from maker.number(fact, number, entry.span(fact))
+            for number in numbers_in(entry.get("printed", {}).get("bytes")):
+                yield from maker.number("printed bytes", number, entry.span("printed"))
+
+
+def _claims_of_frames(file: Map) -> Iterator[Claim]:
+    """The bytes of the worked frames, and the numbers that they are said to carry."""
+    for frame in file.get("frames", ()):
+        about = Named("frame", frame["name"])
+        maker = ClaimMaker(f"frame {frame['name']}", frame.span("name"), line_of(frame), frame.get("lines"), about)
+        digits = "".join(str(frame["bytes"]).split()).upper()
+        if maker.own_line:
+            yield from maker.claim("bytes", digits, Bytes(digits), frame.span("bytes"))
+            for byte in range(1, len(digits) // 2 + 1):  # tables count the bytes
+                yield from maker.number("place of a byte", Fraction(byte), key="bytes", optional=True)
+        values, has_place = numbers_in(frame.get("says")), "printed" in maker.lines_of_fact
+        for number in dict.fromkeys(values):  # beside the bytes, or not at all
+            evidence = Number(absolute((number,)), times=values.count(number))
+            yield from maker.claim(
+                "says", str(number), evidence, frame.span("says"), key="printed", optional=not has_place
+            )

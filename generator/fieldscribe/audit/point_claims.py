@@ -1,0 +1,249 @@
+"""The claims of a point: its code, section, address, title, access, numbers, labels, and what `printed` says."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.audit.claims import ClaimMaker, Number, Word, absolute, numbers_in
+from fieldscribe.audit.flag_claims import claims_of_flags
+from fieldscribe.audit.notation import USUAL_ACCESS, USUAL_TYPES, joined
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import PRINTED
+from fieldscribe.language.nodes import Map
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.audit.claims import Claim
+    from fieldscribe.audit.notation import Notation
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.point_facts import PointFacts
+
+_INDEX_AFTER_CODE = re.compile(r"\[.*|\(.*")
+_LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")
+_NUMBERS = re.compile(r"\b0x[0-9A-Fa-f]+\b|\b[0-9][0-9A-Fa-f]*h\b")
+_KEY_IN_LINES = {"range_in_units": "range", "pairs": "printed"}
+"""The keys of `printed` whose place `lines` names by another key."""
+KEYS_OF_PRINTED = keys_of(PRINTED)
+"""What `printed` may say of every point; its other keys are the numberings of the device."""
+
+
+def claims_of_point(
+    point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation, shared: frozenset[str]
+) -> Iterator[Claim]:
+    """Yield the claims of all that a point itself says. `shared` numberings give one number to several addresses."""
+    yield from _PointClaims(point, facts, enums, notation).all(shared)
+
+
+class _PointClaims:
+    """Makes the claims of one point."""
+
+    def __init__(self, point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation) -> None:
+        self.point, self.facts, self.enums, self.notation = point, facts, enums, notation
+        line = None if point.source.line is None else (point.source.line, facts.span("line"))
+        self.maker = ClaimMaker(point.item, facts.span(), line, facts.get("lines"), point.name)
+
+    def all(self, shared: frozenset[str]) -> Iterator[Claim]:
+        facts = self.facts
+        code = None if self.point.code is None else _INDEX_AFTER_CODE.sub("", self.point.code).strip()
+        if code:
+            yield from self.maker.word("code", (*self._codes(code), str(self.point.code)), facts.span("code"))
+        if self._says("section"):
+            yield from self.maker.word("section", (str(facts.get("section")),), facts.span("section"))
+        yield from self._address(code or "", shared)
+        yield from self.maker.label("title", self.notation.label(self._titles()), facts.span("title"))
+        yield from self._access()
+        yield from self._type_and_unit()
+        yield from self._ranges()
+        yield from self._bits()
+        yield from self._scale_and_default()
+        yield from self._enum()
+        yield from self._special_codes()
+        yield from claims_of_flags(self.maker, self.point, facts, self.notation)
+        yield from self._printed()
+
+    def _says(self, key: str) -> bool:
+        """Return True if the point (or its format, record, set) says a fact: what its group says cites no line."""
+        layer = self.facts.layer(key)
+        return layer is not None and layer is not self.facts.group
+
+    def _titles(self) -> Any:
+        """Return the title of the row. A further set has its own row, with a title that was made from the first."""
+        made = {language: text for language, text in self.facts.title.items() if language != "en"}
+        return self.facts.get("title", made)
+
+    def _codes(self, code: str) -> tuple[str, ...]:
+        """Return how a manual may write a code: `P601`, `P 601`, `Parameter 601`."""
+        match = _LETTERS_AND_DIGITS.fullmatch(code)
+        if match is None:
+            return (code,)
+        letters, digits = match.groups()
+        return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in self.notation.written(letters)))
+
+    def _address(self, code: str, shared: frozenset[str]) -> Iterator[Claim]:
+        point, facts, place = self.point, self.facts, self.facts.span("at")
+        if point.address is None:
+            return
+        at = facts.get("at")
+        by_rule = (facts.element is not None or "addressing" in facts.group) and str(at).isdigit()
+        rule = [Fraction(int(at))] if by_rule else []
+        for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
+            yield from self.maker.number("number", number, place, key="code", optional=True)
+        if code and any(str(number) in code for number in (point.address, *map(int, rule))):
+            return  # the code is the number
+        if point.text is not None:
+            ends = absolute(map(Fraction, (point.addresses[0], point.addresses[-1])))
+            for address in map(Fraction, point.addresses):
+                evidence = Number(frozenset((address,)), ends=ends if address not in ends else frozenset())
+                yield from self.maker.claim("address", str(address), evidence, place)
+            return
+        for word in point.places:
+            references = {name: number for name, number in word.references.items() if name not in shared}
+            numbers = [Fraction(number) for number in references.values() if isinstance(number, int)]
+            words = tuple(text for name, number in references.items() for text in joined(name, number))
+            first = min(word.addresses)
+            evidence = Number(absolute((Fraction(first), *numbers, *rule)), words)
+            yield from self.maker.claim("address", f"{first:04X}h", evidence, place)
+
+    def _access(self) -> Iterator[Claim]:
+        """Who may write. A row that prints nothing of it agrees, and is right for `none`."""
+        access, declared = str(self.facts.get("access")), self.notation.access
+        notations = declared or USUAL_ACCESS
+        words = tuple(notations.get(access, ()))
+        unit = self.point.unit.symbol if self.point.unit is not None else ""
+        rivals = tuple(word for other, there in notations.items() if other != access for word in there if word != unit)
+        if words or (declared and access == "none" and rivals):
+            evidence = Word(words, rivals, cells=not declared)
+            yield from self.maker.claim("access", words[0] if words else access, evidence, self.facts.span("access"))
+
+    def _type_and_unit(self) -> Iterator[Claim]:
+        """Type and unit are optional: they matter between editions, where the old one prints them."""
+        words = USUAL_TYPES.get(str(self.facts.get("type") or ""), ())
+        if words:
+            place = self.facts.span("type")
+            yield from self.maker.claim("type", self.facts.get("type"), Word(words), place, optional=True)
+        symbol = self.point.unit.symbol if self.point.unit is not None else ""
+        if symbol:
+            yield from self.maker.claim("unit", symbol, Word((symbol,)), self.facts.span("unit"), optional=True)
+
+    def _ranges(self) -> Iterator[Claim]:
+        for key in ("range", "range_in_units"):
+            if self._says(key) and not self.point.flags:  # the flags of a word say which numbers it holds
+                spread = _is_spread(self.facts.get(key))
+                for shown, numbers in _runs_of(self.facts.get(key)):
+                    ways = self._in_both_units(numbers, in_units=key == "range_in_units")
+                    yield from self.maker.run("range", shown, ways, self.facts.span(key), spread=spread)
+        if self.point.text is not None and self._says("characters"):
+            characters = Fraction(self.point.text.characters)
+            yield from self.maker.number("characters", characters, self.facts.span("characters"), key="range")
+
+    def _in_both_units(self, numbers: list[Fraction], *, in_units: bool) -> list[list[Fraction]]:
+        """Return limits as they are written, and in the other unit unless `printed` or the scale forbids that."""
+        printed, cases = self.facts.get("printed"), self.point.scale or ()
+        prints_units = isinstance(printed, Map) and "range_in_units" in printed and self._says("range")
+        if prints_units or len(cases) != 1 or cases[0].rule.factors:
+            return [numbers]
+        rule = cases[0].rule
+        if in_units:
+            return [numbers, [number * rule.ratio + rule.offset for number in numbers]]
+        return [numbers, [(number - rule.offset) / rule.ratio for number in numbers]]
+
+    def _bits(self) -> Iterator[Claim]:
+        """The bits of the word that the point takes, and the bits that are always written as a constant."""
+        bits = self.point.bits
+        if bits is not None:
+            words = self.notation.bits(*bits)
+            for bit in range(bits[1], bits[0] + 1):
+                evidence, place = Number(frozenset((Fraction(bit),)), words), self.facts.span("bits")
+                yield from self.maker.claim("bits", str(bit), evidence, place, optional=bit not in bits)
+        fixed: Any = self.facts.get("fixed") if self._says("fixed") else None
+        for run, constant in fixed.items() if isinstance(fixed, Map) else ():
+            place, ends = fixed.key_span(run), numbers_in(run)
+            for end in ends:
+                masks = (Fraction(1 << int(end)),) if len(ends) == 1 else ()
+                yield from self.maker.claim("fixed bits", str(end), Number(absolute((end, *masks))), place, key="bits")
+            for number in numbers_in(constant):
+                evidence = Number(absolute((number,)), self.notation.written(number))
+                yield from self.maker.claim("fixed bits", f"= {number}", evidence, place, key="bits")
+
+    def _scale_and_default(self) -> Iterator[Claim]:
+        """The factors of the scale, and the factory setting where `lines` says that the manual prints it."""
+        scale: Any = self.facts.get("scale") if self._says("scale") else None
+        for rule in [scale] if isinstance(scale, str) else [case["rule"] for case in scale or ()]:
+            for number in numbers_in(rule):
+                if number not in (0, 1):
+                    evidence = Number(absolute((number, 1 / number)))
+                    yield from self.maker.claim("scale", str(number), evidence, self.facts.span("scale"))
+        if "default" in self.maker.lines_of_fact and self.point.default_raw is not None:
+            numbers = [Fraction(self.point.default_raw), *filter(None, (self.point.default,))]
+            place = self.facts.span("default" if self.facts.layer("default") is not None else "default_in_units")
+            evidence = Number(absolute(numbers), names=self.notation.written("default"))
+            yield from self.maker.claim("default", str(self.facts.get("default")), evidence, place)
+
+    def _enum(self) -> Iterator[Claim]:
+        """The numbers and labels of the enum, but for entries of a shared enum that cite a line themselves."""
+        key = "digits" if self.point.digits else "enum"
+        value: Any = self.facts.get(key)
+        if not self._says(key) or value is None:
+            return
+        value = value["enum"] if self.point.digits else value
+        entries: Map = self.enums[value] if isinstance(value, str) else value
+        numbers = [numbers_in(number)[0] for number in entries]
+        yield from self.maker.run("enum", ", ".join(map(str, numbers)), [numbers], self.facts.span(key), optional=True)
+        for number, entry in entries.items():
+            if isinstance(entry, Map) and "line" in entry and entries is not value:
+                continue
+            place, beside = entries.key_span(number), numbers_in(number)
+            label = self.notation.label(entry) if isinstance(entry, Map) else ()
+            quantity = numbers_in(entry.get("quantity")) if isinstance(entry, Map) else []
+            yield from self.maker.label("enum", label, place, beside=(beside,))
+            if quantity:
+                shown = f"{number} = {entry['quantity']}"
+                yield from self.maker.run("enum", shown, [(beside[0], quantity[0])], place)
+            elif not label:
+                yield from self.maker.claim("enum", str(number), Number(absolute(beside)), place)
+
+    def _special_codes(self) -> Iterator[Claim]:
+        """The raw numbers that are no quantity, each with its name."""
+        codes: Any = self.facts.get("special") if self._says("special") else None
+        for number, entry in codes.items() if isinstance(codes, Map) else ():
+            label = self.notation.label(entry) if isinstance(entry, Map) else ()
+            yield from self.maker.label("special", label, codes.key_span(number), beside=(numbers_in(number),))
+
+    def _printed(self) -> Iterator[Claim]:
+        """What `printed` says that the manual prints: addresses in each numbering, ranges, steps, pairs."""
+        printed = self.facts.get("printed")
+        for name, value in printed.items() if isinstance(printed, Map) else ():
+            is_numbering, place = name not in KEYS_OF_PRINTED, printed.span(name)
+            key, fact = "address" if is_numbering else _KEY_IN_LINES.get(name, name), f"printed {name}"
+            if name in ("range", "range_in_units"):
+                for shown, numbers in _runs_of(value):
+                    yield from self.maker.run(fact, shown, [numbers], place, key=key, spread=_is_spread(value))
+            elif name == "pairs":
+                for raw, number in value.items():
+                    pair = [*numbers_in(raw), *numbers_in(number)]
+                    yield from self.maker.run(fact, f"{raw} = {number}", [pair, pair[::-1]], place, key=key)
+            else:
+                numbers = numbers_in(value)
+                names = (*joined(name, ""), *self.notation.written(name)) if is_numbering else ()
+                for number in dict.fromkeys(numbers):
+                    words = joined(name, number) if is_numbering else ()
+                    evidence = Number(absolute((number,)), words, times=numbers.count(number), names=names)
+                    unprinted = name == "resolution" and number == 1  # "resolution: A" is one ampere
+                    yield from self.maker.claim(fact, str(number), evidence, place, key=key, optional=unprinted)
+
+
+def _is_spread(value: Any) -> bool:
+    """Return True if codes, factors or other intervals stand between the numbers of a range."""
+    return any(char.isalpha() or char in "*|" for char in _NUMBERS.sub("", str(value)))
+
+
+def _runs_of(value: Any) -> Iterator[tuple[str, list[Fraction]]]:
+    """Yield what is printed in one piece: each interval, or the list of all single numbers."""
+    texts = [str(item) for item in value] if isinstance(value, list) else [str(value)]
+    parts = [part.strip() for text in texts for part in text.split(",")]
+    singles = [part for part in parts if ".." not in part]
+    runs = [part for part in parts if ".." in part] + [", ".join(singles)] * bool(singles)
+    yield from ((run, numbers_in(run)) for run in runs if numbers_in(run))
