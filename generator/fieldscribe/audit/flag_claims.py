@@ -59,7 +59,8 @@ class _FlagClaims:
             run = self._ends_of_run(bit)
             ends = frozenset(map(Fraction, run)) if bit not in run else frozenset()
             numbers = numbers_in(self.printed.get("bit")) or [Fraction(bit), *self._masks()]
-            words, names = (*self.named, *joined("bit", bit)), ("Bit", *self.notation.written("bits"))
+            words = (*self.named, *joined("bit", bit))
+            names = ("Bit", *self.notation.written("bits")) if optional else ()
             evidence = Number(absolute(numbers), words, ends, names=names)
             yield from self.maker.claim("flags", f"bit {bit}", evidence, self.place, optional=optional)
 
