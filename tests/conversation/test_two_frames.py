@@ -33,14 +33,14 @@ FIRST, SECOND = "321#DD010302000007D0", "321#DD00051E13880064"
     ],
 )
 def test_frames_in_one_argument(device: str, text: str, sizes: list[int]) -> None:
-    heard = decode(shipped(device), {}, [text], Options())
-    assert [len(frame.data) for frame in heard] == sizes
+    decoded = decode(shipped(device), {}, [text], Options())
+    assert [len(frame.data) for frame in decoded] == sizes
     begins = [1 + sum(sizes[:place]) for place in range(len(sizes))]
-    said = [
+    texts = [
         f"these bytes hold {len(sizes)} frames; this is number {n}, from byte {at} on" for n, at in enumerate(begins, 1)
     ]
-    told = [note for frame in heard for note in frame.notes if "these bytes hold" in note]
-    assert told == (said if len(sizes) > 1 and device != "woodward_mpu2s" else [])
+    told = [note for frame in decoded for note in frame.notes if "these bytes hold" in note]
+    assert told == (texts if len(sizes) > 1 and device != "woodward_mpu2s" else [])
 
 
 def test_the_second_frame_answers_the_first() -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.families.directory import Directory
 
 DEVICE = sample_device()
-QUIET = FrameResult(b"", "rtu", "request", 1, None, "said")
+QUIET = FrameResult(b"", "rtu", "request", 1, None, "texts")
 
 
 @dataclass
@@ -33,16 +33,16 @@ class Script:
     ) -> DecodedFrame:
         """The frame, and what was open before it."""
         del directory
-        heard = replace(frame.result, summary=f"{requests.request(frame.unit, frame.exchange)}")
-        return replace(frame, result=heard, stays_open=expecting)
+        decoded = replace(frame.result, summary=f"{requests.request(frame.unit, frame.exchange)}")
+        return replace(frame, result=decoded, stays_open=expecting)
 
 
 def summaries(*frames: DecodedFrame, expected: DecodedFrame | None = None) -> list[str]:
     """Which request was open at each frame."""
-    listening = StreamDecoder(DEVICE, {}, Script())
+    decoder = StreamDecoder(DEVICE, {}, Script())
     if expected is not None:
-        listening.decode(expected, expecting=True)
-    return [listening.decode(frame).summary for frame in frames]
+        decoder.decode(expected, expecting=True)
+    return [decoder.decode(frame).summary for frame in frames]
 
 
 ASKS, ANSWERS = DecodedFrame(QUIET, request="first"), DecodedFrame(QUIET, answers=True)
@@ -71,6 +71,6 @@ def carrying(*words: int) -> DecodedFrame:
 
 def test_what_a_frame_carries_is_said_in_its_order() -> None:
     told = Item("", 0, 1, "as it is")
-    heard = StreamDecoder(DEVICE, {}, Script()).decode(replace(carrying(7), contents=(told, told)))
-    assert heard.items == (told, told)
+    decoded = StreamDecoder(DEVICE, {}, Script()).decode(replace(carrying(7), contents=(told, told)))
+    assert decoded.items == (told, told)
     assert [item.raw for item in StreamDecoder(DEVICE, {}, Script()).decode(carrying(7)).items] == [7]
