@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.importing.draft_text import DraftPoint
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -375,6 +376,18 @@ def test_tables_are_chosen_and_listed(tmp_path: Path, capsys: pytest.CaptureFixt
         "8 step\n"
         "   2  15..17  no points  Drive: no column is known\n"
     )
+
+
+def test_rows_of_a_table_without_points_are_listed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = "|Address|Name|\n|1|Speed|\n\npage 2\n\n|Address|Name|\n||Torque|\n"
+    assert main(["import", "table", write(tmp_path, "two.md", text)]) == 0
+    assert "# ? line 7 is no point: Torque\n" in capsys.readouterr().out
+
+
+def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
+    point = DraftPoint(1, "holding", "Speed")
+    with pytest.raises(ValueError, match="no such title"):
+        point.withdraw("title", "no such title")
 
 
 @pytest.mark.parametrize(

@@ -64,8 +64,9 @@ def draft(tables: Iterable[Table], options: Options) -> Draft:
     with_points = [entry for entry in read if entry.columns.hold_points]
     family = _family_of(with_points, options)
     groups: dict[tuple[str, str], DraftGroup] = {}
-    for entry in with_points:
-        _add_to_groups(groups, entry, family, options)
+    homeless = [text for entry in with_points for text in _add_to_groups(groups, entry, family, options)]
+    for group in list(groups.values())[:1]:
+        group.comments += homeless
     _ask_about_doubles(point for group in groups.values() for point in group.points)
     _give_names(groups.values())
     return Draft(list(groups.values()), read, family)
@@ -97,8 +98,11 @@ def _refuse_unknown(tables: Sequence[ReadTable], names: Iterable[str]) -> None:
 
 def _add_to_groups(
     groups: dict[tuple[str, str], DraftGroup], entry: ReadTable, family: Family, options: Options
-) -> None:
-    """Add the points of a table to the groups of its title, one group for each space."""
+) -> list[str]:
+    """Add the points of a table to the groups of its title, one group for each space.
+
+    The comments about the table go to the group of its first point; without points, they are returned.
+    """
     table, columns = entry
     known = options.space or _space_of(table, columns)
     usual = "holding" if "holding" in family.spaces else next(iter(family.spaces))
@@ -121,6 +125,7 @@ def _add_to_groups(
         comments = []
         point.section = table.section
         group.points.append(point)
+    return comments
 
 
 def _may_be_reference(point: DraftPoint) -> bool:

@@ -59,7 +59,10 @@ class DraftPoint:
     questions: list[str] = field(default_factory=list)
 
     def withdraw(self, key: str, reason: str) -> None:
-        """Replace a fact that does not compile by a question; where there is none to replace, all facts."""
+        """Replace a fact that does not compile by a question; where there is none to replace, all facts.
+
+        Raises ValueError if nothing is left to replace.
+        """
         value = self.facts.get(key, "~")
         if key == "printed" and self.reference:
             value, self.reference = self.reference[1], None
@@ -69,6 +72,8 @@ class DraftPoint:
             value, self.code = self.code, ""
         elif value != "~":
             self._leave_open(key)
+        elif self.facts == {"at": "~"}:
+            raise ValueError(reason)
         else:
             key, value = "the row", "; ".join(f"{name}: {text}" for name, text in self.facts.items() if text != "~")
             self.facts, self.reference = {"at": "~"}, None
