@@ -11,8 +11,7 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
 from fieldscribe.model import Variant, item_of
-from fieldscribe.resolve.elements import elements_of
-from fieldscribe.resolve.point_facts import Element, PointFacts, set_title
+from fieldscribe.resolve.point_facts import Element, PointFacts, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, humanised, titles
 
 if TYPE_CHECKING:

@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import SOURCE
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import Point, Terms
+from fieldscribe.model import Point, Source, Terms
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.conditions import condition_of
@@ -16,12 +18,13 @@ from fieldscribe.resolve.encodings import Encoding, Encodings
 from fieldscribe.resolve.memo import FactKeys, Memo, hashable
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
-from fieldscribe.resolve.scope import PLAIN, Scope, Sources, titles
+from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import integer, number
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from fractions import Fraction
 
     from fieldscribe.language.nodes import Map
@@ -31,6 +34,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.telegrams import Telegrams
 
 _MOST_NAMES = 12
+_CITING = {*keys_of(SOURCE), "source"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +63,33 @@ def resolve_points(
     return resolved, ranges, places
 
 
+class _Sources:
+    """Finds the sources of points. What formats and groups cite is read once."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
+
+    def of(self, facts: PointFacts) -> Source:
+        """Return the source of a point: usually that of its group, with the point's own line."""
+        nearest_layer, *others = facts.layers
+        key = (*map(id, others), id(facts.group))
+        known = self._shared.get(key)
+        if known is None:
+            citations = cited((*others, facts.group))
+            known = self._shared[key] = citations, source_from(self._scope, citations)
+        stated = nearest_layer.keys() & _CITING
+        if stated == {"line"}:
+            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
+        return source_from(self._scope, {**known[0], **cited((nearest_layer,))}) if stated else known[1]
+
+
 class _Points:
     """Puts points together from their identity and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
-        self._sources = Sources(scope)
+        self._sources = _Sources(scope)
         self._terms: Memo[Terms] = Memo(scope.report)
         self._defaults: Memo[tuple[Fraction | None, int | None]] = Memo(scope.report)
 

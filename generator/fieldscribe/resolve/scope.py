@@ -23,10 +23,8 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
     from fieldscribe.families import Family
     from fieldscribe.language.files import Files
-    from fieldscribe.resolve.point_facts import PointFacts
 
 _SOURCE = tuple(keys_of(SOURCE))
-_STATED, _LINE = {*_SOURCE, "source"}, {"line"}
 PLAIN = Unit("", "number", "number")
 """The unit of a number that has none."""
 
@@ -189,31 +187,10 @@ def first_line(value: object) -> int | None:
 
 def source_of(scope: Scope, *layers: Map) -> Source:
     """Return the source that the layers cite together, nearest first; without a document, the device's first one."""
-    return _source(scope, _cited(layers))
+    return source_from(scope, cited(layers))
 
 
-class Sources:
-    """Finds the sources of points. What formats and groups cite is read once."""
-
-    def __init__(self, scope: Scope) -> None:
-        self._scope = scope
-        self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
-
-    def of(self, facts: PointFacts) -> Source:
-        """Return the source of a point: usually that of its group, with the point's own line."""
-        nearest_layer, *others = facts.layers
-        key = (*map(id, others), id(facts.group))
-        known = self._shared.get(key)
-        if known is None:
-            cited = _cited((*others, facts.group))
-            known = self._shared[key] = cited, _source(self._scope, cited)
-        stated = nearest_layer.keys() & _STATED
-        if stated == _LINE:
-            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
-        return _source(self._scope, {**known[0], **_cited((nearest_layer,))}) if stated else known[1]
-
-
-def _cited(layers: Iterable[Map]) -> dict[str, object]:
+def cited(layers: Iterable[Map]) -> dict[str, object]:
     """Return what the layers cite by key; the first layer that has a key wins."""
     facts: dict[str, object] = {}
     for layer in layers:
@@ -226,7 +203,8 @@ def _cited(layers: Iterable[Map]) -> dict[str, object]:
     return facts
 
 
-def _source(scope: Scope, facts: Mapping[str, object]) -> Source:
+def source_from(scope: Scope, facts: Mapping[str, object]) -> Source:
+    """Return the source for citations by key; without a document, the device's first one."""
     document = str(facts.get("document") or next(iter(scope.documents), ""))
     line, section, page = first_line(facts.get("line")), facts.get("section"), facts.get("page")
     return Source(
