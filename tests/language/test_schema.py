@@ -19,7 +19,7 @@ from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys_page import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.shape import check_of, check_shape
+from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import SourceFile, read_source
 from fieldscribe.language.value_checks import compiled_pattern
 from jsonschema import Draft7Validator, validators
@@ -216,8 +216,8 @@ def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.Monke
         if source is None:
             continue
         reports = Report(), Report()
-        for report, made in zip(reports, (shape._made, {}), strict=True):
-            monkeypatch.setattr(shape, "_made", made)
+        for report, made in zip(reports, (shape._checks, {}), strict=True):
+            monkeypatch.setattr(shape, "_checks", made)
             for root in load(source, Report()):
                 if root is not None:
                     check_shape(root, DEVICE if "device" in root else PART, report)
@@ -227,10 +227,10 @@ def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.Monke
 
 def test_a_plan_of_other_keys_would_be_noticed() -> None:
     """Were plans not told apart by all their keys, a mapping that lacks one would pass or end in an exception."""
-    from fieldscribe.language.shape import KeysCheck
+    from fieldscribe.language.shape import MappingCheck
 
     text = "group: a\ntitle: A\nspace: holding\naccess: r\nsource: {document: m, section: x}\npoints: []\n"
-    check = KeysCheck(PART, check_of)
+    check = MappingCheck(PART)
     whole, wrong = (load(SourceFile("a.yaml", part), Report())[0] for part in (text, text.replace("title", "titel")))
     assert whole is not None
     assert wrong is not None

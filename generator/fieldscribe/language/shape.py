@@ -1,4 +1,8 @@
-"""The checks of lists and mappings: what is wrong in them is reported and dropped."""
+"""Checks a file against the table of keys: reports what is wrong, with a hint, and drops it.
+
+The checks are built from the table, each when a value first needs it. A test compares them with `jsonschema` on every
+description and every bad input.
+"""
 
 from __future__ import annotations
 
@@ -14,48 +18,82 @@ from fieldscribe.language.value_checks import NumberCheck, ShapeCheck, TextCheck
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Iterable, Iterator
 
-    from fieldscribe.language.value_checks import Check, Test
+    from fieldscribe.language.value_checks import Check
     from fieldscribe.schema_types import Kind, Shape
 
+_WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
+_PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
+    NUMBER: ("a number", (int, Decimal)),
+    BOOLEAN: ("true or false", (bool,)),
+    NOTHING: ("~", (type(None),)),
+}
+_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 _NAMING = ("name", "code", "id")
 _MOST_PLANS = 1000
+_checks: dict[Shape, ShapeCheck] = {}
 
 
-class ItemsCheck:
+def check_shape(value: Map, place: Place, report: Report) -> bool:
+    """Return True if a file has the shape of a place (`DEVICE` or `PART`); findings go to the report."""
+    return not report.full and check_of(place.shape)(value, value, None, report)
+
+
+def check_of(shape: Shape) -> ShapeCheck:
+    """Return the check for a shape; it is built once."""
+    if shape not in _checks:
+        _checks[shape] = _build(shape)
+    return _checks[shape]
+
+
+def _build(shape: Shape) -> ShapeCheck:
+    checks: dict[type, Check | None] = {}
+    for kind in shape.kinds:
+        for python_type, check in _by_python_type(kind):
+            checks.setdefault(python_type, check)
+    form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
+    yes_no = says_yes_or_no(shape)
+    words = (_WORDS.get(type(kind)) or _PLAIN[kind][0] for kind in shape.kinds)
+    wanted = "yes or no" if yes_no else " or ".join(words)
+    return ShapeCheck(checks or _ANY, wanted, next(iter(shape.examples), None), form, yes_no=yes_no)
+
+
+def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
+    """Yield the Python types of a kind of value, each with its check; None if every value is right."""
+    if isinstance(kind, Place):
+        yield Map, MappingCheck(kind)
+    elif isinstance(kind, Items):
+        yield Seq, ListCheck(check_of(kind.item), kind.least)
+    elif isinstance(kind, Text):
+        yield str, TextCheck(kind) if kind.choices or kind.longest or kind.form else None
+    elif isinstance(kind, Whole):
+        bounded = kind.choices or kind.least is not None or kind.greatest is not None
+        yield int, NumberCheck(kind) if bounded else None
+    else:
+        yield from dict.fromkeys(_PLAIN[kind][1]).items()
+
+
+class ListCheck:
     """Checks a list: each item, and that there are at least `least`."""
-
-    __slots__ = ("item", "least")
 
     def __init__(self, item: ShapeCheck, least: int) -> None:
         self.item, self.least = item, least
 
     def fits(self, value: Seq) -> bool:
-        """Whether all items surely are right."""
-        free, tests, _ = self.item.at_hand
-        if value.uses is not None or len(value) < self.least:
-            return False
-        for element in value:
-            kind = type(element)
-            if kind not in free and not (kind in tests and tests[kind](element)):
-                return False
-        return True
+        """Return True if the list is right as it stands."""
+        return value.uses is None and len(value) >= self.least and all(map(self.item.fits, value))
 
     def __call__(self, value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Whether the list is right; a `Check`."""
+        """Return True if the list is right; a `Check`."""
         if value.uses is not None:
             return _check_aliased(self, value, holder, at, report)
         if len(value) < self.least:
             report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
             return False
-        free, tests, item = self.item.at_hand
         broken = []
         for index, element in enumerate(value):
-            kind = type(element)
-            if kind in free or (kind in tests and tests[kind](element)):
-                continue
-            if not item(element, value, index, report):
+            if not self.item.fits(element) and not self.item(element, value, index, report):
                 broken.append(index)
                 if report.full:
                     return False
@@ -66,55 +104,35 @@ class ItemsCheck:
 
 
 class Plan(NamedTuple):
-    """What is to check in mappings with these keys."""
+    """What to check in mappings with the same keys."""
 
-    entries: tuple[tuple[str, frozenset[type], dict[type, Test], ShapeCheck | None], ...]
-    """For each key the free types and tests of what stands there, and its check: None for an unknown key."""
-    missing: tuple[tuple[str, str], ...]
-    """Each missing key with a message."""
+    entries: tuple[tuple[str, ShapeCheck | None], ...]
+    """Each key with the check of its value; None for an unknown key."""
+    missing: dict[str, str]
+    """The message for each key that is missing."""
     complete: bool
+    """True if no key is missing and there are enough keys."""
 
 
-_NOTHING: tuple[frozenset[type], dict[type, Test], None] = (frozenset(), {}, None)
+class MappingCheck:
+    """Checks a mapping; the checks of its values are built when the first such mapping comes."""
 
-
-class KeysCheck:
-    """Checks a mapping; the checks of its keys are made when the first such mapping comes."""
-
-    __slots__ = ("additional", "check_of", "patterns", "place", "plans", "properties", "required")
-
-    def __init__(self, place: Place, check_of: Callable[[Shape], ShapeCheck]) -> None:
-        self.place, self.check_of = place, check_of
+    def __init__(self, place: Place) -> None:
+        self.place = place
         self.plans: dict[tuple[str, ...], Plan] = {}
-        self.properties: dict[str, ShapeCheck] | None = None
-
-    def _open(self) -> dict[str, ShapeCheck]:
-        place, check_of = self.place, self.check_of
-        self.properties = {name: check_of(key.shape) for name, key in keys_of(place).items()}
-        self.patterns = [
-            (form, compiled_pattern(form.pattern), check_of(shape))
-            for form, shape in place.by_form.items()
-            if form is not forms.ANY
-        ]
-        other = place.by_form.get(forms.ANY)
-        self.additional = None if other is None else check_of(other)
-        self.required = frozenset(required(place))
-        return self.properties
 
     def fits(self, value: Map) -> bool:
-        """Whether such keys were met before, and all values surely are right."""
+        """Return True if such keys were met before, and the mapping is right as it stands."""
         plan = self.plans.get(tuple(value))
         if plan is None or not plan.complete or value.uses is not None:
             return False
-        for key, free, tests, _ in plan.entries:
-            entry = value[key]
-            kind = type(entry)
-            if kind not in free and not (kind in tests and tests[kind](entry)):
+        for key, check in plan.entries:  # noqa: SIM110  # a generator would take longer, and this is asked often
+            if check is None or not check.fits(value[key]):
                 return False
         return True
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
-        """Whether the mapping is right; a `Check`."""
+        """Return True if the mapping is right; a `Check`."""
         if value.uses is not None:
             return _check_aliased(self, value, holder, at, report)
         keys = tuple(value)
@@ -125,26 +143,22 @@ class KeysCheck:
         if report.full:
             return False
         deeper = {name for key in broken if isinstance(value[key], Map) for name in value[key]}
-        for key, message in plan.missing:
+        for key, message in plan.missing.items():
             if key not in deeper:  # else it stands a level too deep, and the finding there says so
                 report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.place.least:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         for key in broken:
             self._drop(value, key, is_file=holder is value)
-        return plan.complete and len(value) >= self.place.least and self.required.isdisjoint(broken)
+        return plan.complete and len(value) >= self.place.least and not set(required(self.place)) & set(broken)
 
     def _broken(self, plan: Plan, value: Map, report: Report) -> list[str]:
-        """The keys that are unknown or whose values are wrong, as far as findings are kept."""
+        """Report the keys that are unknown or whose values are wrong, and return them."""
         broken: list[str] = []
-        for key, free, tests, check in plan.entries:
-            entry = value[key]
-            kind = type(entry)
-            if kind in free or (kind in tests and tests[kind](entry)):
-                continue
+        for key, check in plan.entries:
             if check is None:
-                self._unknown(value, key, report)
-            elif check(entry, value, key, report):
+                self._report_unknown(value, key, report)
+            elif check.fits(value[key]) or check(value[key], value, key, report):
                 continue
             broken.append(key)
             if report.full:
@@ -152,42 +166,39 @@ class KeysCheck:
         return broken
 
     def _plan(self, keys: tuple[str, ...]) -> Plan:
-        """What follows from a list of keys; kept for the next mapping that has the same, if there are not too many."""
-        properties = self.properties or self._open()
-        checks = {key: properties.get(key) or self._pattern(key) for key in keys}
-        entries = ((key, *(_NOTHING if check is None else check.at_hand)) for key, check in checks.items())
-        missing = self._missing(keys)
-        plan = Plan(tuple(entries), tuple(missing.items()), not missing and len(keys) >= self.place.least)
-        if len(self.plans) < _MOST_PLANS:
-            self.plans[keys] = plan
-        return plan
-
-    def _pattern(self, key: str) -> ShapeCheck | None:
-        for _, pattern, pattern_check in self.patterns:
-            if pattern.search(key):
-                return pattern_check
-        return self.additional
-
-    def _missing(self, keys: tuple[str, ...]) -> dict[str, str]:
+        """Return the plan for these keys; it is kept for the next mapping that has the same."""
         missing = {key: f"the key `{key}` is missing" for key in required(self.place) if key not in keys}
         for key, beside in needs(self.place).items():
             for needed in beside:
                 if key in keys and needed not in keys:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
-        return missing
+        entries = tuple((key, self._check_of(key)) for key in keys)
+        plan = Plan(entries, missing, not missing and len(keys) >= self.place.least)
+        if len(self.plans) < _MOST_PLANS:
+            self.plans[keys] = plan
+        return plan
 
-    def _unknown(self, value: Map, key: str, report: Report) -> None:
-        entry, known = value[key], [form for form, _, _ in self.patterns]
-        named = forms.NUMBER in known or forms.BITS in known
-        properties = self.properties or {}
-        hint = (reversed_hint(key, entry) if named else None) or key_hint(key, properties, known, entry)
+    def _check_of(self, key: str) -> ShapeCheck | None:
+        """Return the check for the value of a key; None for an unknown key."""
+        known = keys_of(self.place)
+        if key in known:
+            return check_of(known[key].shape)
+        by_form = sorted(self.place.by_form.items(), key=lambda entry: entry[0] is forms.ANY)
+        shape = next((shape for form, shape in by_form if compiled_pattern(form.pattern).search(key)), None)
+        return None if shape is None else check_of(shape)
+
+    def _report_unknown(self, value: Map, key: str, report: Report) -> None:
+        known = [form for form in self.place.by_form if form is not forms.ANY]
+        numbered = forms.NUMBER in known or forms.BITS in known
+        hint = reversed_hint(key, value[key]) if numbered else None
+        hint = hint or key_hint(key, keys_of(self.place), known, value[key])
         report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
 
     def _drop(self, value: Map, key: str, *, is_file: bool) -> None:
         lost = value.file.lost
         if is_file or key == "points":
             lost.add(f"*{key}")  # a whole section
-        if key not in (self.properties or ()):
+        if key not in keys_of(self.place):
             lost.add(key)
         _remember_names(value[key], lost)
         del value[key]
@@ -195,16 +206,16 @@ class KeysCheck:
 
 
 def _check_aliased(check: Check, value: Any, holder: Any, at: Any, report: Report) -> bool:
-    """Check a value that aliases repeat: once for each check, on a copy that keeps what is right for this check."""
+    """Check a value that aliases repeat: once for each check, on a copy that keeps what is right for that check."""
     if report.full:
         return False
     if check not in value.uses:
         copy, own = value.copied(), Report()
-        fine = check(copy, holder, at, own)
+        is_right = check(copy, holder, at, own)
         report.extend(own if value.span() == holder.span(at) else own.also(holder.span(at), "used here"))
-        value.uses[check] = copy, fine
-    holder[at], fine = value.uses[check]
-    return bool(fine)
+        value.uses[check] = copy, is_right
+    holder[at], is_right = value.uses[check]
+    return bool(is_right)
 
 
 def _remember_names(value: Any, lost: set[str]) -> None:
@@ -219,55 +230,3 @@ def _remember_names(value: Any, lost: set[str]) -> None:
             waiting.append(node.values() if isinstance(node, Map) else node)
             if isinstance(node, Map):
                 lost.update(node, (node[key] for key in _NAMING if isinstance(node.get(key), str)))
-
-
-_WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
-_PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
-    NUMBER: ("a number", (int, Decimal)),
-    BOOLEAN: ("true or false", (bool,)),
-    NOTHING: ("~", (type(None),)),
-}
-_ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
-_made: dict[Shape, ShapeCheck] = {}
-
-
-def check_shape(value: Map, place: Place, report: Report) -> bool:
-    """Whether the file has the shape of a place (`DEVICE` or `PART`); findings go to the report."""
-    return not report.full and check_of(place.shape)(value, value, None, report)
-
-
-def check_of(shape: Shape) -> ShapeCheck:
-    """The check for a shape, made once."""
-    if shape not in _made:
-        _made[shape] = _check(shape)
-    return _made[shape]
-
-
-def _check(shape: Shape) -> ShapeCheck:
-    checks: dict[type, Check | None] = {}
-    for kind in shape.kinds:
-        for python_type, check in _by_python_type(kind):
-            checks.setdefault(python_type, check)
-    form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
-    yes_no = says_yes_or_no(shape)
-    wanted = "yes or no" if yes_no else " or ".join(map(_word, shape.kinds))
-    return ShapeCheck(checks or _ANY, wanted, next(iter(shape.examples), None), form, yes_no=yes_no)
-
-
-def _word(kind: Kind) -> str:
-    return _WORDS.get(type(kind)) or _PLAIN[kind][0]
-
-
-def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
-    """The check for a kind of value, by the Python types of its values; None where each of them is right."""
-    if isinstance(kind, Place):
-        yield Map, KeysCheck(kind, check_of)
-    elif isinstance(kind, Items):
-        yield Seq, ItemsCheck(check_of(kind.item), kind.least)
-    elif isinstance(kind, Text):
-        yield str, TextCheck(kind) if kind.choices or kind.longest or kind.form else None
-    elif isinstance(kind, Whole):
-        bounded = kind.choices or kind.least is not None or kind.greatest is not None
-        yield int, NumberCheck(kind) if bounded else None
-    else:
-        yield from dict.fromkeys(_PLAIN[kind][1]).items()
