@@ -1,24 +1,25 @@
 /*
  * SPDX-License-Identifier: 0BSD
  *
- * What generated headers of points share: status, limits, scales, rules of several points, names, bits, words, texts.
- * Each behaviour is here once; <device>.h holds the facts. It needs no heap and no library, and has no state.
+ * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
+ * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
+ * no library, and keeps no state.
  *
- * Points need nothing else. Frames also need functions that are defined once in a program: one C file, and no other,
- * says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames that the program uses.
+ * Headers of points need only this file. Headers of frames also need functions that a program must define exactly once:
+ * one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.
  *
- * ..._encode holds a value against the limits of the point. fieldscribe_put_u16 and its like do not: they put any raw
- * number into words that has no more bits than the point, so take what ..._encode gave, or ask ..._check. The macro of
- * a special code is such a raw number as it stands. `in steps of` in a comment is what the device makes of values:
- * nothing here holds them to it. Words come with how many there are, and too few are refused. Families say how a point
- * is found among others: in a block (fieldscribe_modbus_words_in), a telegram (fieldscribe_can_received), process data
- * (fieldscribe_uss_words_heard).
+ * ..._encode checks a value against the limits of its point. fieldscribe_put_u16 and the like check only that a raw
+ * number has no more bits than its point: pass them the result of ..._encode, or call ..._check first. The macro of a
+ * special code is a raw number and needs no encoding. `in steps of` in a comment says how the device rounds values;
+ * nothing here checks it. A function that takes words also takes how many there are, and refuses too few. Each family
+ * finds the words of a point its own way: in a block (fieldscribe_modbus_words_in), in a telegram
+ * (fieldscribe_can_received), in process data (fieldscribe_uss_words_heard).
  *
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
- * -ffast-math, its parts and x87 arithmetic are refused with floating point: without them results are exact to the bit.
- * Clang tells no header of the parts (-freciprocal-math and its like): on x86 they are off here; elsewhere do not give
- * them.
+ * Floating-point results are exact to the bit. Therefore -ffast-math, its parts and x87 arithmetic are errors here.
+ * Clang defines no macro for some of these parts (-freciprocal-math and others): on x86 this header turns them off; do
+ * not pass them for other machines.
  */
 #ifndef FIELDSCRIBE_H
 #define FIELDSCRIBE_H
@@ -27,7 +28,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Changes whenever headers that were generated before would no longer fit. */
+/* Raised when this file no longer fits headers that were generated earlier. */
 #define FIELDSCRIBE_INTERFACE 1
 
 #if !defined(FIELDSCRIBE_NO_FLOAT)
@@ -39,20 +40,20 @@
 #if (FLT_RADIX != 2) || (FLT_MANT_DIG != 24) || ((DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32))
 #error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_FLOAT32 or FIELDSCRIBE_NO_FLOAT."
 #endif
-#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 is about half floats alone */
+#if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 concerns only half floats */
 #error "The arithmetic here has excess precision (x87): take -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
 #endif
 #if DBL_MANT_DIG == 53
 #define FIELDSCRIBE_DOUBLE /* a double is a binary64 number */
 #endif
-/* Machines that can multiply and add in one rounding. Of others than x86 and ARM clang does not tell, MSVC never. */
+/* Machines that may round a product and a sum once. Clang says so only on x86 and ARM, MSVC nowhere. */
 #if defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__FMA4__) || \
     defined(__ARM_FEATURE_FMA) || defined(_MSC_VER) || \
     (defined(__clang__) && !defined(__i386__) && !defined(__x86_64__) && !defined(__arm__))
 #define FIELDSCRIBE_MAY_FUSE
 #endif
 #if defined(__clang__) && (defined(__i386__) || defined(__x86_64__))
-#define FIELDSCRIBE_KEEP_PRECISE /* -freciprocal-math and its like, of which clang does not tell, are off here */
+#define FIELDSCRIBE_KEEP_PRECISE /* turn off -freciprocal-math and others, for which clang defines no macro */
 #endif
 #endif
 
@@ -60,19 +61,19 @@
 extern "C" {
 #endif
 
-/* What conversions answer; 0 is what went well. */
+/* The result of a conversion; 0 is success. */
 typedef enum fieldscribe_status {
     FIELDSCRIBE_OK = 0,
     FIELDSCRIBE_OUT_OF_RANGE,  /* the raw number may not be written, or does not exist */
     FIELDSCRIBE_NOT_A_NUMBER,  /* the value is NaN */
-    FIELDSCRIBE_UNKNOWN_VALUE, /* not one of the numbers that have a name */
-    FIELDSCRIBE_ZERO_FACTOR,   /* another point that the scale needs is zero, or no quantity */
-    FIELDSCRIBE_NO_CASE,       /* no scale for what the other point holds */
+    FIELDSCRIBE_UNKNOWN_VALUE, /* the number has no name, and the enum is closed */
+    FIELDSCRIBE_ZERO_FACTOR,   /* a point that the scale needs is zero, or holds a special code */
+    FIELDSCRIBE_NO_CASE,       /* the scale has no case for the number in the other point */
     FIELDSCRIBE_OVERFLOW,      /* the result does not fit */
-    FIELDSCRIBE_SPECIAL        /* the raw number is a special code and no quantity: ..._special_name tells which */
+    FIELDSCRIBE_SPECIAL        /* the raw number is a special code: ..._special_name gives its name */
 } fieldscribe_status;
 
-/* How a function begins whose result no caller may ignore, and one that answers with a status. */
+/* Start of a function whose result callers must use, and of one that returns a status. */
 #if (defined(__cplusplus) && (__cplusplus >= 201703L)) || \
     (!defined(__cplusplus) && defined(__STDC_VERSION__) && (__STDC_VERSION__ >= 202311L))
 #define FIELDSCRIBE_CHECKED [[nodiscard]]
@@ -83,10 +84,10 @@ typedef enum fieldscribe_status {
 #endif
 #define FIELDSCRIBE_STATUS FIELDSCRIBE_CHECKED static inline fieldscribe_status
 
-/* How many rows an array has. */
+/* The number of rows of an array. */
 #define FIELDSCRIBE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* A whole number, if the status is OK; else 0. */
+/* A whole number if the status is OK, else 0. */
 typedef struct fieldscribe_whole {
     fieldscribe_status status;
     int64_t number;
@@ -108,20 +109,20 @@ static inline fieldscribe_whole fieldscribe_no_whole(fieldscribe_status status)
     return whole;
 }
 
-/* A number, if it lies within limits. */
+/* The number if it lies within the limits. */
 static inline fieldscribe_whole fieldscribe_whole_in(int64_t number, int64_t low, int64_t high)
 {
     return ((number < low) || (number > high)) ? fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE)
                                                : fieldscribe_whole_of(number);
 }
 
-/* The first of two that is not OK. */
+/* The first status that is not OK. */
 FIELDSCRIBE_STATUS fieldscribe_both(fieldscribe_status first, fieldscribe_status second)
 {
     return (first != FIELDSCRIBE_OK) ? first : second;
 }
 
-/* What lies beyond the numbers of a closed enum is unknown. */
+/* For closed enums: a number out of range is an unknown value. */
 FIELDSCRIBE_STATUS fieldscribe_known(fieldscribe_status status)
 {
     return (status == FIELDSCRIBE_OUT_OF_RANGE) ? FIELDSCRIBE_UNKNOWN_VALUE : status;
@@ -165,7 +166,7 @@ typedef struct fieldscribe_range {
     int32_t high;
 } fieldscribe_range;
 
-/* Whether a number lies in one of the ranges. */
+/* OK if the number lies in one of the ranges. */
 FIELDSCRIBE_STATUS fieldscribe_check_ranges(int32_t number, const fieldscribe_range *ranges, size_t count)
 {
     fieldscribe_status status = FIELDSCRIBE_OUT_OF_RANGE;
@@ -196,13 +197,13 @@ static inline int64_t fieldscribe_signed64(uint64_t bits)
     return (bits <= (uint64_t)INT64_MAX) ? (int64_t)bits : (-1 - (int64_t)(~bits));
 }
 
-/* The size of a number without its sign. */
+/* The magnitude of a number. */
 static inline uint64_t fieldscribe_magnitude(int64_t number)
 {
     return (number < 0) ? ((uint64_t)(-(number + 1)) + 1U) : (uint64_t)number;
 }
 
-/* ---- What is stored, where the status is OK ---- */
+/* ---- Store a number if the status is OK ---- */
 
 FIELDSCRIBE_STATUS fieldscribe_keep_bool(fieldscribe_status status, bool number, bool *to)
 {
@@ -276,7 +277,7 @@ FIELDSCRIBE_STATUS fieldscribe_keep_s64(fieldscribe_status status, int64_t numbe
     return status;
 }
 
-/* A number within limits. */
+/* Store a number if it lies within the limits. */
 FIELDSCRIBE_STATUS fieldscribe_encode_bool(int32_t number, int32_t low, int32_t high, bool *raw)
 {
     if ((number < low) || (number > high)) {
@@ -555,9 +556,9 @@ static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
     return true;
 }
 
-/* ---- Rules: scales and limits whose factors other points hold ---- */
+/* ---- Rules: scales and limits that need the raw numbers of other points ---- */
 
-/* raw = value * num / den * 2^shift + offset / parts, where the status is OK. */
+/* raw = value * num / den * 2^shift + offset / parts, if the status is OK. */
 typedef struct fieldscribe_rule {
     fieldscribe_status status;
     int32_t shift;
@@ -579,46 +580,46 @@ static inline fieldscribe_rule fieldscribe_rule_of(int64_t num, int64_t den, int
     return rule;
 }
 
-/* A rule that cannot be used, and why: what fails first counts. */
+/* A rule that cannot be used; the first failure is kept. */
 static inline fieldscribe_rule fieldscribe_rule_fails(fieldscribe_rule rule, fieldscribe_status status)
 {
     rule.status = fieldscribe_both(rule.status, status);
     return rule;
 }
 
-/* No rule for what the other point holds. */
+/* The scale has no case for the number in the other point. */
 static inline fieldscribe_rule fieldscribe_no_rule(fieldscribe_status status)
 {
     return fieldscribe_rule_fails(fieldscribe_rule_of(1, 1, 0, 1), status);
 }
 
-/* A rule that can be used only if something fits; else it overflows. */
+/* The rule if something fits, else an overflow. */
 static inline fieldscribe_rule fieldscribe_rule_if(fieldscribe_rule rule, bool fits)
 {
     return fieldscribe_rule_fails(rule, fits ? FIELDSCRIBE_OK : FIELDSCRIBE_OVERFLOW);
 }
 
-/* A number that a rule can be used with lies within limits. */
+/* The rule if the number lies within the limits, else an overflow. */
 static inline fieldscribe_rule fieldscribe_rule_within(fieldscribe_rule rule, int64_t number, int64_t low, int64_t high)
 {
     return fieldscribe_rule_if(rule, fieldscribe_within_wide(number, low, high));
 }
 
-/* A factor of a limit, which may be zero. */
+/* Multiply a limit by a factor, which may be zero. */
 static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, int64_t factor)
 {
     const bool fits = fieldscribe_multiply(rule.num, factor, &rule.num);
     return fieldscribe_rule_if(rule, fits);
 }
 
-/* A factor of a scale. */
+/* Multiply a scale by a factor other than zero. */
 static inline fieldscribe_rule fieldscribe_rule_times(fieldscribe_rule rule, int64_t factor)
 {
     const fieldscribe_status status = (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK;
     return fieldscribe_rule_scaled(fieldscribe_rule_fails(rule, status), factor);
 }
 
-/* A factor that divides. */
+/* Divide by a factor other than zero. */
 static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int64_t factor)
 {
     fieldscribe_rule divided = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
@@ -626,7 +627,7 @@ static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int6
     return fieldscribe_rule_if(divided, fits);
 }
 
-/* Ten to the power of an exponent. */
+/* Multiply by ten to the power of an exponent. */
 static inline fieldscribe_rule fieldscribe_rule_ten_to(fieldscribe_rule rule, int64_t exponent)
 {
     int64_t *const grows = (exponent < 0) ? &rule.den : &rule.num;
@@ -718,7 +719,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, 
     return fieldscribe_store_s64(whole, count);
 }
 
-/* A limit that other points set. */
+/* The limit that a rule gives. */
 static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
 {
     fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
@@ -728,7 +729,7 @@ static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
     return limit;
 }
 
-/* The same with a factor that is a floating-point number: a limit that does not fit lies beyond every raw number. */
+/* The same for a rule with a floating-point factor: a limit that does not fit exceeds every raw number. */
 static inline fieldscribe_whole fieldscribe_limit_f32(fieldscribe_rule rule)
 {
     fieldscribe_whole limit = fieldscribe_no_whole(rule.status);
@@ -738,35 +739,35 @@ static inline fieldscribe_whole fieldscribe_limit_f32(fieldscribe_rule rule)
     return limit;
 }
 
-/* A limit that is a quotient, to the nearest integer; the divisor is not negative. */
+/* A limit as a quotient, to the nearest integer; the divisor is not negative. */
 static inline fieldscribe_whole fieldscribe_limit_ratio(int64_t number, int64_t divisor)
 {
     return (divisor == 0) ? fieldscribe_no_whole(FIELDSCRIBE_ZERO_FACTOR)
                           : fieldscribe_whole_of(fieldscribe_divide(number, divisor));
 }
 
-/* A limit, but no less than that. */
+/* The limit, but at least `least`. */
 static inline fieldscribe_whole fieldscribe_no_less(fieldscribe_whole limit, int64_t least)
 {
     limit.number = (limit.number < least) ? least : limit.number;
     return limit;
 }
 
-/* A limit, but no more than that. */
+/* The limit, but at most `most`. */
 static inline fieldscribe_whole fieldscribe_no_more(fieldscribe_whole limit, int64_t most)
 {
     limit.number = (limit.number > most) ? most : limit.number;
     return limit;
 }
 
-/* Whether a number lies between two limits. */
+/* OK if the number lies between two limits. */
 FIELDSCRIBE_STATUS fieldscribe_between(int64_t number, fieldscribe_whole low, fieldscribe_whole high)
 {
     return fieldscribe_both(
         fieldscribe_both(low.status, high.status), fieldscribe_check_wide(number, low.number, high.number));
 }
 
-/* Whether one of two checks allows a number; a limit that could not be computed is told first. */
+/* OK if one of two checks allows the number; the failure to compute a limit comes first. */
 FIELDSCRIBE_STATUS fieldscribe_either(fieldscribe_status one, fieldscribe_status other)
 {
     fieldscribe_status status = ((one == FIELDSCRIBE_OK) || (other == FIELDSCRIBE_OK)) ? FIELDSCRIBE_OK : one;
@@ -793,7 +794,7 @@ typedef struct fieldscribe_wide_name {
     const char *name;
 } fieldscribe_wide_name;
 
-/* The name at that place of those that count from 0; NULL when it has none. */
+/* The name of a number that indexes the table of names; NULL if it has none. */
 static inline const char *fieldscribe_name_at(const char *const *names, size_t count, int64_t number)
 {
     return ((number >= 0) && ((uint64_t)number < count)) ? names[(size_t)number] : NULL;
@@ -801,7 +802,7 @@ static inline const char *fieldscribe_name_at(const char *const *names, size_t c
 
 #define FIELDSCRIBE_NAME_AT(names, number) fieldscribe_name_at((names), FIELDSCRIBE_COUNT(names), (number))
 
-/* The name of a number; NULL when it has none. */
+/* The name of a number; NULL if it has none. */
 static inline const char *fieldscribe_name_of(const fieldscribe_name *names, size_t count, int64_t number)
 {
     const char *name = NULL;
@@ -835,13 +836,13 @@ static inline uint64_t fieldscribe_extract_wide(uint64_t raw, uint64_t mask, uin
     return (raw & mask) >> shift;
 }
 
-/* A word with those bits replaced. */
+/* The word with the bits of the mask replaced. */
 static inline uint16_t fieldscribe_insert(uint16_t word, uint16_t mask, uint32_t shift, uint16_t bits)
 {
     return (uint16_t)(((uint32_t)word & ~(uint32_t)mask) | (((uint32_t)bits << shift) & mask));
 }
 
-/* A word with its constant bits. */
+/* The word with its constant bits set. */
 static inline uint16_t fieldscribe_fix(uint16_t word, uint16_t mask, uint16_t bits)
 {
     return (uint16_t)(((uint32_t)word & ~(uint32_t)mask) | bits);
@@ -857,7 +858,7 @@ static inline uint64_t fieldscribe_fix64(uint64_t raw, uint64_t mask, uint64_t b
     return (raw & ~mask) | bits;
 }
 
-/* Words to numbers and back, the highest word first. */
+/* Words to numbers and back, high word first. */
 static inline uint32_t fieldscribe_join32(uint16_t high, uint16_t low)
 {
     return ((uint32_t)high << 16) | low;
@@ -881,7 +882,7 @@ static inline void fieldscribe_split64(
     fieldscribe_split32((uint32_t)(bits & 0xFFFFFFFFU), third, last);
 }
 
-/* The decimal digits of a word: the highest comes first, and takes all that is left. */
+/* The decimal digits of a word, highest first; the highest takes the rest of the number. */
 static inline void fieldscribe_digits_of(uint16_t raw, uint16_t *digits, size_t count)
 {
     uint16_t rest = raw;
@@ -903,7 +904,7 @@ FIELDSCRIBE_STATUS fieldscribe_quantity_digits(bool special, uint16_t raw, uint1
     return FIELDSCRIBE_OK;
 }
 
-/* Whether each digit of a word has a name. */
+/* OK if each digit of the word has a name. */
 FIELDSCRIBE_STATUS fieldscribe_check_digits(uint16_t raw, size_t count, const fieldscribe_name *names, size_t known)
 {
     fieldscribe_status status = FIELDSCRIBE_OK;
@@ -919,7 +920,7 @@ FIELDSCRIBE_STATUS fieldscribe_check_digits(uint16_t raw, size_t count, const fi
     return status;
 }
 
-/* The word of digits that each have a name. */
+/* The word of these digits, if each has a name. */
 static inline fieldscribe_whole fieldscribe_number_of_digits(
     const uint16_t *digits, size_t count, const fieldscribe_name *names, size_t known)
 {
@@ -943,7 +944,7 @@ static inline bool fieldscribe_is_printable(unsigned char code, bool latin)
     return (code >= 0x20U) && ((code <= 0x7EU) || (latin && (code >= 0xA0U)));
 }
 
-/* Two characters a word, the first in its high byte; the rest is filled with spaces. */
+/* Store two characters in each word, the first in the high byte, and fill up with spaces. */
 FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bool latin, uint16_t *words, size_t count)
 {
     const unsigned char *const codes = (const unsigned char *)text;
@@ -984,7 +985,7 @@ static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t cou
 
 /* ---- Floating-point patterns ---- */
 
-/* Bit patterns in the order of their numbers: those of negative numbers count down from 0. */
+/* The rank of a bit pattern among all numbers; negative numbers have ranks below 0. */
 static inline int32_t fieldscribe_f32_order(uint32_t bits)
 {
     const int32_t size = (int32_t)(bits & 0x7FFFFFFFU);
@@ -997,7 +998,7 @@ static inline int64_t fieldscribe_f64_order(uint64_t bits)
     return (bits > (uint64_t)INT64_MAX) ? -size : size;
 }
 
-/* Whether a pattern lies between two places of that order. */
+/* OK if the rank of a pattern lies between two ranks. */
 FIELDSCRIBE_STATUS fieldscribe_check_f32(uint32_t bits, int32_t low, int32_t high)
 {
     const int32_t order = fieldscribe_f32_order(bits);
@@ -1028,7 +1029,7 @@ typedef float fieldscribe_real;
 typedef double fieldscribe_real;
 #endif
 
-/* value * factor, rounded by itself: compilers may not fuse it with what follows, where the machine could. */
+/* value * factor, rounded before the next step: compilers must not fuse the two. */
 static inline fieldscribe_real fieldscribe_times(fieldscribe_real value, fieldscribe_real factor)
 {
 #if defined(FIELDSCRIBE_MAY_FUSE)
@@ -1045,7 +1046,7 @@ static inline fieldscribe_real fieldscribe_ratio(int32_t number, int32_t divisor
     return (fieldscribe_real)number / (fieldscribe_real)divisor;
 }
 
-/* Why a value is not inside of limits. */
+/* The status of a value outside the limits. */
 FIELDSCRIBE_STATUS fieldscribe_real_outside(fieldscribe_real value)
 {
     return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
@@ -1079,7 +1080,7 @@ FIELDSCRIBE_STATUS fieldscribe_round(fieldscribe_real number, int32_t low, int32
     return fieldscribe_encode_s32(nearest, low, high, whole);
 }
 
-/* The same, for what is looked at before it is stored. */
+/* The same, for a number that is checked before it is stored. */
 static inline fieldscribe_whole fieldscribe_rounded(fieldscribe_real number, int32_t low, int32_t high)
 {
     int32_t nearest = 0;
@@ -1139,7 +1140,7 @@ FIELDSCRIBE_STATUS fieldscribe_scale_s16(
     return fieldscribe_round_s16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
-/* A pattern is neither a conversion nor an alias: its bytes are copied. */
+/* Bytes are copied: a cast would convert the number, an alias is undefined. */
 static inline void fieldscribe_copy(void *to, const void *from, size_t size)
 {
 #if defined(__GNUC__)
@@ -1198,7 +1199,7 @@ static inline double fieldscribe_ratio_wide(int64_t number, int64_t divisor)
     return (double)number / (double)divisor;
 }
 
-/* Why a value is not inside of limits. */
+/* The status of a value outside the limits. */
 FIELDSCRIBE_STATUS fieldscribe_double_outside(double value)
 {
     return ((value < 0) || (value >= 0)) ? FIELDSCRIBE_OUT_OF_RANGE : FIELDSCRIBE_NOT_A_NUMBER;
@@ -1403,13 +1404,13 @@ typedef enum fieldscribe_type {
     FIELDSCRIBE_S64
 } fieldscribe_type;
 
-/* How a raw number lies in words. */
+/* The position of a raw number in words. */
 typedef struct fieldscribe_layout {
     uint8_t type;        /* a fieldscribe_type */
     uint8_t words;       /* 1, 2 or 4 */
     uint16_t order;      /* a hexadecimal digit a word, the high word first: its place (0x01: high word first) */
-    bool shares;         /* the other bits of its word are other points: they go back as they were read */
-    uint8_t shift;       /* its lowest bit in the word */
+    bool shares;         /* other points have bits in its word: these are written as they were read */
+    uint8_t shift;       /* the position of its lowest bit in the word */
     uint64_t mask;       /* its bits in the words */
     uint64_t fixed_mask; /* bits that are always written as... */
     uint64_t fixed_bits; /* ...these */
@@ -1470,7 +1471,7 @@ typedef struct fieldscribe_text {
 
 /*
  * Words in the order of their addresses, as frames carry them, into the order of reading, and back. False, and nothing
- * stored, when one of both is not there or has fewer words than the text: `count` and `room` say how many.
+ * stored, if one of them is NULL or has fewer words than the text: `count` and `room` say how many.
  */
 FIELDSCRIBE_CHECKED bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room);
@@ -1483,7 +1484,7 @@ FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
 
 #endif
 
-/* ---- The one definition ---- */
+/* ---- Functions that a program defines once ---- */
 
 #if defined(FIELDSCRIBE_IMPLEMENTATION) && !defined(FIELDSCRIBE_IMPLEMENTED)
 #define FIELDSCRIBE_IMPLEMENTED
@@ -1492,14 +1493,14 @@ FIELDSCRIBE_CHECKED bool fieldscribe_put_text(
 extern "C" {
 #endif
 
-/* Whether a layout is of that type, and all its words are there. */
+/* True if the layout has that type, and there are enough words. */
 static bool fieldscribe_layout_fits(
     const fieldscribe_layout *layout, const uint16_t *words, size_t count, fieldscribe_type type)
 {
     return (layout != NULL) && (words != NULL) && (layout->type == (uint8_t)type) && (count >= layout->words);
 }
 
-/* Where a word stands; `significance` counts from the low word. */
+/* The position of a word; `significance` counts from the low word. */
 static size_t fieldscribe_layout_place(const fieldscribe_layout *layout, uint8_t significance)
 {
     return ((size_t)layout->order >> (4U * significance)) & 0xFU;
@@ -1547,7 +1548,7 @@ static int32_t fieldscribe_layout_signed_field(const fieldscribe_layout *layout,
     return (field > most) ? (-1 - (int32_t)(~field & most)) : (int32_t)field;
 }
 
-/* Puts words in their places. */
+/* Store the words at their positions. */
 static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t number, uint16_t *words)
 {
     uint64_t left = (number & ~layout->fixed_mask) | layout->fixed_bits;
@@ -1558,7 +1559,7 @@ static void fieldscribe_layout_store(const fieldscribe_layout *layout, uint64_t 
     }
 }
 
-/* Stores bits that fit: in a word that is shared beside the others, else with the sign above them. */
+/* Store bits that fit: into a shared word without changing its other bits, else with the sign extended. */
 static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32_t bits, uint16_t *words)
 {
     uint32_t number = bits;
@@ -1569,7 +1570,7 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
     fieldscribe_layout_store(layout, number, words);
 }
 
-/* Stores a number from 0 on; false when it has more bits than the point. */
+/* Store an unsigned number; false if it has more bits than the point. */
 static bool fieldscribe_layout_put(const fieldscribe_layout *layout, uint32_t raw, uint16_t *words)
 {
     if (raw > fieldscribe_layout_most(layout)) {

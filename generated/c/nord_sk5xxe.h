@@ -5,10 +5,11 @@
  *
  * NORD SK 5xxE
  *
- * A raw number is what travels on the wire, right-aligned and with its sign; a value is what it means in the unit;
- * a count is the value in units of 10^-DECIMALS, as an integer. Encoding rounds to the nearest, halves away from zero,
- * and writes its result only when it returns NORD_SK5XXE_OK. Decoding takes whatever the device may send.
- * FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32 are explained in fieldscribe.h.
+ * A raw number is the integer on the wire, right-aligned and with its sign. A value is its meaning in the unit. A count
+ * is the value as an integer number of 10^-DECIMALS units. Encoding rounds to nearest, halves away from zero, and
+     stores
+ * a result only if it returns NORD_SK5XXE_OK. Decoding accepts every raw number that a device may send.
+ * fieldscribe.h explains FIELDSCRIBE_NO_FLOAT and FIELDSCRIBE_FLOAT32.
  */
 #ifndef NORD_SK5XXE_H
 #define NORD_SK5XXE_H

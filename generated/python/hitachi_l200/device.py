@@ -28,10 +28,10 @@ class HitachiL200(Points, Device):
         HitachiL200.network_frequency_setpoint.decode(raw)
         help(HitachiL200.network_frequency_setpoint)
 
-    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `Transport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(
@@ -60,10 +60,10 @@ class HitachiL200Async(Points, AsyncDevice):
         HitachiL200Async.network_frequency_setpoint.decode(raw)
         help(HitachiL200Async.network_frequency_setpoint)
 
-    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `AsyncTransport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(

@@ -36,9 +36,9 @@ from . import enums
 class Points(PointTable):
     """All points of Hitachi L200; on this class they are pure codecs.
 
-    No type or no scale says what those below mean, so that they are no attributes, and
-    `DOCUMENTED` says why. The methods `read_at` and `write_at` of a device reach their
-    words by space and address, with what they mean left to you:
+    The points below have no attributes, because their type or scale is not known;
+    `DOCUMENTED` says why. The methods `read_at` and `write_at` of a device read and
+    write their words by space and address, as raw numbers:
 
     - d007 scaled_output_frequency: 'holding', 0x1008, 0x1009
     """

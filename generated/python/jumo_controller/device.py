@@ -21,10 +21,10 @@ class JumoController(Points, Device):
         JumoController.proportional_band_1_set_2.decode(raw)
         help(JumoController.proportional_band_1_set_2)
 
-    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `Transport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
 
@@ -41,8 +41,8 @@ class JumoControllerAsync(Points, AsyncDevice):
         JumoControllerAsync.proportional_band_1_set_2.decode(raw)
         help(JumoControllerAsync.proportional_band_1_set_2)
 
-    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `AsyncTransport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """

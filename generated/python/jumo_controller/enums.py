@@ -193,7 +193,7 @@ class BinaryOutputControl(_BinaryOutputControlFlags, enum.IntFlag, boundary=enum
         output_9: bool = False,
         output_10: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.output_1.place(output_1),
@@ -242,7 +242,7 @@ class ProgramControllerCommands(
         start_program: bool = False,
         change_section: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.hold_program.place(hold_program),
@@ -289,7 +289,7 @@ class ControllerCommands(_ControllerCommandsFlags, enum.IntFlag, boundary=enum.K
         start_self_optimisation: bool = False,
         abort_self_optimisation: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.hold_ramp.place(hold_ramp),
@@ -327,7 +327,7 @@ class OperationCommands(_OperationCommandsFlags, enum.IntFlag, boundary=enum.KEE
         acknowledge_limit_comparators: bool = False,
         text_display: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.displays_off.place(displays_off),
@@ -364,7 +364,7 @@ class TimerCommands(_TimerCommandsFlags, enum.IntFlag, boundary=enum.KEEP):
         start_timer_1: bool = False,
         hold_timer_2: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.hold_timer_1.place(hold_timer_1),

@@ -13,8 +13,8 @@
     NordSk5xxe.control_word.decode(raw)
     help(NordSk5xxe.control_word)
 
-A transport carries bytes or frames to the bus and back: see the help of the class. Without
-one the points of the class convert between values and raw numbers.
+A transport sends bytes or frames to the bus and receives them: see the help of the class.
+Without a transport, the points of the class convert between values and raw numbers.
 """
 
 from .device import NordSk5xxe, NordSk5xxeAsync

@@ -21,10 +21,10 @@ class NordSk5xxe(Points, Device):
         NordSk5xxe.control_word.decode(raw)
         help(NordSk5xxe.control_word)
 
-    The transport is one as `Transport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `Transport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
 
@@ -41,8 +41,8 @@ class NordSk5xxeAsync(Points, AsyncDevice):
         NordSk5xxeAsync.control_word.decode(raw)
         help(NordSk5xxeAsync.control_word)
 
-    The transport is one as `AsyncTransport` says; `fieldscribe_runtime` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `AsyncTransport` of `fieldscribe_runtime`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """

@@ -91,7 +91,7 @@ class ControlWord(_ControlWordFlags, enum.IntFlag, boundary=enum.KEEP):
         reserved: bool = False,
         parameter_set: ControlWordParameterSet | int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.ready_to_run.place(ready_to_run),

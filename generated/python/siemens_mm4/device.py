@@ -42,10 +42,10 @@ class SiemensMm4(Points, UssDevice):
         SiemensMm4.maximum_frequency.decode(raw)
         help(SiemensMm4.maximum_frequency)
 
-    The transport is one as `UssTransport` says; `fieldscribe_runtime.uss` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `UssTransport` of `fieldscribe_runtime.uss`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(
@@ -78,10 +78,10 @@ class SiemensMm4Async(Points, AsyncUssDevice):
         SiemensMm4Async.maximum_frequency.decode(raw)
         help(SiemensMm4Async.maximum_frequency)
 
-    The transport is one as `AsyncUssTransport` says; `fieldscribe_runtime.uss` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `AsyncUssTransport` of `fieldscribe_runtime.uss`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(

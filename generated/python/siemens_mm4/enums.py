@@ -132,7 +132,7 @@ class P0731Source(_P0731SourceFlags, enum.IntFlag, boundary=enum.KEEP):
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -166,7 +166,7 @@ class JogTimeSelectionSource(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -196,7 +196,7 @@ class DcBrakingSource(_DcBrakingSourceFlags, enum.IntFlag, boundary=enum.KEEP):
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -230,7 +230,7 @@ class UssRs232AnswerSourceIndex0(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -264,7 +264,7 @@ class UssRs232AnswerSourceIndex1(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -298,7 +298,7 @@ class UssRs232AnswerSourceIndex2(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -332,7 +332,7 @@ class UssRs232AnswerSourceIndex3(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -366,7 +366,7 @@ class UssRs485AnswerSourceIndex0(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -400,7 +400,7 @@ class UssRs485AnswerSourceIndex1(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -434,7 +434,7 @@ class UssRs485AnswerSourceIndex2(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -468,7 +468,7 @@ class UssRs485AnswerSourceIndex3(
         source_parameter: int = 0,
         source_bit: int = 0,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.source_parameter.place(source_parameter),
@@ -554,7 +554,7 @@ class ControlWord(_ControlWordFlags, enum.IntFlag, boundary=enum.KEEP):
         motor_potentiometer_down: bool = False,
         local_control: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.on.place(on),
@@ -610,7 +610,7 @@ class SecondControlWord(_SecondControlWordFlags, enum.IntFlag, boundary=enum.KEE
         dc_braking_enable: bool = False,
         external_fault: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.fixed_frequency_bit_0.place(fixed_frequency_bit_0),

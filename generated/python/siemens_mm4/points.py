@@ -39,9 +39,9 @@ from . import enums
 class Points(PointTable):
     """All points of Siemens MICROMASTER 4; on this class they are pure codecs.
 
-    No type or no scale says what those below mean, so that they are no attributes, and
-    `DOCUMENTED` says why. The methods `read_at` and `write_at` of a device reach their
-    words by space and address, with what they mean left to you:
+    The points below have no attributes, because their type or scale is not known;
+    `DOCUMENTED` says why. The methods `read_at` and `write_at` of a device read and
+    write their words by space and address, as raw numbers:
 
     - r0000 display_value: 'parameter', 0
     - r0018 firmware_version: 'parameter', 18

@@ -34,10 +34,10 @@ class WoodwardMpu2s(Points, CanDevice):
         WoodwardMpu2s.generator_frequency_setpoint.decode(raw)
         help(WoodwardMpu2s.generator_frequency_setpoint)
 
-    The transport is one as `CanTransport` says; `fieldscribe_runtime.can` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `CanTransport` of `fieldscribe_runtime.can`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(
@@ -67,10 +67,10 @@ class WoodwardMpu2sAsync(Points, AsyncCanDevice):
         WoodwardMpu2sAsync.generator_frequency_setpoint.decode(raw)
         help(WoodwardMpu2sAsync.generator_frequency_setpoint)
 
-    The transport is one as `AsyncCanTransport` says; `fieldscribe_runtime.can` has that class.
-    `read` and `write` take values, `read_raw` and `write_raw` raw numbers. A point is found
-    by its name or code, too: `drive.point("...")`. Errors are `FieldscribeError` with a
-    `status` and the `point`; `POINTS` holds all points by name.
+    The transport follows the protocol `AsyncCanTransport` of `fieldscribe_runtime.can`.
+    `read` and `write` use values, `read_raw` and `write_raw` raw numbers. `drive.point("...")`
+    finds a point by name or code. Errors are `FieldscribeError` with a `status` and the
+    `point`; `POINTS` holds all points by name.
     """
 
     def __init__(

@@ -1041,7 +1041,7 @@ class DigitalInputs1To4Logic(
         input_3: bool = False,
         input_4: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_1.place(input_1),
@@ -1087,7 +1087,7 @@ class DigitalInputs1To4EngineDelay(
         input_3: bool = False,
         input_4: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_1.place(input_1),
@@ -1133,7 +1133,7 @@ class DigitalInputs5To8Logic(
         input_7: bool = False,
         input_8: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_5.place(input_5),
@@ -1179,7 +1179,7 @@ class DigitalInputs5To8EngineDelay(
         input_7: bool = False,
         input_8: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_5.place(input_5),
@@ -1225,7 +1225,7 @@ class DigitalInputs9To12Logic(
         input_11: bool = False,
         input_12: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_9.place(input_9),
@@ -1271,7 +1271,7 @@ class DigitalInputs9To12EngineDelay(
         input_11: bool = False,
         input_12: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.input_9.place(input_9),
@@ -1309,7 +1309,7 @@ class Relay1Logic1(_Relay1Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1346,7 +1346,7 @@ class Relay1Logic2(_Relay1Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1383,7 +1383,7 @@ class Relay1Logic3(_Relay1Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1420,7 +1420,7 @@ class Relay2Logic1(_Relay2Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1457,7 +1457,7 @@ class Relay2Logic2(_Relay2Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1494,7 +1494,7 @@ class Relay2Logic3(_Relay2Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1531,7 +1531,7 @@ class Relay3Logic1(_Relay3Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1568,7 +1568,7 @@ class Relay3Logic2(_Relay3Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1605,7 +1605,7 @@ class Relay3Logic3(_Relay3Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1642,7 +1642,7 @@ class Relay4Logic1(_Relay4Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1679,7 +1679,7 @@ class Relay4Logic2(_Relay4Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1716,7 +1716,7 @@ class Relay4Logic3(_Relay4Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1753,7 +1753,7 @@ class Relay5Logic1(_Relay5Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1790,7 +1790,7 @@ class Relay5Logic2(_Relay5Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1827,7 +1827,7 @@ class Relay5Logic3(_Relay5Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1864,7 +1864,7 @@ class Relay6Logic1(_Relay6Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1901,7 +1901,7 @@ class Relay6Logic2(_Relay6Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1938,7 +1938,7 @@ class Relay6Logic3(_Relay6Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -1975,7 +1975,7 @@ class Relay7Logic1(_Relay7Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -2012,7 +2012,7 @@ class Relay7Logic2(_Relay7Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),
@@ -2049,7 +2049,7 @@ class Relay7Logic3(_Relay7Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
         inverted: bool = False,
         and_with_next: bool = False,
     ) -> Self:
-        """The word in which just what is passed is true, whichever bit means so."""
+        """Return the word in which exactly the passed flags are true, active-low bits included."""
         return cls(
             cls._joined(
                 cls.last.place(last),

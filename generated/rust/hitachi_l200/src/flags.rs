@@ -4,8 +4,8 @@
 
 //! Words whose bits have names.
 //!
-//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
-//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//! Getters and `with_` functions take and return whether a flag is true, for active-low bits too. Start a word from
+//! [`ALL_FALSE`]. The constants are masks; a flag whose mask ends in `_ACTIVE_LOW` is true while its bit is 0.
 //!
 //! [`ALL_FALSE`]: DigitalInputs::ALL_FALSE
 
@@ -15,12 +15,12 @@ use fieldscribe_runtime::flags as runtime;
 
 /// Digital inputs.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs(pub u16);
 
 impl DigitalInputs {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u16 = 0x0001;
@@ -39,7 +39,7 @@ impl DigitalInputs {
         self.0 & Self::INPUT_1 != 0
     }
 
-    /// The same word with another state of: Input 1.
+    /// The word with another state of: Input 1.
     #[must_use]
     pub const fn with_input_1(self, state: bool) -> Self {
         if state {
@@ -55,7 +55,7 @@ impl DigitalInputs {
         self.0 & Self::INPUT_2 != 0
     }
 
-    /// The same word with another state of: Input 2.
+    /// The word with another state of: Input 2.
     #[must_use]
     pub const fn with_input_2(self, state: bool) -> Self {
         if state {
@@ -71,7 +71,7 @@ impl DigitalInputs {
         self.0 & Self::INPUT_3 != 0
     }
 
-    /// The same word with another state of: Input 3.
+    /// The word with another state of: Input 3.
     #[must_use]
     pub const fn with_input_3(self, state: bool) -> Self {
         if state {
@@ -87,7 +87,7 @@ impl DigitalInputs {
         self.0 & Self::INPUT_4 != 0
     }
 
-    /// The same word with another state of: Input 4.
+    /// The word with another state of: Input 4.
     #[must_use]
     pub const fn with_input_4(self, state: bool) -> Self {
         if state {
@@ -103,7 +103,7 @@ impl DigitalInputs {
         self.0 & Self::INPUT_5 != 0
     }
 
-    /// The same word with another state of: Input 5.
+    /// The word with another state of: Input 5.
     #[must_use]
     pub const fn with_input_5(self, state: bool) -> Self {
         if state {
@@ -163,12 +163,12 @@ impl From<DigitalInputs> for u16 {
 
 /// Digital outputs.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalOutputs(pub u16);
 
 impl DigitalOutputs {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Output 11.
     pub const OUTPUT_11: u16 = 0x0001;
@@ -183,7 +183,7 @@ impl DigitalOutputs {
         self.0 & Self::OUTPUT_11 != 0
     }
 
-    /// The same word with another state of: Output 11.
+    /// The word with another state of: Output 11.
     #[must_use]
     pub const fn with_output_11(self, state: bool) -> Self {
         if state {
@@ -199,7 +199,7 @@ impl DigitalOutputs {
         self.0 & Self::OUTPUT_12 != 0
     }
 
-    /// The same word with another state of: Output 12.
+    /// The word with another state of: Output 12.
     #[must_use]
     pub const fn with_output_12(self, state: bool) -> Self {
         if state {
@@ -215,7 +215,7 @@ impl DigitalOutputs {
         self.0 & Self::RELAY_AL != 0
     }
 
-    /// The same word with another state of: Relay al.
+    /// The word with another state of: Relay al.
     #[must_use]
     pub const fn with_relay_al(self, state: bool) -> Self {
         if state {

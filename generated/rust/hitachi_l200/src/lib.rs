@@ -104,7 +104,7 @@ pub const VERSION_PATCH: u32 = 0;
 /// The version as one number, to compare: 1.2.3 is `1_002_003`.
 pub const VERSION_NUMBER: u32 = 1_000_000;
 
-/// What the description says, as a digest.
+/// The digest of the description's facts.
 pub const DIGEST: &str = "f8729bee333f0b30db7a4ed490aac1054364b1ed9668a1fd0989e1add172a489";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
+//! Points without code; the documentation says why. Those in `documented` can be reached by address, as raw words:
 //! - `reserved_coil_0004`, coil 0004h (4)
 //! - `reserved_coil_0005`, coil 0005h (5)
 //! - `unused_coil_000c`, coil 000Ch (12)
@@ -26,11 +26,11 @@
 //! - `response_delay`, `C078`, holding 113Eh (4414)
 //! - `debug_mode`, `C091`, holding 1147h (4423)
 
-/// Where the words are of points that are documented only: nothing says what they mean.
+/// The addresses of points whose words have no documented meaning.
 pub mod documented {
     use fieldscribe_runtime as runtime;
 
-    /// The words of `scaled_output_frequency`.
+    /// The address of `scaled_output_frequency`.
     pub const SCALED_OUTPUT_FREQUENCY: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x1008, 2, None);
 }

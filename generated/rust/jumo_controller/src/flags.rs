@@ -4,8 +4,8 @@
 
 //! Words whose bits have names.
 //!
-//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
-//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//! Getters and `with_` functions take and return whether a flag is true, for active-low bits too. Start a word from
+//! [`ALL_FALSE`]. The constants are masks; a flag whose mask ends in `_ACTIVE_LOW` is true while its bit is 0.
 //!
 //! [`ALL_FALSE`]: ProgramStatus::ALL_FALSE
 
@@ -15,12 +15,12 @@ use fieldscribe_runtime::flags as runtime;
 
 /// Program status.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ProgramStatus(pub u16);
 
 impl ProgramStatus {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Program hold.
     pub const PROGRAM_HOLD: u16 = 0x0002;
@@ -39,7 +39,7 @@ impl ProgramStatus {
         self.0 & Self::PROGRAM_HOLD != 0
     }
 
-    /// The same word with another state of: Program hold.
+    /// The word with another state of: Program hold.
     #[must_use]
     pub const fn with_program_hold(self, state: bool) -> Self {
         if state {
@@ -55,7 +55,7 @@ impl ProgramStatus {
         self.0 & Self::BASIC_POSITION != 0
     }
 
-    /// The same word with another state of: Basic position.
+    /// The word with another state of: Basic position.
     #[must_use]
     pub const fn with_basic_position(self, state: bool) -> Self {
         if state {
@@ -71,7 +71,7 @@ impl ProgramStatus {
         self.0 & Self::AUTOMATIC_MODE != 0
     }
 
-    /// The same word with another state of: Automatic mode.
+    /// The word with another state of: Automatic mode.
     #[must_use]
     pub const fn with_automatic_mode(self, state: bool) -> Self {
         if state {
@@ -87,7 +87,7 @@ impl ProgramStatus {
         self.0 & Self::PROGRAM_END_SIGNAL != 0
     }
 
-    /// The same word with another state of: Program end signal.
+    /// The word with another state of: Program end signal.
     #[must_use]
     pub const fn with_program_end_signal(self, state: bool) -> Self {
         if state {
@@ -103,7 +103,7 @@ impl ProgramStatus {
         self.0 & Self::TOLERANCE_BAND_SIGNAL != 0
     }
 
-    /// The same word with another state of: Tolerance band signal.
+    /// The word with another state of: Tolerance band signal.
     #[must_use]
     pub const fn with_tolerance_band_signal(self, state: bool) -> Self {
         if state {
@@ -163,12 +163,12 @@ impl From<ProgramStatus> for u16 {
 
 /// Binary outputs.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryOutputs(pub u16);
 
 impl BinaryOutputs {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Binary output 1.
     pub const BINARY_OUTPUT_1: u16 = 0x0001;
@@ -197,7 +197,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_1 != 0
     }
 
-    /// The same word with another state of: Binary output 1.
+    /// The word with another state of: Binary output 1.
     #[must_use]
     pub const fn with_binary_output_1(self, state: bool) -> Self {
         if state {
@@ -213,7 +213,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_2 != 0
     }
 
-    /// The same word with another state of: Binary output 2.
+    /// The word with another state of: Binary output 2.
     #[must_use]
     pub const fn with_binary_output_2(self, state: bool) -> Self {
         if state {
@@ -229,7 +229,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_3 != 0
     }
 
-    /// The same word with another state of: Binary output 3.
+    /// The word with another state of: Binary output 3.
     #[must_use]
     pub const fn with_binary_output_3(self, state: bool) -> Self {
         if state {
@@ -245,7 +245,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_4 != 0
     }
 
-    /// The same word with another state of: Binary output 4.
+    /// The word with another state of: Binary output 4.
     #[must_use]
     pub const fn with_binary_output_4(self, state: bool) -> Self {
         if state {
@@ -261,7 +261,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_5 != 0
     }
 
-    /// The same word with another state of: Binary output 5.
+    /// The word with another state of: Binary output 5.
     #[must_use]
     pub const fn with_binary_output_5(self, state: bool) -> Self {
         if state {
@@ -277,7 +277,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_6 != 0
     }
 
-    /// The same word with another state of: Binary output 6.
+    /// The word with another state of: Binary output 6.
     #[must_use]
     pub const fn with_binary_output_6(self, state: bool) -> Self {
         if state {
@@ -293,7 +293,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_7 != 0
     }
 
-    /// The same word with another state of: Binary output 7.
+    /// The word with another state of: Binary output 7.
     #[must_use]
     pub const fn with_binary_output_7(self, state: bool) -> Self {
         if state {
@@ -309,7 +309,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_8 != 0
     }
 
-    /// The same word with another state of: Binary output 8.
+    /// The word with another state of: Binary output 8.
     #[must_use]
     pub const fn with_binary_output_8(self, state: bool) -> Self {
         if state {
@@ -325,7 +325,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_9 != 0
     }
 
-    /// The same word with another state of: Binary output 9.
+    /// The word with another state of: Binary output 9.
     #[must_use]
     pub const fn with_binary_output_9(self, state: bool) -> Self {
         if state {
@@ -341,7 +341,7 @@ impl BinaryOutputs {
         self.0 & Self::BINARY_OUTPUT_10 != 0
     }
 
-    /// The same word with another state of: Binary output 10.
+    /// The word with another state of: Binary output 10.
     #[must_use]
     pub const fn with_binary_output_10(self, state: bool) -> Self {
         if state {
@@ -406,12 +406,12 @@ impl From<BinaryOutputs> for u16 {
 
 /// Binary inputs.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryInputs(pub u16);
 
 impl BinaryInputs {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Binary input 1.
     pub const BINARY_INPUT_1: u16 = 0x0001;
@@ -436,7 +436,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_1 != 0
     }
 
-    /// The same word with another state of: Binary input 1.
+    /// The word with another state of: Binary input 1.
     #[must_use]
     pub const fn with_binary_input_1(self, state: bool) -> Self {
         if state {
@@ -452,7 +452,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_2 != 0
     }
 
-    /// The same word with another state of: Binary input 2.
+    /// The word with another state of: Binary input 2.
     #[must_use]
     pub const fn with_binary_input_2(self, state: bool) -> Self {
         if state {
@@ -468,7 +468,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_3 != 0
     }
 
-    /// The same word with another state of: Binary input 3.
+    /// The word with another state of: Binary input 3.
     #[must_use]
     pub const fn with_binary_input_3(self, state: bool) -> Self {
         if state {
@@ -484,7 +484,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_4 != 0
     }
 
-    /// The same word with another state of: Binary input 4.
+    /// The word with another state of: Binary input 4.
     #[must_use]
     pub const fn with_binary_input_4(self, state: bool) -> Self {
         if state {
@@ -500,7 +500,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_6 != 0
     }
 
-    /// The same word with another state of: Binary input 6.
+    /// The word with another state of: Binary input 6.
     #[must_use]
     pub const fn with_binary_input_6(self, state: bool) -> Self {
         if state {
@@ -516,7 +516,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_5 != 0
     }
 
-    /// The same word with another state of: Binary input 5.
+    /// The word with another state of: Binary input 5.
     #[must_use]
     pub const fn with_binary_input_5(self, state: bool) -> Self {
         if state {
@@ -532,7 +532,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_8 != 0
     }
 
-    /// The same word with another state of: Binary input 8.
+    /// The word with another state of: Binary input 8.
     #[must_use]
     pub const fn with_binary_input_8(self, state: bool) -> Self {
         if state {
@@ -548,7 +548,7 @@ impl BinaryInputs {
         self.0 & Self::BINARY_INPUT_7 != 0
     }
 
-    /// The same word with another state of: Binary input 7.
+    /// The word with another state of: Binary input 7.
     #[must_use]
     pub const fn with_binary_input_7(self, state: bool) -> Self {
         if state {
@@ -611,12 +611,12 @@ impl From<BinaryInputs> for u16 {
 
 /// Control contacts.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlContacts(pub u16);
 
 impl ControlContacts {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Control contact 1.
     pub const CONTROL_CONTACT_1: u16 = 0x0001;
@@ -633,7 +633,7 @@ impl ControlContacts {
         self.0 & Self::CONTROL_CONTACT_1 != 0
     }
 
-    /// The same word with another state of: Control contact 1.
+    /// The word with another state of: Control contact 1.
     #[must_use]
     pub const fn with_control_contact_1(self, state: bool) -> Self {
         if state {
@@ -649,7 +649,7 @@ impl ControlContacts {
         self.0 & Self::CONTROL_CONTACT_2 != 0
     }
 
-    /// The same word with another state of: Control contact 2.
+    /// The word with another state of: Control contact 2.
     #[must_use]
     pub const fn with_control_contact_2(self, state: bool) -> Self {
         if state {
@@ -665,7 +665,7 @@ impl ControlContacts {
         self.0 & Self::CONTROL_CONTACT_3 != 0
     }
 
-    /// The same word with another state of: Control contact 3.
+    /// The word with another state of: Control contact 3.
     #[must_use]
     pub const fn with_control_contact_3(self, state: bool) -> Self {
         if state {
@@ -681,7 +681,7 @@ impl ControlContacts {
         self.0 & Self::CONTROL_CONTACT_4 != 0
     }
 
-    /// The same word with another state of: Control contact 4.
+    /// The word with another state of: Control contact 4.
     #[must_use]
     pub const fn with_control_contact_4(self, state: bool) -> Self {
         if state {
@@ -740,12 +740,12 @@ impl From<ControlContacts> for u16 {
 
 /// Binary signals.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinarySignals(pub u16);
 
 impl BinarySignals {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Control contact 1.
     pub const CONTROL_CONTACT_1: u16 = 0x0001;
@@ -766,7 +766,7 @@ impl BinarySignals {
         self.0 & Self::CONTROL_CONTACT_1 != 0
     }
 
-    /// The same word with another state of: Control contact 1.
+    /// The word with another state of: Control contact 1.
     #[must_use]
     pub const fn with_control_contact_1(self, state: bool) -> Self {
         if state {
@@ -782,7 +782,7 @@ impl BinarySignals {
         self.0 & Self::CONTROL_CONTACT_2 != 0
     }
 
-    /// The same word with another state of: Control contact 2.
+    /// The word with another state of: Control contact 2.
     #[must_use]
     pub const fn with_control_contact_2(self, state: bool) -> Self {
         if state {
@@ -798,7 +798,7 @@ impl BinarySignals {
         self.0 & Self::CONTROL_CONTACT_3 != 0
     }
 
-    /// The same word with another state of: Control contact 3.
+    /// The word with another state of: Control contact 3.
     #[must_use]
     pub const fn with_control_contact_3(self, state: bool) -> Self {
         if state {
@@ -814,7 +814,7 @@ impl BinarySignals {
         self.0 & Self::CONTROL_CONTACT_4 != 0
     }
 
-    /// The same word with another state of: Control contact 4.
+    /// The word with another state of: Control contact 4.
     #[must_use]
     pub const fn with_control_contact_4(self, state: bool) -> Self {
         if state {
@@ -830,7 +830,7 @@ impl BinarySignals {
         self.0 & Self::TIMER_1 != 0
     }
 
-    /// The same word with another state of: Timer 1.
+    /// The word with another state of: Timer 1.
     #[must_use]
     pub const fn with_timer_1(self, state: bool) -> Self {
         if state {
@@ -846,7 +846,7 @@ impl BinarySignals {
         self.0 & Self::TIMER_2 != 0
     }
 
-    /// The same word with another state of: Timer 2.
+    /// The word with another state of: Timer 2.
     #[must_use]
     pub const fn with_timer_2(self, state: bool) -> Self {
         if state {
@@ -907,12 +907,12 @@ impl From<BinarySignals> for u16 {
 
 /// Binary output control.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryOutputControl(pub u16);
 
 impl BinaryOutputControl {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Output 1.
     pub const OUTPUT_1: u16 = 0x0001;
@@ -941,7 +941,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_1 != 0
     }
 
-    /// The same word with another state of: Output 1.
+    /// The word with another state of: Output 1.
     #[must_use]
     pub const fn with_output_1(self, state: bool) -> Self {
         if state {
@@ -957,7 +957,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_2 != 0
     }
 
-    /// The same word with another state of: Output 2.
+    /// The word with another state of: Output 2.
     #[must_use]
     pub const fn with_output_2(self, state: bool) -> Self {
         if state {
@@ -973,7 +973,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_3 != 0
     }
 
-    /// The same word with another state of: Output 3.
+    /// The word with another state of: Output 3.
     #[must_use]
     pub const fn with_output_3(self, state: bool) -> Self {
         if state {
@@ -989,7 +989,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_4 != 0
     }
 
-    /// The same word with another state of: Output 4.
+    /// The word with another state of: Output 4.
     #[must_use]
     pub const fn with_output_4(self, state: bool) -> Self {
         if state {
@@ -1005,7 +1005,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_5 != 0
     }
 
-    /// The same word with another state of: Output 5.
+    /// The word with another state of: Output 5.
     #[must_use]
     pub const fn with_output_5(self, state: bool) -> Self {
         if state {
@@ -1021,7 +1021,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_6 != 0
     }
 
-    /// The same word with another state of: Output 6.
+    /// The word with another state of: Output 6.
     #[must_use]
     pub const fn with_output_6(self, state: bool) -> Self {
         if state {
@@ -1037,7 +1037,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_7 != 0
     }
 
-    /// The same word with another state of: Output 7.
+    /// The word with another state of: Output 7.
     #[must_use]
     pub const fn with_output_7(self, state: bool) -> Self {
         if state {
@@ -1053,7 +1053,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_8 != 0
     }
 
-    /// The same word with another state of: Output 8.
+    /// The word with another state of: Output 8.
     #[must_use]
     pub const fn with_output_8(self, state: bool) -> Self {
         if state {
@@ -1069,7 +1069,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_9 != 0
     }
 
-    /// The same word with another state of: Output 9.
+    /// The word with another state of: Output 9.
     #[must_use]
     pub const fn with_output_9(self, state: bool) -> Self {
         if state {
@@ -1085,7 +1085,7 @@ impl BinaryOutputControl {
         self.0 & Self::OUTPUT_10 != 0
     }
 
-    /// The same word with another state of: Output 10.
+    /// The word with another state of: Output 10.
     #[must_use]
     pub const fn with_output_10(self, state: bool) -> Self {
         if state {
@@ -1150,12 +1150,12 @@ impl From<BinaryOutputControl> for u16 {
 
 /// Program controller commands.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ProgramControllerCommands(pub u16);
 
 impl ProgramControllerCommands {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold program.
     pub const HOLD_PROGRAM: u16 = 0x0002;
@@ -1172,7 +1172,7 @@ impl ProgramControllerCommands {
         self.0 & Self::HOLD_PROGRAM != 0
     }
 
-    /// The same word with another state of: Hold program.
+    /// The word with another state of: Hold program.
     #[must_use]
     pub const fn with_hold_program(self, state: bool) -> Self {
         if state {
@@ -1188,7 +1188,7 @@ impl ProgramControllerCommands {
         self.0 & Self::ABORT_PROGRAM != 0
     }
 
-    /// The same word with another state of: Abort program.
+    /// The word with another state of: Abort program.
     #[must_use]
     pub const fn with_abort_program(self, state: bool) -> Self {
         if state {
@@ -1204,7 +1204,7 @@ impl ProgramControllerCommands {
         self.0 & Self::START_PROGRAM != 0
     }
 
-    /// The same word with another state of: Start program.
+    /// The word with another state of: Start program.
     #[must_use]
     pub const fn with_start_program(self, state: bool) -> Self {
         if state {
@@ -1220,7 +1220,7 @@ impl ProgramControllerCommands {
         self.0 & Self::CHANGE_SECTION != 0
     }
 
-    /// The same word with another state of: Change section.
+    /// The word with another state of: Change section.
     #[must_use]
     pub const fn with_change_section(self, state: bool) -> Self {
         if state {
@@ -1279,12 +1279,12 @@ impl From<ProgramControllerCommands> for u16 {
 
 /// Controller commands.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControllerCommands(pub u16);
 
 impl ControllerCommands {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold ramp.
     pub const HOLD_RAMP: u16 = 0x0002;
@@ -1307,7 +1307,7 @@ impl ControllerCommands {
         self.0 & Self::HOLD_RAMP != 0
     }
 
-    /// The same word with another state of: Hold ramp.
+    /// The word with another state of: Hold ramp.
     #[must_use]
     pub const fn with_hold_ramp(self, state: bool) -> Self {
         if state {
@@ -1323,7 +1323,7 @@ impl ControllerCommands {
         self.0 & Self::ABORT_RAMP != 0
     }
 
-    /// The same word with another state of: Abort ramp.
+    /// The word with another state of: Abort ramp.
     #[must_use]
     pub const fn with_abort_ramp(self, state: bool) -> Self {
         if state {
@@ -1339,7 +1339,7 @@ impl ControllerCommands {
         self.0 & Self::ACTIVATE_MANUAL_MODE != 0
     }
 
-    /// The same word with another state of: Activate manual mode.
+    /// The word with another state of: Activate manual mode.
     #[must_use]
     pub const fn with_activate_manual_mode(self, state: bool) -> Self {
         if state {
@@ -1355,7 +1355,7 @@ impl ControllerCommands {
         self.0 & Self::AUTOMATIC_MODE != 0
     }
 
-    /// The same word with another state of: Automatic mode.
+    /// The word with another state of: Automatic mode.
     #[must_use]
     pub const fn with_automatic_mode(self, state: bool) -> Self {
         if state {
@@ -1371,7 +1371,7 @@ impl ControllerCommands {
         self.0 & Self::CONTROLLER_OFF != 0
     }
 
-    /// The same word with another state of: Controller off.
+    /// The word with another state of: Controller off.
     #[must_use]
     pub const fn with_controller_off(self, state: bool) -> Self {
         if state {
@@ -1387,7 +1387,7 @@ impl ControllerCommands {
         self.0 & Self::START_SELF_OPTIMISATION != 0
     }
 
-    /// The same word with another state of: Start self optimisation.
+    /// The word with another state of: Start self optimisation.
     #[must_use]
     pub const fn with_start_self_optimisation(self, state: bool) -> Self {
         if state {
@@ -1403,7 +1403,7 @@ impl ControllerCommands {
         self.0 & Self::ABORT_SELF_OPTIMISATION != 0
     }
 
-    /// The same word with another state of: Abort self optimisation.
+    /// The word with another state of: Abort self optimisation.
     #[must_use]
     pub const fn with_abort_self_optimisation(self, state: bool) -> Self {
         if state {
@@ -1465,12 +1465,12 @@ impl From<ControllerCommands> for u16 {
 
 /// Operation commands.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct OperationCommands(pub u16);
 
 impl OperationCommands {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Displays off.
     pub const DISPLAYS_OFF: u16 = 0x0010;
@@ -1485,7 +1485,7 @@ impl OperationCommands {
         self.0 & Self::DISPLAYS_OFF != 0
     }
 
-    /// The same word with another state of: Displays off.
+    /// The word with another state of: Displays off.
     #[must_use]
     pub const fn with_displays_off(self, state: bool) -> Self {
         if state {
@@ -1501,7 +1501,7 @@ impl OperationCommands {
         self.0 & Self::ACKNOWLEDGE_LIMIT_COMPARATORS != 0
     }
 
-    /// The same word with another state of: Acknowledge limit comparators.
+    /// The word with another state of: Acknowledge limit comparators.
     #[must_use]
     pub const fn with_acknowledge_limit_comparators(self, state: bool) -> Self {
         if state {
@@ -1517,7 +1517,7 @@ impl OperationCommands {
         self.0 & Self::TEXT_DISPLAY != 0
     }
 
-    /// The same word with another state of: Text display.
+    /// The word with another state of: Text display.
     #[must_use]
     pub const fn with_text_display(self, state: bool) -> Self {
         if state {
@@ -1575,12 +1575,12 @@ impl From<OperationCommands> for u16 {
 
 /// Timer commands.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TimerCommands(pub u16);
 
 impl TimerCommands {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold timer 1.
     pub const HOLD_TIMER_1: u16 = 0x0002;
@@ -1597,7 +1597,7 @@ impl TimerCommands {
         self.0 & Self::HOLD_TIMER_1 != 0
     }
 
-    /// The same word with another state of: Hold timer 1.
+    /// The word with another state of: Hold timer 1.
     #[must_use]
     pub const fn with_hold_timer_1(self, state: bool) -> Self {
         if state {
@@ -1613,7 +1613,7 @@ impl TimerCommands {
         self.0 & Self::ABORT_TIMER_1 != 0
     }
 
-    /// The same word with another state of: Abort timer 1.
+    /// The word with another state of: Abort timer 1.
     #[must_use]
     pub const fn with_abort_timer_1(self, state: bool) -> Self {
         if state {
@@ -1629,7 +1629,7 @@ impl TimerCommands {
         self.0 & Self::START_TIMER_1 != 0
     }
 
-    /// The same word with another state of: Start timer 1.
+    /// The word with another state of: Start timer 1.
     #[must_use]
     pub const fn with_start_timer_1(self, state: bool) -> Self {
         if state {
@@ -1645,7 +1645,7 @@ impl TimerCommands {
         self.0 & Self::HOLD_TIMER_2 != 0
     }
 
-    /// The same word with another state of: Hold timer 2.
+    /// The word with another state of: Hold timer 2.
     #[must_use]
     pub const fn with_hold_timer_2(self, state: bool) -> Self {
         if state {

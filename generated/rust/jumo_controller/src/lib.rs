@@ -93,7 +93,7 @@ pub const VERSION_PATCH: u32 = 0;
 /// The version as one number, to compare: 1.2.3 is `1_002_003`.
 pub const VERSION_NUMBER: u32 = 1_000_000;
 
-/// What the description says, as a digest.
+/// The digest of the description's facts.
 pub const DIGEST: &str = "94667522bb44c1173e7fa55b7b704e2ce114124bb34428b77a4f967fa3b41466";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
+//! Points without code; the documentation says why. Those in `documented` can be reached by address, as raw words:
 //! - `limit_comparators`
 
 use fieldscribe_runtime::point;

@@ -2,4 +2,4 @@
 // Regenerate with: fieldscribe generate jumo_controller --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! What some points need from others: raw numbers that are read at run time.
+//! Arguments of points whose scale or limits depend on other points: the raw numbers of those, read at run time.

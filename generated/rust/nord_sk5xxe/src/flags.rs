@@ -4,8 +4,8 @@
 
 //! Words whose bits have names.
 //!
-//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
-//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//! Getters and `with_` functions take and return whether a flag is true, for active-low bits too. Start a word from
+//! [`ALL_FALSE`]. The constants are masks; a flag whose mask ends in `_ACTIVE_LOW` is true while its bit is 0.
 //!
 //! [`ALL_FALSE`]: ControlWord::ALL_FALSE
 
@@ -15,12 +15,12 @@ use fieldscribe_runtime::flags as runtime;
 
 /// Control word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlWord(pub u16);
 
 impl ControlWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     ///
     /// Its active-low bits are 1.
     pub const ALL_FALSE: Self = Self(0x0006);
@@ -73,7 +73,7 @@ impl ControlWord {
         self.0 & Self::READY_TO_RUN != 0
     }
 
-    /// The same word with another state of: Ready to run.
+    /// The word with another state of: Ready to run.
     #[must_use]
     pub const fn with_ready_to_run(self, state: bool) -> Self {
         if state {
@@ -91,7 +91,7 @@ impl ControlWord {
         self.0 & Self::INHIBIT_VOLTAGE_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Inhibit voltage.
+    /// The word with another state of: Inhibit voltage.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -111,7 +111,7 @@ impl ControlWord {
         self.0 & Self::QUICK_STOP_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Quick stop.
+    /// The word with another state of: Quick stop.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -129,7 +129,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_OPERATION != 0
     }
 
-    /// The same word with another state of: Enable operation.
+    /// The word with another state of: Enable operation.
     #[must_use]
     pub const fn with_enable_operation(self, state: bool) -> Self {
         if state {
@@ -145,7 +145,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_PULSES != 0
     }
 
-    /// The same word with another state of: Enable pulses.
+    /// The word with another state of: Enable pulses.
     #[must_use]
     pub const fn with_enable_pulses(self, state: bool) -> Self {
         if state {
@@ -161,7 +161,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_RAMP != 0
     }
 
-    /// The same word with another state of: Enable ramp.
+    /// The word with another state of: Enable ramp.
     #[must_use]
     pub const fn with_enable_ramp(self, state: bool) -> Self {
         if state {
@@ -177,7 +177,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_SETPOINT != 0
     }
 
-    /// The same word with another state of: Enable setpoint.
+    /// The word with another state of: Enable setpoint.
     #[must_use]
     pub const fn with_enable_setpoint(self, state: bool) -> Self {
         if state {
@@ -193,7 +193,7 @@ impl ControlWord {
         self.0 & Self::ACKNOWLEDGE_FAULT != 0
     }
 
-    /// The same word with another state of: Acknowledge fault.
+    /// The word with another state of: Acknowledge fault.
     #[must_use]
     pub const fn with_acknowledge_fault(self, state: bool) -> Self {
         if state {
@@ -209,7 +209,7 @@ impl ControlWord {
         self.0 & Self::START_FUNCTION_480_11 != 0
     }
 
-    /// The same word with another state of: Start function 480 11.
+    /// The word with another state of: Start function 480 11.
     #[must_use]
     pub const fn with_start_function_480_11(self, state: bool) -> Self {
         if state {
@@ -225,7 +225,7 @@ impl ControlWord {
         self.0 & Self::START_FUNCTION_480_12 != 0
     }
 
-    /// The same word with another state of: Start function 480 12.
+    /// The word with another state of: Start function 480 12.
     #[must_use]
     pub const fn with_start_function_480_12(self, state: bool) -> Self {
         if state {
@@ -241,7 +241,7 @@ impl ControlWord {
         self.0 & Self::CONTROL_DATA_VALID != 0
     }
 
-    /// The same word with another state of: Control data valid.
+    /// The word with another state of: Control data valid.
     #[must_use]
     pub const fn with_control_data_valid(self, state: bool) -> Self {
         if state {
@@ -257,7 +257,7 @@ impl ControlWord {
         self.0 & Self::CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Clockwise.
+    /// The word with another state of: Clockwise.
     #[must_use]
     pub const fn with_clockwise(self, state: bool) -> Self {
         if state {
@@ -273,7 +273,7 @@ impl ControlWord {
         self.0 & Self::COUNTER_CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Counter clockwise.
+    /// The word with another state of: Counter clockwise.
     #[must_use]
     pub const fn with_counter_clockwise(self, state: bool) -> Self {
         if state {
@@ -289,7 +289,7 @@ impl ControlWord {
         self.0 & Self::RESERVED != 0
     }
 
-    /// The same word with another state of: Reserved.
+    /// The word with another state of: Reserved.
     #[must_use]
     pub const fn with_reserved(self, state: bool) -> Self {
         if state {
@@ -307,7 +307,7 @@ impl ControlWord {
         (self.0 & Self::PARAMETER_SET) >> 14
     }
 
-    /// The same word with another number of: Parameter set.
+    /// The word with another number of: Parameter set.
     #[must_use]
     pub const fn with_parameter_set(self, number: u16) -> Self {
         let mask = Self::PARAMETER_SET;
@@ -377,12 +377,12 @@ impl From<ControlWord> for u16 {
 
 /// Status word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StatusWord(pub u16);
 
 impl StatusWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     ///
     /// Its active-low bits are 1.
     pub const ALL_FALSE: Self = Self(0x0020);
@@ -433,7 +433,7 @@ impl StatusWord {
         self.0 & Self::READY_TO_SWITCH_ON != 0
     }
 
-    /// The same word with another state of: Ready to switch on.
+    /// The word with another state of: Ready to switch on.
     #[must_use]
     pub const fn with_ready_to_switch_on(self, state: bool) -> Self {
         if state {
@@ -449,7 +449,7 @@ impl StatusWord {
         self.0 & Self::READY_TO_RUN != 0
     }
 
-    /// The same word with another state of: Ready to run.
+    /// The word with another state of: Ready to run.
     #[must_use]
     pub const fn with_ready_to_run(self, state: bool) -> Self {
         if state {
@@ -465,7 +465,7 @@ impl StatusWord {
         self.0 & Self::OPERATION_ENABLED != 0
     }
 
-    /// The same word with another state of: Operation enabled.
+    /// The word with another state of: Operation enabled.
     #[must_use]
     pub const fn with_operation_enabled(self, state: bool) -> Self {
         if state {
@@ -481,7 +481,7 @@ impl StatusWord {
         self.0 & Self::FAULT != 0
     }
 
-    /// The same word with another state of: Fault.
+    /// The word with another state of: Fault.
     #[must_use]
     pub const fn with_fault(self, state: bool) -> Self {
         if state {
@@ -497,7 +497,7 @@ impl StatusWord {
         self.0 & Self::VOLTAGE_ENABLED != 0
     }
 
-    /// The same word with another state of: Voltage enabled.
+    /// The word with another state of: Voltage enabled.
     #[must_use]
     pub const fn with_voltage_enabled(self, state: bool) -> Self {
         if state {
@@ -515,7 +515,7 @@ impl StatusWord {
         self.0 & Self::QUICK_STOP_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Quick stop.
+    /// The word with another state of: Quick stop.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -533,7 +533,7 @@ impl StatusWord {
         self.0 & Self::SWITCH_ON_INHIBIT != 0
     }
 
-    /// The same word with another state of: Switch on inhibit.
+    /// The word with another state of: Switch on inhibit.
     #[must_use]
     pub const fn with_switch_on_inhibit(self, state: bool) -> Self {
         if state {
@@ -549,7 +549,7 @@ impl StatusWord {
         self.0 & Self::WARNING != 0
     }
 
-    /// The same word with another state of: Warning.
+    /// The word with another state of: Warning.
     #[must_use]
     pub const fn with_warning(self, state: bool) -> Self {
         if state {
@@ -565,7 +565,7 @@ impl StatusWord {
         self.0 & Self::SETPOINT_REACHED != 0
     }
 
-    /// The same word with another state of: Setpoint reached.
+    /// The word with another state of: Setpoint reached.
     #[must_use]
     pub const fn with_setpoint_reached(self, state: bool) -> Self {
         if state {
@@ -581,7 +581,7 @@ impl StatusWord {
         self.0 & Self::BUS_CONTROL != 0
     }
 
-    /// The same word with another state of: Bus control.
+    /// The word with another state of: Bus control.
     #[must_use]
     pub const fn with_bus_control(self, state: bool) -> Self {
         if state {
@@ -597,7 +597,7 @@ impl StatusWord {
         self.0 & Self::FUNCTION_481_9 != 0
     }
 
-    /// The same word with another state of: Function 481 9.
+    /// The word with another state of: Function 481 9.
     #[must_use]
     pub const fn with_function_481_9(self, state: bool) -> Self {
         if state {
@@ -613,7 +613,7 @@ impl StatusWord {
         self.0 & Self::CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Clockwise.
+    /// The word with another state of: Clockwise.
     #[must_use]
     pub const fn with_clockwise(self, state: bool) -> Self {
         if state {
@@ -629,7 +629,7 @@ impl StatusWord {
         self.0 & Self::COUNTER_CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Counter clockwise.
+    /// The word with another state of: Counter clockwise.
     #[must_use]
     pub const fn with_counter_clockwise(self, state: bool) -> Self {
         if state {
@@ -645,7 +645,7 @@ impl StatusWord {
         self.0 & Self::FUNCTION_481_10 != 0
     }
 
-    /// The same word with another state of: Function 481 10.
+    /// The word with another state of: Function 481 10.
     #[must_use]
     pub const fn with_function_481_10(self, state: bool) -> Self {
         if state {
@@ -663,7 +663,7 @@ impl StatusWord {
         (self.0 & Self::PARAMETER_SET) >> 14
     }
 
-    /// The same word with another number of: Parameter set.
+    /// The word with another number of: Parameter set.
     #[must_use]
     pub const fn with_parameter_set(self, number: u16) -> Self {
         let mask = Self::PARAMETER_SET;

@@ -94,7 +94,7 @@ pub const VERSION_PATCH: u32 = 0;
 /// The version as one number, to compare: 1.2.3 is `1_002_003`.
 pub const VERSION_NUMBER: u32 = 1_000_000;
 
-/// What the description says, as a digest.
+/// The digest of the description's facts.
 pub const DIGEST: &str = "df2e476040c00a7eb6a734bd710db05a7ac52ac926f0fa1bacd1a9818bf08469";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
+//! Points without code; the documentation says why. Those in `documented` can be reached by address, as raw words:
 //! - `p102_set_1`, `P102`, holding 1980h (6528)
 //! - `p102_set_2`, `P102`, holding 1981h (6529)
 //! - `p102_set_3`, `P102`, holding 1982h (6530)
@@ -60,147 +60,147 @@
 //! - `sent_actual_value_4`, `P741[5]`
 //! - `sent_actual_value_5`, `P741[6]`
 
-/// Where the words are of points that are documented only: nothing says what they mean.
+/// The addresses of points whose words have no documented meaning.
 pub mod documented {
     use fieldscribe_runtime as runtime;
 
-    /// The words of `p102_set_1`.
+    /// The address of `p102_set_1`.
     pub const P102_SET_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x1980, 1, None);
 
-    /// The words of `p102_set_2`.
+    /// The address of `p102_set_2`.
     pub const P102_SET_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x1981, 1, None);
 
-    /// The words of `p102_set_3`.
+    /// The address of `p102_set_3`.
     pub const P102_SET_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x1982, 1, None);
 
-    /// The words of `p102_set_4`.
+    /// The address of `p102_set_4`.
     pub const P102_SET_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x1983, 1, None);
 
-    /// The words of `maximum_frequency`.
+    /// The address of `maximum_frequency`.
     pub const MAXIMUM_FREQUENCY: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x19C0, 1, None);
 
-    /// The words of `p502`.
+    /// The address of `p502`.
     pub const P502: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x7D80, 1, None);
 
-    /// The words of `control_word_source`.
+    /// The address of `control_word_source`.
     pub const CONTROL_WORD_SOURCE: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x7F40, 1, None);
 
-    /// The words of `uss_baud_rate`.
+    /// The address of `uss_baud_rate`.
     pub const USS_BAUD_RATE: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x7FC0, 1, None);
 
-    /// The words of `uss_address`.
+    /// The address of `uss_address`.
     pub const USS_ADDRESS: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x8000, 1, None);
 
-    /// The words of `actual_value_source_set_1_index_1`.
+    /// The address of `actual_value_source_set_1_index_1`.
     pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C0, 1, Some(1));
 
-    /// The words of `actual_value_source_set_1_index_2`.
+    /// The address of `actual_value_source_set_1_index_2`.
     pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C4, 1, Some(2));
 
-    /// The words of `actual_value_source_set_1_index_3`.
+    /// The address of `actual_value_source_set_1_index_3`.
     pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C8, 1, Some(3));
 
-    /// The words of `actual_value_source_set_1_index_4`.
+    /// The address of `actual_value_source_set_1_index_4`.
     pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CC, 1, Some(4));
 
-    /// The words of `actual_value_source_set_1_index_5`.
+    /// The address of `actual_value_source_set_1_index_5`.
     pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_5: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87D0, 1, Some(5));
 
-    /// The words of `actual_value_source_set_2_index_1`.
+    /// The address of `actual_value_source_set_2_index_1`.
     pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C1, 1, Some(1));
 
-    /// The words of `actual_value_source_set_2_index_2`.
+    /// The address of `actual_value_source_set_2_index_2`.
     pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C5, 1, Some(2));
 
-    /// The words of `actual_value_source_set_2_index_3`.
+    /// The address of `actual_value_source_set_2_index_3`.
     pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C9, 1, Some(3));
 
-    /// The words of `actual_value_source_set_2_index_4`.
+    /// The address of `actual_value_source_set_2_index_4`.
     pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CD, 1, Some(4));
 
-    /// The words of `actual_value_source_set_2_index_5`.
+    /// The address of `actual_value_source_set_2_index_5`.
     pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_5: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87D1, 1, Some(5));
 
-    /// The words of `actual_value_source_set_3_index_1`.
+    /// The address of `actual_value_source_set_3_index_1`.
     pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C2, 1, Some(1));
 
-    /// The words of `actual_value_source_set_3_index_2`.
+    /// The address of `actual_value_source_set_3_index_2`.
     pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C6, 1, Some(2));
 
-    /// The words of `actual_value_source_set_3_index_3`.
+    /// The address of `actual_value_source_set_3_index_3`.
     pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CA, 1, Some(3));
 
-    /// The words of `actual_value_source_set_3_index_4`.
+    /// The address of `actual_value_source_set_3_index_4`.
     pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CE, 1, Some(4));
 
-    /// The words of `actual_value_source_set_3_index_5`.
+    /// The address of `actual_value_source_set_3_index_5`.
     pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_5: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87D2, 1, Some(5));
 
-    /// The words of `actual_value_source_set_4_index_1`.
+    /// The address of `actual_value_source_set_4_index_1`.
     pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C3, 1, Some(1));
 
-    /// The words of `actual_value_source_set_4_index_2`.
+    /// The address of `actual_value_source_set_4_index_2`.
     pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87C7, 1, Some(2));
 
-    /// The words of `actual_value_source_set_4_index_3`.
+    /// The address of `actual_value_source_set_4_index_3`.
     pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CB, 1, Some(3));
 
-    /// The words of `actual_value_source_set_4_index_4`.
+    /// The address of `actual_value_source_set_4_index_4`.
     pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87CF, 1, Some(4));
 
-    /// The words of `actual_value_source_set_4_index_5`.
+    /// The address of `actual_value_source_set_4_index_5`.
     pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_5: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x87D3, 1, Some(5));
 
-    /// The words of `setpoint_1_function`.
+    /// The address of `setpoint_1_function`.
     pub const SETPOINT_1_FUNCTION: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x8880, 1, Some(1));
 
-    /// The words of `p601`.
+    /// The address of `p601`.
     pub const P601: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x9640, 1, None);
 
-    /// The words of `p607_index_1`.
+    /// The address of `p607_index_1`.
     pub const P607_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x97C0, 1, Some(1));
 
-    /// The words of `p607_index_2`.
+    /// The address of `p607_index_2`.
     pub const P607_INDEX_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0x97C1, 1, Some(2));
 
-    /// The words of `received_control_word`.
+    /// The address of `received_control_word`.
     pub const RECEIVED_CONTROL_WORD: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0xB900, 1, Some(1));
 
-    /// The words of `sent_status_word`.
+    /// The address of `sent_status_word`.
     pub const SENT_STATUS_WORD: runtime::Documented =
         runtime::Documented::new(runtime::Space::Holding, 0xB940, 1, Some(1));
 }

@@ -4,8 +4,8 @@
 
 //! Words whose bits have names.
 //!
-//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
-//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//! Getters and `with_` functions take and return whether a flag is true, for active-low bits too. Start a word from
+//! [`ALL_FALSE`]. The constants are masks; a flag whose mask ends in `_ACTIVE_LOW` is true while its bit is 0.
 //!
 //! [`ALL_FALSE`]: InverterStatusWord::ALL_FALSE
 
@@ -15,12 +15,12 @@ use fieldscribe_runtime::flags as runtime;
 
 /// Inverter status word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InverterStatusWord(pub u16);
 
 impl InverterStatusWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     ///
     /// Its active-low bits are 1.
     pub const ALL_FALSE: Self = Self(0xB930);
@@ -77,7 +77,7 @@ impl InverterStatusWord {
         self.0 & Self::READY_TO_SWITCH_ON != 0
     }
 
-    /// The same word with another state of: Ready to switch on.
+    /// The word with another state of: Ready to switch on.
     #[must_use]
     pub const fn with_ready_to_switch_on(self, state: bool) -> Self {
         if state {
@@ -93,7 +93,7 @@ impl InverterStatusWord {
         self.0 & Self::READY_TO_RUN != 0
     }
 
-    /// The same word with another state of: Ready to run.
+    /// The word with another state of: Ready to run.
     #[must_use]
     pub const fn with_ready_to_run(self, state: bool) -> Self {
         if state {
@@ -109,7 +109,7 @@ impl InverterStatusWord {
         self.0 & Self::OPERATION_ENABLED != 0
     }
 
-    /// The same word with another state of: Operation enabled.
+    /// The word with another state of: Operation enabled.
     #[must_use]
     pub const fn with_operation_enabled(self, state: bool) -> Self {
         if state {
@@ -125,7 +125,7 @@ impl InverterStatusWord {
         self.0 & Self::FAULT != 0
     }
 
-    /// The same word with another state of: Fault.
+    /// The word with another state of: Fault.
     #[must_use]
     pub const fn with_fault(self, state: bool) -> Self {
         if state {
@@ -143,7 +143,7 @@ impl InverterStatusWord {
         self.0 & Self::OFF2_PENDING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off2 pending.
+    /// The word with another state of: Off2 pending.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -163,7 +163,7 @@ impl InverterStatusWord {
         self.0 & Self::OFF3_PENDING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off3 pending.
+    /// The word with another state of: Off3 pending.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -181,7 +181,7 @@ impl InverterStatusWord {
         self.0 & Self::SWITCH_ON_INHIBIT != 0
     }
 
-    /// The same word with another state of: Switch on inhibit.
+    /// The word with another state of: Switch on inhibit.
     #[must_use]
     pub const fn with_switch_on_inhibit(self, state: bool) -> Self {
         if state {
@@ -197,7 +197,7 @@ impl InverterStatusWord {
         self.0 & Self::WARNING != 0
     }
 
-    /// The same word with another state of: Warning.
+    /// The word with another state of: Warning.
     #[must_use]
     pub const fn with_warning(self, state: bool) -> Self {
         if state {
@@ -215,7 +215,7 @@ impl InverterStatusWord {
         self.0 & Self::DEVIATION_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Deviation.
+    /// The word with another state of: Deviation.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -233,7 +233,7 @@ impl InverterStatusWord {
         self.0 & Self::CONTROL_REQUESTED != 0
     }
 
-    /// The same word with another state of: Control requested.
+    /// The word with another state of: Control requested.
     #[must_use]
     pub const fn with_control_requested(self, state: bool) -> Self {
         if state {
@@ -249,7 +249,7 @@ impl InverterStatusWord {
         self.0 & Self::FREQUENCY_REACHED != 0
     }
 
-    /// The same word with another state of: Frequency reached.
+    /// The word with another state of: Frequency reached.
     #[must_use]
     pub const fn with_frequency_reached(self, state: bool) -> Self {
         if state {
@@ -267,7 +267,7 @@ impl InverterStatusWord {
         self.0 & Self::CURRENT_LIMIT_WARNING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Current limit warning.
+    /// The word with another state of: Current limit warning.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -287,7 +287,7 @@ impl InverterStatusWord {
         self.0 & Self::HOLDING_BRAKE_ACTIVE_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Holding brake active.
+    /// The word with another state of: Holding brake active.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -307,7 +307,7 @@ impl InverterStatusWord {
         self.0 & Self::MOTOR_OVERLOAD_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Motor overload.
+    /// The word with another state of: Motor overload.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -325,7 +325,7 @@ impl InverterStatusWord {
         self.0 & Self::CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Clockwise.
+    /// The word with another state of: Clockwise.
     #[must_use]
     pub const fn with_clockwise(self, state: bool) -> Self {
         if state {
@@ -343,7 +343,7 @@ impl InverterStatusWord {
         self.0 & Self::INVERTER_OVERLOAD_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Inverter overload.
+    /// The word with another state of: Inverter overload.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -416,12 +416,12 @@ impl From<InverterStatusWord> for u16 {
 
 /// P0731 source.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct P0731Source(pub u32);
 
 impl P0731Source {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -436,7 +436,7 @@ impl P0731Source {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -451,7 +451,7 @@ impl P0731Source {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -505,12 +505,12 @@ impl From<P0731Source> for u32 {
 
 /// Jog time selection source.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct JogTimeSelectionSource(pub u32);
 
 impl JogTimeSelectionSource {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -525,7 +525,7 @@ impl JogTimeSelectionSource {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -540,7 +540,7 @@ impl JogTimeSelectionSource {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -594,12 +594,12 @@ impl From<JogTimeSelectionSource> for u32 {
 
 /// Dc braking source.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DcBrakingSource(pub u32);
 
 impl DcBrakingSource {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -614,7 +614,7 @@ impl DcBrakingSource {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -629,7 +629,7 @@ impl DcBrakingSource {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -683,12 +683,12 @@ impl From<DcBrakingSource> for u32 {
 
 /// Uss rs232 answer source index 0.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs232AnswerSourceIndex0(pub u32);
 
 impl UssRs232AnswerSourceIndex0 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -703,7 +703,7 @@ impl UssRs232AnswerSourceIndex0 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -718,7 +718,7 @@ impl UssRs232AnswerSourceIndex0 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -772,12 +772,12 @@ impl From<UssRs232AnswerSourceIndex0> for u32 {
 
 /// Uss rs232 answer source index 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs232AnswerSourceIndex1(pub u32);
 
 impl UssRs232AnswerSourceIndex1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -792,7 +792,7 @@ impl UssRs232AnswerSourceIndex1 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -807,7 +807,7 @@ impl UssRs232AnswerSourceIndex1 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -861,12 +861,12 @@ impl From<UssRs232AnswerSourceIndex1> for u32 {
 
 /// Uss rs232 answer source index 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs232AnswerSourceIndex2(pub u32);
 
 impl UssRs232AnswerSourceIndex2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -881,7 +881,7 @@ impl UssRs232AnswerSourceIndex2 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -896,7 +896,7 @@ impl UssRs232AnswerSourceIndex2 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -950,12 +950,12 @@ impl From<UssRs232AnswerSourceIndex2> for u32 {
 
 /// Uss rs232 answer source index 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs232AnswerSourceIndex3(pub u32);
 
 impl UssRs232AnswerSourceIndex3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -970,7 +970,7 @@ impl UssRs232AnswerSourceIndex3 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -985,7 +985,7 @@ impl UssRs232AnswerSourceIndex3 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -1039,12 +1039,12 @@ impl From<UssRs232AnswerSourceIndex3> for u32 {
 
 /// Uss rs485 answer source index 0.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs485AnswerSourceIndex0(pub u32);
 
 impl UssRs485AnswerSourceIndex0 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -1059,7 +1059,7 @@ impl UssRs485AnswerSourceIndex0 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -1074,7 +1074,7 @@ impl UssRs485AnswerSourceIndex0 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -1128,12 +1128,12 @@ impl From<UssRs485AnswerSourceIndex0> for u32 {
 
 /// Uss rs485 answer source index 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs485AnswerSourceIndex1(pub u32);
 
 impl UssRs485AnswerSourceIndex1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -1148,7 +1148,7 @@ impl UssRs485AnswerSourceIndex1 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -1163,7 +1163,7 @@ impl UssRs485AnswerSourceIndex1 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -1217,12 +1217,12 @@ impl From<UssRs485AnswerSourceIndex1> for u32 {
 
 /// Uss rs485 answer source index 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs485AnswerSourceIndex2(pub u32);
 
 impl UssRs485AnswerSourceIndex2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -1237,7 +1237,7 @@ impl UssRs485AnswerSourceIndex2 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -1252,7 +1252,7 @@ impl UssRs485AnswerSourceIndex2 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -1306,12 +1306,12 @@ impl From<UssRs485AnswerSourceIndex2> for u32 {
 
 /// Uss rs485 answer source index 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct UssRs485AnswerSourceIndex3(pub u32);
 
 impl UssRs485AnswerSourceIndex3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Source parameter.
     pub const SOURCE_PARAMETER: u32 = 0xFFFF_0000;
@@ -1326,7 +1326,7 @@ impl UssRs485AnswerSourceIndex3 {
         (self.0 & Self::SOURCE_PARAMETER) >> 16
     }
 
-    /// The same word with another number of: Source parameter.
+    /// The word with another number of: Source parameter.
     #[must_use]
     pub const fn with_source_parameter(self, number: u32) -> Self {
         let mask = Self::SOURCE_PARAMETER;
@@ -1341,7 +1341,7 @@ impl UssRs485AnswerSourceIndex3 {
         self.0 & Self::SOURCE_BIT
     }
 
-    /// The same word with another number of: Source bit.
+    /// The word with another number of: Source bit.
     #[must_use]
     pub const fn with_source_bit(self, number: u32) -> Self {
         let mask = Self::SOURCE_BIT;
@@ -1395,12 +1395,12 @@ impl From<UssRs485AnswerSourceIndex3> for u32 {
 
 /// Control word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlWord(pub u16);
 
 impl ControlWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     ///
     /// Its active-low bits are 1.
     pub const ALL_FALSE: Self = Self(0x0006);
@@ -1447,7 +1447,7 @@ impl ControlWord {
         self.0 & Self::ON != 0
     }
 
-    /// The same word with another state of: On.
+    /// The word with another state of: On.
     #[must_use]
     pub const fn with_on(self, state: bool) -> Self {
         if state {
@@ -1465,7 +1465,7 @@ impl ControlWord {
         self.0 & Self::OFF2_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off2.
+    /// The word with another state of: Off2.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -1485,7 +1485,7 @@ impl ControlWord {
         self.0 & Self::OFF3_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off3.
+    /// The word with another state of: Off3.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -1503,7 +1503,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_OPERATION != 0
     }
 
-    /// The same word with another state of: Enable operation.
+    /// The word with another state of: Enable operation.
     #[must_use]
     pub const fn with_enable_operation(self, state: bool) -> Self {
         if state {
@@ -1519,7 +1519,7 @@ impl ControlWord {
         self.0 & Self::RAMP_GENERATOR_OPERATING != 0
     }
 
-    /// The same word with another state of: Ramp generator operating.
+    /// The word with another state of: Ramp generator operating.
     #[must_use]
     pub const fn with_ramp_generator_operating(self, state: bool) -> Self {
         if state {
@@ -1535,7 +1535,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_RAMP_GENERATOR != 0
     }
 
-    /// The same word with another state of: Enable ramp generator.
+    /// The word with another state of: Enable ramp generator.
     #[must_use]
     pub const fn with_enable_ramp_generator(self, state: bool) -> Self {
         if state {
@@ -1551,7 +1551,7 @@ impl ControlWord {
         self.0 & Self::ENABLE_SETPOINT != 0
     }
 
-    /// The same word with another state of: Enable setpoint.
+    /// The word with another state of: Enable setpoint.
     #[must_use]
     pub const fn with_enable_setpoint(self, state: bool) -> Self {
         if state {
@@ -1567,7 +1567,7 @@ impl ControlWord {
         self.0 & Self::ACKNOWLEDGE_FAULT != 0
     }
 
-    /// The same word with another state of: Acknowledge fault.
+    /// The word with another state of: Acknowledge fault.
     #[must_use]
     pub const fn with_acknowledge_fault(self, state: bool) -> Self {
         if state {
@@ -1583,7 +1583,7 @@ impl ControlWord {
         self.0 & Self::JOG_CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Jog clockwise.
+    /// The word with another state of: Jog clockwise.
     #[must_use]
     pub const fn with_jog_clockwise(self, state: bool) -> Self {
         if state {
@@ -1599,7 +1599,7 @@ impl ControlWord {
         self.0 & Self::JOG_COUNTER_CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Jog counter clockwise.
+    /// The word with another state of: Jog counter clockwise.
     #[must_use]
     pub const fn with_jog_counter_clockwise(self, state: bool) -> Self {
         if state {
@@ -1615,7 +1615,7 @@ impl ControlWord {
         self.0 & Self::SETPOINTS_VALID != 0
     }
 
-    /// The same word with another state of: Setpoints valid.
+    /// The word with another state of: Setpoints valid.
     #[must_use]
     pub const fn with_setpoints_valid(self, state: bool) -> Self {
         if state {
@@ -1631,7 +1631,7 @@ impl ControlWord {
         self.0 & Self::INVERT_SETPOINT != 0
     }
 
-    /// The same word with another state of: Invert setpoint.
+    /// The word with another state of: Invert setpoint.
     #[must_use]
     pub const fn with_invert_setpoint(self, state: bool) -> Self {
         if state {
@@ -1647,7 +1647,7 @@ impl ControlWord {
         self.0 & Self::FREE != 0
     }
 
-    /// The same word with another state of: Free.
+    /// The word with another state of: Free.
     #[must_use]
     pub const fn with_free(self, state: bool) -> Self {
         if state {
@@ -1663,7 +1663,7 @@ impl ControlWord {
         self.0 & Self::MOTOR_POTENTIOMETER_UP != 0
     }
 
-    /// The same word with another state of: Motor potentiometer up.
+    /// The word with another state of: Motor potentiometer up.
     #[must_use]
     pub const fn with_motor_potentiometer_up(self, state: bool) -> Self {
         if state {
@@ -1679,7 +1679,7 @@ impl ControlWord {
         self.0 & Self::MOTOR_POTENTIOMETER_DOWN != 0
     }
 
-    /// The same word with another state of: Motor potentiometer down.
+    /// The word with another state of: Motor potentiometer down.
     #[must_use]
     pub const fn with_motor_potentiometer_down(self, state: bool) -> Self {
         if state {
@@ -1695,7 +1695,7 @@ impl ControlWord {
         self.0 & Self::LOCAL_CONTROL != 0
     }
 
-    /// The same word with another state of: Local control.
+    /// The word with another state of: Local control.
     #[must_use]
     pub const fn with_local_control(self, state: bool) -> Self {
         if state {
@@ -1766,12 +1766,12 @@ impl From<ControlWord> for u16 {
 
 /// Second control word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct SecondControlWord(pub u16);
 
 impl SecondControlWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Fixed frequency bit 0.
     pub const FIXED_FREQUENCY_BIT_0: u16 = 0x0001;
@@ -1792,7 +1792,7 @@ impl SecondControlWord {
         self.0 & Self::FIXED_FREQUENCY_BIT_0 != 0
     }
 
-    /// The same word with another state of: Fixed frequency bit 0.
+    /// The word with another state of: Fixed frequency bit 0.
     #[must_use]
     pub const fn with_fixed_frequency_bit_0(self, state: bool) -> Self {
         if state {
@@ -1808,7 +1808,7 @@ impl SecondControlWord {
         self.0 & Self::FIXED_FREQUENCY_BIT_1 != 0
     }
 
-    /// The same word with another state of: Fixed frequency bit 1.
+    /// The word with another state of: Fixed frequency bit 1.
     #[must_use]
     pub const fn with_fixed_frequency_bit_1(self, state: bool) -> Self {
         if state {
@@ -1824,7 +1824,7 @@ impl SecondControlWord {
         self.0 & Self::FIXED_FREQUENCY_BIT_2 != 0
     }
 
-    /// The same word with another state of: Fixed frequency bit 2.
+    /// The word with another state of: Fixed frequency bit 2.
     #[must_use]
     pub const fn with_fixed_frequency_bit_2(self, state: bool) -> Self {
         if state {
@@ -1840,7 +1840,7 @@ impl SecondControlWord {
         self.0 & Self::PID_ENABLE != 0
     }
 
-    /// The same word with another state of: Pid enable.
+    /// The word with another state of: Pid enable.
     #[must_use]
     pub const fn with_pid_enable(self, state: bool) -> Self {
         if state {
@@ -1856,7 +1856,7 @@ impl SecondControlWord {
         self.0 & Self::DC_BRAKING_ENABLE != 0
     }
 
-    /// The same word with another state of: Dc braking enable.
+    /// The word with another state of: Dc braking enable.
     #[must_use]
     pub const fn with_dc_braking_enable(self, state: bool) -> Self {
         if state {
@@ -1872,7 +1872,7 @@ impl SecondControlWord {
         self.0 & Self::EXTERNAL_FAULT != 0
     }
 
-    /// The same word with another state of: External fault.
+    /// The word with another state of: External fault.
     #[must_use]
     pub const fn with_external_fault(self, state: bool) -> Self {
         if state {
@@ -1933,12 +1933,12 @@ impl From<SecondControlWord> for u16 {
 
 /// Status word.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StatusWord(pub u16);
 
 impl StatusWord {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     ///
     /// Its active-low bits are 1.
     pub const ALL_FALSE: Self = Self(0xB930);
@@ -1995,7 +1995,7 @@ impl StatusWord {
         self.0 & Self::READY_TO_SWITCH_ON != 0
     }
 
-    /// The same word with another state of: Ready to switch on.
+    /// The word with another state of: Ready to switch on.
     #[must_use]
     pub const fn with_ready_to_switch_on(self, state: bool) -> Self {
         if state {
@@ -2011,7 +2011,7 @@ impl StatusWord {
         self.0 & Self::READY_TO_RUN != 0
     }
 
-    /// The same word with another state of: Ready to run.
+    /// The word with another state of: Ready to run.
     #[must_use]
     pub const fn with_ready_to_run(self, state: bool) -> Self {
         if state {
@@ -2027,7 +2027,7 @@ impl StatusWord {
         self.0 & Self::OPERATION_ENABLED != 0
     }
 
-    /// The same word with another state of: Operation enabled.
+    /// The word with another state of: Operation enabled.
     #[must_use]
     pub const fn with_operation_enabled(self, state: bool) -> Self {
         if state {
@@ -2043,7 +2043,7 @@ impl StatusWord {
         self.0 & Self::FAULT != 0
     }
 
-    /// The same word with another state of: Fault.
+    /// The word with another state of: Fault.
     #[must_use]
     pub const fn with_fault(self, state: bool) -> Self {
         if state {
@@ -2061,7 +2061,7 @@ impl StatusWord {
         self.0 & Self::OFF2_PENDING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off2 pending.
+    /// The word with another state of: Off2 pending.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2081,7 +2081,7 @@ impl StatusWord {
         self.0 & Self::OFF3_PENDING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Off3 pending.
+    /// The word with another state of: Off3 pending.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2099,7 +2099,7 @@ impl StatusWord {
         self.0 & Self::SWITCH_ON_INHIBIT != 0
     }
 
-    /// The same word with another state of: Switch on inhibit.
+    /// The word with another state of: Switch on inhibit.
     #[must_use]
     pub const fn with_switch_on_inhibit(self, state: bool) -> Self {
         if state {
@@ -2115,7 +2115,7 @@ impl StatusWord {
         self.0 & Self::WARNING != 0
     }
 
-    /// The same word with another state of: Warning.
+    /// The word with another state of: Warning.
     #[must_use]
     pub const fn with_warning(self, state: bool) -> Self {
         if state {
@@ -2133,7 +2133,7 @@ impl StatusWord {
         self.0 & Self::DEVIATION_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Deviation.
+    /// The word with another state of: Deviation.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2151,7 +2151,7 @@ impl StatusWord {
         self.0 & Self::CONTROL_REQUESTED != 0
     }
 
-    /// The same word with another state of: Control requested.
+    /// The word with another state of: Control requested.
     #[must_use]
     pub const fn with_control_requested(self, state: bool) -> Self {
         if state {
@@ -2167,7 +2167,7 @@ impl StatusWord {
         self.0 & Self::FREQUENCY_REACHED != 0
     }
 
-    /// The same word with another state of: Frequency reached.
+    /// The word with another state of: Frequency reached.
     #[must_use]
     pub const fn with_frequency_reached(self, state: bool) -> Self {
         if state {
@@ -2185,7 +2185,7 @@ impl StatusWord {
         self.0 & Self::CURRENT_LIMIT_WARNING_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Current limit warning.
+    /// The word with another state of: Current limit warning.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2205,7 +2205,7 @@ impl StatusWord {
         self.0 & Self::HOLDING_BRAKE_ACTIVE_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Holding brake active.
+    /// The word with another state of: Holding brake active.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2225,7 +2225,7 @@ impl StatusWord {
         self.0 & Self::MOTOR_OVERLOAD_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Motor overload.
+    /// The word with another state of: Motor overload.
     ///
     /// `true` clears the bit.
     #[must_use]
@@ -2243,7 +2243,7 @@ impl StatusWord {
         self.0 & Self::CLOCKWISE != 0
     }
 
-    /// The same word with another state of: Clockwise.
+    /// The word with another state of: Clockwise.
     #[must_use]
     pub const fn with_clockwise(self, state: bool) -> Self {
         if state {
@@ -2261,7 +2261,7 @@ impl StatusWord {
         self.0 & Self::INVERTER_OVERLOAD_ACTIVE_LOW == 0
     }
 
-    /// The same word with another state of: Inverter overload.
+    /// The word with another state of: Inverter overload.
     ///
     /// `true` clears the bit.
     #[must_use]

@@ -90,7 +90,7 @@ pub const VERSION_PATCH: u32 = 0;
 /// The version as one number, to compare: 1.2.3 is `1_002_003`.
 pub const VERSION_NUMBER: u32 = 1_000_000;
 
-/// What the description says, as a digest.
+/// The digest of the description's facts.
 pub const DIGEST: &str = "9e5e0b55fc2b45d1d660b8c92eebef5573a92e6db50c180b1f53d6342e5bb1c9";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].

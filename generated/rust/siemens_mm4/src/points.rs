@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
+//! Points without code; the documentation says why. Those in `documented` can be reached by address, as raw words:
 //! - `display_value`, `r0000`, parameter 0000h (0)
 //! - `firmware_version`, `r0018`, parameter 0012h (18)
 //! - `output_frequency`, `r0021`, parameter 0015h (21)
@@ -22,71 +22,71 @@
 //! - `second_setpoint`, `HSW2`, telegram `task` word 0002h (2)
 //! - `second_actual_value`, `HIW2`, telegram `answer` word 0002h (2)
 
-/// Where the words are of points that are documented only: nothing says what they mean.
+/// The addresses of points whose words have no documented meaning.
 pub mod documented {
     use fieldscribe_runtime as runtime;
 
-    /// The words of `display_value`.
+    /// The address of `display_value`.
     pub const DISPLAY_VALUE: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0000, 1, None);
 
-    /// The words of `firmware_version`.
+    /// The address of `firmware_version`.
     pub const FIRMWARE_VERSION: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0012, 1, None);
 
-    /// The words of `output_frequency`.
+    /// The address of `output_frequency`.
     pub const OUTPUT_FREQUENCY: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0015, 1, None);
 
-    /// The words of `output_current`.
+    /// The address of `output_current`.
     pub const OUTPUT_CURRENT: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x001B, 1, None);
 
-    /// The words of `second_control_word_display`.
+    /// The address of `second_control_word_display`.
     pub const SECOND_CONTROL_WORD_DISPLAY: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0038, 1, None);
 
-    /// The words of `remote_local_selection_index_0`.
+    /// The address of `remote_local_selection_index_0`.
     pub const REMOTE_LOCAL_SELECTION_INDEX_0: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x02CF, 1, Some(0));
 
-    /// The words of `remote_local_selection_index_1`.
+    /// The address of `remote_local_selection_index_1`.
     pub const REMOTE_LOCAL_SELECTION_INDEX_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x02CF, 1, Some(1));
 
-    /// The words of `jog_acceleration_time`.
+    /// The address of `jog_acceleration_time`.
     pub const JOG_ACCELERATION_TIME: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0424, 1, None);
 
-    /// The words of `jog_deceleration_time`.
+    /// The address of `jog_deceleration_time`.
     pub const JOG_DECELERATION_TIME: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0425, 1, None);
 
-    /// The words of `acceleration_time`.
+    /// The address of `acceleration_time`.
     pub const ACCELERATION_TIME: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0460, 1, None);
 
-    /// The words of `deceleration_time`.
+    /// The address of `deceleration_time`.
     pub const DECELERATION_TIME: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0461, 1, None);
 
-    /// The words of `rs485_control_word_1`.
+    /// The address of `rs485_control_word_1`.
     pub const RS485_CONTROL_WORD_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x07F4, 1, None);
 
-    /// The words of `rs485_control_word_2`.
+    /// The address of `rs485_control_word_2`.
     pub const RS485_CONTROL_WORD_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x07F5, 1, None);
 
-    /// The words of `secret_password`.
+    /// The address of `secret_password`.
     pub const SECRET_PASSWORD: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0F6E, 1, None);
 
-    /// The words of `second_setpoint`.
+    /// The address of `second_setpoint`.
     pub const SECOND_SETPOINT: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0002, 1, None);
 
-    /// The words of `second_actual_value`.
+    /// The address of `second_actual_value`.
     pub const SECOND_ACTUAL_VALUE: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0002, 1, None);
 }

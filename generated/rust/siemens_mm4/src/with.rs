@@ -2,7 +2,7 @@
 // Regenerate with: fieldscribe generate siemens_mm4 --target rust
 // SPDX-License-Identifier: 0BSD
 
-//! What some points need from others: raw numbers that are read at run time.
+//! Arguments of points whose scale or limits depend on other points: the raw numbers of those, read at run time.
 
 /// Raw numbers that `main_setpoint` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

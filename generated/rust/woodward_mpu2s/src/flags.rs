@@ -4,8 +4,8 @@
 
 //! Words whose bits have names.
 //!
-//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
-//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//! Getters and `with_` functions take and return whether a flag is true, for active-low bits too. Start a word from
+//! [`ALL_FALSE`]. The constants are masks; a flag whose mask ends in `_ACTIVE_LOW` is true while its bit is 0.
 //!
 //! [`ALL_FALSE`]: DigitalInputs1To4Logic::ALL_FALSE
 
@@ -15,12 +15,12 @@ use fieldscribe_runtime::flags as runtime;
 
 /// Present fault classes.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PresentFaultClasses(pub u16);
 
 impl PresentFaultClasses {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Fault class 3.
     pub const FAULT_CLASS_3: u16 = 0x00C0;
@@ -55,7 +55,7 @@ impl PresentFaultClasses {
         (self.0 & Self::FAULT_CLASS_3) >> 6
     }
 
-    /// The same word with another number of: Fault class 3.
+    /// The word with another number of: Fault class 3.
     #[must_use]
     pub const fn with_fault_class_3(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_3;
@@ -70,7 +70,7 @@ impl PresentFaultClasses {
         (self.0 & Self::FAULT_CLASS_2) >> 4
     }
 
-    /// The same word with another number of: Fault class 2.
+    /// The word with another number of: Fault class 2.
     #[must_use]
     pub const fn with_fault_class_2(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_2;
@@ -85,7 +85,7 @@ impl PresentFaultClasses {
         (self.0 & Self::FAULT_CLASS_1) >> 2
     }
 
-    /// The same word with another number of: Fault class 1.
+    /// The word with another number of: Fault class 1.
     #[must_use]
     pub const fn with_fault_class_1(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_1;
@@ -100,7 +100,7 @@ impl PresentFaultClasses {
         self.0 & Self::FAULT_CLASS_0
     }
 
-    /// The same word with another number of: Fault class 0.
+    /// The word with another number of: Fault class 0.
     #[must_use]
     pub const fn with_fault_class_0(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_0;
@@ -162,12 +162,12 @@ impl From<PresentFaultClasses> for u16 {
 
 /// Control register 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlRegister2(pub u16);
 
 impl ControlRegister2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Terminal 3 generator breaker enable.
     pub const TERMINAL_3_GENERATOR_BREAKER_ENABLE: u16 = 0xC000;
@@ -208,7 +208,7 @@ impl ControlRegister2 {
         (self.0 & Self::TERMINAL_3_GENERATOR_BREAKER_ENABLE) >> 14
     }
 
-    /// The same word with another number of: Terminal 3 generator breaker enable.
+    /// The word with another number of: Terminal 3 generator breaker enable.
     #[must_use]
     pub const fn with_terminal_3_generator_breaker_enable(self, number: u16) -> Self {
         let mask = Self::TERMINAL_3_GENERATOR_BREAKER_ENABLE;
@@ -223,7 +223,7 @@ impl ControlRegister2 {
         (self.0 & Self::TERMINAL_5_GENERATOR_BREAKER_CLOSED) >> 12
     }
 
-    /// The same word with another number of: Terminal 5 generator breaker closed.
+    /// The word with another number of: Terminal 5 generator breaker closed.
     #[must_use]
     pub const fn with_terminal_5_generator_breaker_closed(self, number: u16) -> Self {
         let mask = Self::TERMINAL_5_GENERATOR_BREAKER_CLOSED;
@@ -238,7 +238,7 @@ impl ControlRegister2 {
         (self.0 & Self::TERMINAL_4_BREAKER_OPEN) >> 6
     }
 
-    /// The same word with another number of: Terminal 4 breaker open.
+    /// The word with another number of: Terminal 4 breaker open.
     #[must_use]
     pub const fn with_terminal_4_breaker_open(self, number: u16) -> Self {
         let mask = Self::TERMINAL_4_BREAKER_OPEN;
@@ -253,7 +253,7 @@ impl ControlRegister2 {
         (self.0 & Self::TERMINAL_54_MAINS_PARALLEL) >> 4
     }
 
-    /// The same word with another number of: Terminal 54 mains parallel.
+    /// The word with another number of: Terminal 54 mains parallel.
     #[must_use]
     pub const fn with_terminal_54_mains_parallel(self, number: u16) -> Self {
         let mask = Self::TERMINAL_54_MAINS_PARALLEL;
@@ -268,7 +268,7 @@ impl ControlRegister2 {
         (self.0 & Self::TERMINAL_6_SYNCHRONISATION_ON) >> 2
     }
 
-    /// The same word with another number of: Terminal 6 synchronisation on.
+    /// The word with another number of: Terminal 6 synchronisation on.
     #[must_use]
     pub const fn with_terminal_6_synchronisation_on(self, number: u16) -> Self {
         let mask = Self::TERMINAL_6_SYNCHRONISATION_ON;
@@ -332,12 +332,12 @@ impl From<ControlRegister2> for u16 {
 
 /// Control register 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlRegister1(pub u16);
 
 impl ControlRegister1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Acknowledge f2 f3.
     pub const ACKNOWLEDGE_F2_F3: u16 = 0x0C00;
@@ -360,7 +360,7 @@ impl ControlRegister1 {
         (self.0 & Self::ACKNOWLEDGE_F2_F3) >> 10
     }
 
-    /// The same word with another number of: Acknowledge f2 f3.
+    /// The word with another number of: Acknowledge f2 f3.
     #[must_use]
     pub const fn with_acknowledge_f2_f3(self, number: u16) -> Self {
         let mask = Self::ACKNOWLEDGE_F2_F3;
@@ -375,7 +375,7 @@ impl ControlRegister1 {
         (self.0 & Self::ACKNOWLEDGE_F1) >> 8
     }
 
-    /// The same word with another number of: Acknowledge f1.
+    /// The word with another number of: Acknowledge f1.
     #[must_use]
     pub const fn with_acknowledge_f1(self, number: u16) -> Self {
         let mask = Self::ACKNOWLEDGE_F1;
@@ -433,12 +433,12 @@ impl From<ControlRegister1> for u16 {
 
 /// Internal faults 8.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults8(pub u16);
 
 impl InternalFaults8 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Generator overfrequency stage 2.
     pub const GENERATOR_OVERFREQUENCY_STAGE_2: u16 = 0x8000;
@@ -459,7 +459,7 @@ impl InternalFaults8 {
         self.0 & Self::GENERATOR_OVERFREQUENCY_STAGE_2 != 0
     }
 
-    /// The same word with another state of: Generator overfrequency stage 2.
+    /// The word with another state of: Generator overfrequency stage 2.
     #[must_use]
     pub const fn with_generator_overfrequency_stage_2(self, state: bool) -> Self {
         if state {
@@ -475,7 +475,7 @@ impl InternalFaults8 {
         self.0 & Self::GENERATOR_UNDERFREQUENCY_STAGE_2 != 0
     }
 
-    /// The same word with another state of: Generator underfrequency stage 2.
+    /// The word with another state of: Generator underfrequency stage 2.
     #[must_use]
     pub const fn with_generator_underfrequency_stage_2(self, state: bool) -> Self {
         if state {
@@ -491,7 +491,7 @@ impl InternalFaults8 {
         self.0 & Self::GENERATOR_OVERVOLTAGE_STAGE_2 != 0
     }
 
-    /// The same word with another state of: Generator overvoltage stage 2.
+    /// The word with another state of: Generator overvoltage stage 2.
     #[must_use]
     pub const fn with_generator_overvoltage_stage_2(self, state: bool) -> Self {
         if state {
@@ -507,7 +507,7 @@ impl InternalFaults8 {
         self.0 & Self::GENERATOR_UNDERVOLTAGE_STAGE_2 != 0
     }
 
-    /// The same word with another state of: Generator undervoltage stage 2.
+    /// The word with another state of: Generator undervoltage stage 2.
     #[must_use]
     pub const fn with_generator_undervoltage_stage_2(self, state: bool) -> Self {
         if state {
@@ -523,7 +523,7 @@ impl InternalFaults8 {
         self.0 & Self::REACTIVE_POWER_INDUCTIVE != 0
     }
 
-    /// The same word with another state of: Reactive power inductive.
+    /// The word with another state of: Reactive power inductive.
     #[must_use]
     pub const fn with_reactive_power_inductive(self, state: bool) -> Self {
         if state {
@@ -539,7 +539,7 @@ impl InternalFaults8 {
         self.0 & Self::REACTIVE_POWER_CAPACITIVE != 0
     }
 
-    /// The same word with another state of: Reactive power capacitive.
+    /// The word with another state of: Reactive power capacitive.
     #[must_use]
     pub const fn with_reactive_power_capacitive(self, state: bool) -> Self {
         if state {
@@ -600,12 +600,12 @@ impl From<InternalFaults8> for u16 {
 
 /// Internal faults 6.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults6(pub u16);
 
 impl InternalFaults6 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Analog input 8 wire break.
     pub const ANALOG_INPUT_8_WIRE_BREAK: u16 = 0x0080;
@@ -630,7 +630,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_8_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 8 wire break.
+    /// The word with another state of: Analog input 8 wire break.
     #[must_use]
     pub const fn with_analog_input_8_wire_break(self, state: bool) -> Self {
         if state {
@@ -646,7 +646,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_7_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 7 wire break.
+    /// The word with another state of: Analog input 7 wire break.
     #[must_use]
     pub const fn with_analog_input_7_wire_break(self, state: bool) -> Self {
         if state {
@@ -662,7 +662,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_6_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 6 wire break.
+    /// The word with another state of: Analog input 6 wire break.
     #[must_use]
     pub const fn with_analog_input_6_wire_break(self, state: bool) -> Self {
         if state {
@@ -678,7 +678,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_5_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 5 wire break.
+    /// The word with another state of: Analog input 5 wire break.
     #[must_use]
     pub const fn with_analog_input_5_wire_break(self, state: bool) -> Self {
         if state {
@@ -694,7 +694,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_4_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 4 wire break.
+    /// The word with another state of: Analog input 4 wire break.
     #[must_use]
     pub const fn with_analog_input_4_wire_break(self, state: bool) -> Self {
         if state {
@@ -710,7 +710,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_3_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 3 wire break.
+    /// The word with another state of: Analog input 3 wire break.
     #[must_use]
     pub const fn with_analog_input_3_wire_break(self, state: bool) -> Self {
         if state {
@@ -726,7 +726,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_2_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 2 wire break.
+    /// The word with another state of: Analog input 2 wire break.
     #[must_use]
     pub const fn with_analog_input_2_wire_break(self, state: bool) -> Self {
         if state {
@@ -742,7 +742,7 @@ impl InternalFaults6 {
         self.0 & Self::ANALOG_INPUT_1_WIRE_BREAK != 0
     }
 
-    /// The same word with another state of: Analog input 1 wire break.
+    /// The word with another state of: Analog input 1 wire break.
     #[must_use]
     pub const fn with_analog_input_1_wire_break(self, state: bool) -> Self {
         if state {
@@ -805,12 +805,12 @@ impl From<InternalFaults6> for u16 {
 
 /// Internal faults 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults1(pub u16);
 
 impl InternalFaults1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Generator overfrequency 1.
     pub const GENERATOR_OVERFREQUENCY_1: u16 = 0xC000;
@@ -863,7 +863,7 @@ impl InternalFaults1 {
         (self.0 & Self::GENERATOR_OVERFREQUENCY_1) >> 14
     }
 
-    /// The same word with another number of: Generator overfrequency 1.
+    /// The word with another number of: Generator overfrequency 1.
     #[must_use]
     pub const fn with_generator_overfrequency_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERFREQUENCY_1;
@@ -878,7 +878,7 @@ impl InternalFaults1 {
         (self.0 & Self::GENERATOR_UNDERFREQUENCY_1) >> 12
     }
 
-    /// The same word with another number of: Generator underfrequency 1.
+    /// The word with another number of: Generator underfrequency 1.
     #[must_use]
     pub const fn with_generator_underfrequency_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_UNDERFREQUENCY_1;
@@ -893,7 +893,7 @@ impl InternalFaults1 {
         (self.0 & Self::GENERATOR_OVERVOLTAGE_1) >> 10
     }
 
-    /// The same word with another number of: Generator overvoltage 1.
+    /// The word with another number of: Generator overvoltage 1.
     #[must_use]
     pub const fn with_generator_overvoltage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERVOLTAGE_1;
@@ -908,7 +908,7 @@ impl InternalFaults1 {
         (self.0 & Self::GENERATOR_UNDERVOLTAGE_1) >> 8
     }
 
-    /// The same word with another number of: Generator undervoltage 1.
+    /// The word with another number of: Generator undervoltage 1.
     #[must_use]
     pub const fn with_generator_undervoltage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_UNDERVOLTAGE_1;
@@ -923,7 +923,7 @@ impl InternalFaults1 {
         (self.0 & Self::BATTERY_UNDERVOLTAGE) >> 4
     }
 
-    /// The same word with another number of: Battery undervoltage.
+    /// The word with another number of: Battery undervoltage.
     #[must_use]
     pub const fn with_battery_undervoltage(self, number: u16) -> Self {
         let mask = Self::BATTERY_UNDERVOLTAGE;
@@ -938,7 +938,7 @@ impl InternalFaults1 {
         (self.0 & Self::OVERLOAD) >> 2
     }
 
-    /// The same word with another number of: Overload.
+    /// The word with another number of: Overload.
     #[must_use]
     pub const fn with_overload(self, number: u16) -> Self {
         let mask = Self::OVERLOAD;
@@ -953,7 +953,7 @@ impl InternalFaults1 {
         self.0 & Self::REVERSE_POWER
     }
 
-    /// The same word with another number of: Reverse power.
+    /// The word with another number of: Reverse power.
     #[must_use]
     pub const fn with_reverse_power(self, number: u16) -> Self {
         let mask = Self::REVERSE_POWER;
@@ -1021,12 +1021,12 @@ impl From<InternalFaults1> for u16 {
 
 /// Internal faults 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults2(pub u16);
 
 impl InternalFaults2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Mains overfrequency.
     pub const MAINS_OVERFREQUENCY: u16 = 0xC000;
@@ -1079,7 +1079,7 @@ impl InternalFaults2 {
         (self.0 & Self::MAINS_OVERFREQUENCY) >> 14
     }
 
-    /// The same word with another number of: Mains overfrequency.
+    /// The word with another number of: Mains overfrequency.
     #[must_use]
     pub const fn with_mains_overfrequency(self, number: u16) -> Self {
         let mask = Self::MAINS_OVERFREQUENCY;
@@ -1094,7 +1094,7 @@ impl InternalFaults2 {
         (self.0 & Self::MAINS_UNDERFREQUENCY) >> 12
     }
 
-    /// The same word with another number of: Mains underfrequency.
+    /// The word with another number of: Mains underfrequency.
     #[must_use]
     pub const fn with_mains_underfrequency(self, number: u16) -> Self {
         let mask = Self::MAINS_UNDERFREQUENCY;
@@ -1109,7 +1109,7 @@ impl InternalFaults2 {
         (self.0 & Self::MAINS_OVERVOLTAGE) >> 10
     }
 
-    /// The same word with another number of: Mains overvoltage.
+    /// The word with another number of: Mains overvoltage.
     #[must_use]
     pub const fn with_mains_overvoltage(self, number: u16) -> Self {
         let mask = Self::MAINS_OVERVOLTAGE;
@@ -1124,7 +1124,7 @@ impl InternalFaults2 {
         (self.0 & Self::MAINS_UNDERVOLTAGE) >> 8
     }
 
-    /// The same word with another number of: Mains undervoltage.
+    /// The word with another number of: Mains undervoltage.
     #[must_use]
     pub const fn with_mains_undervoltage(self, number: u16) -> Self {
         let mask = Self::MAINS_UNDERVOLTAGE;
@@ -1139,7 +1139,7 @@ impl InternalFaults2 {
         (self.0 & Self::INTERFACE_X1_X5_FAULT) >> 6
     }
 
-    /// The same word with another number of: Interface x1 x5 fault.
+    /// The word with another number of: Interface x1 x5 fault.
     #[must_use]
     pub const fn with_interface_x1_x5_fault(self, number: u16) -> Self {
         let mask = Self::INTERFACE_X1_X5_FAULT;
@@ -1154,7 +1154,7 @@ impl InternalFaults2 {
         (self.0 & Self::FREQUENCY_GRADIENT_FAULT) >> 2
     }
 
-    /// The same word with another number of: Frequency gradient fault.
+    /// The word with another number of: Frequency gradient fault.
     #[must_use]
     pub const fn with_frequency_gradient_fault(self, number: u16) -> Self {
         let mask = Self::FREQUENCY_GRADIENT_FAULT;
@@ -1169,7 +1169,7 @@ impl InternalFaults2 {
         self.0 & Self::PHASE_SHIFT
     }
 
-    /// The same word with another number of: Phase shift.
+    /// The word with another number of: Phase shift.
     #[must_use]
     pub const fn with_phase_shift(self, number: u16) -> Self {
         let mask = Self::PHASE_SHIFT;
@@ -1237,12 +1237,12 @@ impl From<InternalFaults2> for u16 {
 
 /// Internal faults 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults3(pub u16);
 
 impl InternalFaults3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Generator overcurrent stage 1.
     pub const GENERATOR_OVERCURRENT_STAGE_1: u16 = 0xC000;
@@ -1283,7 +1283,7 @@ impl InternalFaults3 {
         (self.0 & Self::GENERATOR_OVERCURRENT_STAGE_1) >> 14
     }
 
-    /// The same word with another number of: Generator overcurrent stage 1.
+    /// The word with another number of: Generator overcurrent stage 1.
     #[must_use]
     pub const fn with_generator_overcurrent_stage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERCURRENT_STAGE_1;
@@ -1298,7 +1298,7 @@ impl InternalFaults3 {
         (self.0 & Self::UNBALANCED_LOAD) >> 8
     }
 
-    /// The same word with another number of: Unbalanced load.
+    /// The word with another number of: Unbalanced load.
     #[must_use]
     pub const fn with_unbalanced_load(self, number: u16) -> Self {
         let mask = Self::UNBALANCED_LOAD;
@@ -1313,7 +1313,7 @@ impl InternalFaults3 {
         (self.0 & Self::GENERATOR_OVERCURRENT_STAGE_2) >> 6
     }
 
-    /// The same word with another number of: Generator overcurrent stage 2.
+    /// The word with another number of: Generator overcurrent stage 2.
     #[must_use]
     pub const fn with_generator_overcurrent_stage_2(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERCURRENT_STAGE_2;
@@ -1328,7 +1328,7 @@ impl InternalFaults3 {
         (self.0 & Self::INTERFACE_Y1_Y5_FAULT) >> 4
     }
 
-    /// The same word with another number of: Interface y1 y5 fault.
+    /// The word with another number of: Interface y1 y5 fault.
     #[must_use]
     pub const fn with_interface_y1_y5_fault(self, number: u16) -> Self {
         let mask = Self::INTERFACE_Y1_Y5_FAULT;
@@ -1343,7 +1343,7 @@ impl InternalFaults3 {
         (self.0 & Self::MAINTENANCE_CALL) >> 2
     }
 
-    /// The same word with another number of: Maintenance call.
+    /// The word with another number of: Maintenance call.
     #[must_use]
     pub const fn with_maintenance_call(self, number: u16) -> Self {
         let mask = Self::MAINTENANCE_CALL;
@@ -1407,12 +1407,12 @@ impl From<InternalFaults3> for u16 {
 
 /// Internal faults 4.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults4(pub u16);
 
 impl InternalFaults4 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Analog input 1 stage 1.
     pub const ANALOG_INPUT_1_STAGE_1: u16 = 0xC000;
@@ -1471,7 +1471,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_1_STAGE_1) >> 14
     }
 
-    /// The same word with another number of: Analog input 1 stage 1.
+    /// The word with another number of: Analog input 1 stage 1.
     #[must_use]
     pub const fn with_analog_input_1_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_1_STAGE_1;
@@ -1486,7 +1486,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_1_STAGE_2) >> 12
     }
 
-    /// The same word with another number of: Analog input 1 stage 2.
+    /// The word with another number of: Analog input 1 stage 2.
     #[must_use]
     pub const fn with_analog_input_1_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_1_STAGE_2;
@@ -1501,7 +1501,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_2_STAGE_1) >> 10
     }
 
-    /// The same word with another number of: Analog input 2 stage 1.
+    /// The word with another number of: Analog input 2 stage 1.
     #[must_use]
     pub const fn with_analog_input_2_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_2_STAGE_1;
@@ -1516,7 +1516,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_2_STAGE_2) >> 8
     }
 
-    /// The same word with another number of: Analog input 2 stage 2.
+    /// The word with another number of: Analog input 2 stage 2.
     #[must_use]
     pub const fn with_analog_input_2_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_2_STAGE_2;
@@ -1531,7 +1531,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_3_STAGE_1) >> 6
     }
 
-    /// The same word with another number of: Analog input 3 stage 1.
+    /// The word with another number of: Analog input 3 stage 1.
     #[must_use]
     pub const fn with_analog_input_3_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_3_STAGE_1;
@@ -1546,7 +1546,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_3_STAGE_2) >> 4
     }
 
-    /// The same word with another number of: Analog input 3 stage 2.
+    /// The word with another number of: Analog input 3 stage 2.
     #[must_use]
     pub const fn with_analog_input_3_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_3_STAGE_2;
@@ -1561,7 +1561,7 @@ impl InternalFaults4 {
         (self.0 & Self::ANALOG_INPUT_4_STAGE_1) >> 2
     }
 
-    /// The same word with another number of: Analog input 4 stage 1.
+    /// The word with another number of: Analog input 4 stage 1.
     #[must_use]
     pub const fn with_analog_input_4_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_4_STAGE_1;
@@ -1576,7 +1576,7 @@ impl InternalFaults4 {
         self.0 & Self::ANALOG_INPUT_4_STAGE_2
     }
 
-    /// The same word with another number of: Analog input 4 stage 2.
+    /// The word with another number of: Analog input 4 stage 2.
     #[must_use]
     pub const fn with_analog_input_4_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_4_STAGE_2;
@@ -1646,12 +1646,12 @@ impl From<InternalFaults4> for u16 {
 
 /// Internal faults 5.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults5(pub u16);
 
 impl InternalFaults5 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Analog input 5 stage 1.
     pub const ANALOG_INPUT_5_STAGE_1: u16 = 0xC000;
@@ -1710,7 +1710,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_5_STAGE_1) >> 14
     }
 
-    /// The same word with another number of: Analog input 5 stage 1.
+    /// The word with another number of: Analog input 5 stage 1.
     #[must_use]
     pub const fn with_analog_input_5_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_5_STAGE_1;
@@ -1725,7 +1725,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_5_STAGE_2) >> 12
     }
 
-    /// The same word with another number of: Analog input 5 stage 2.
+    /// The word with another number of: Analog input 5 stage 2.
     #[must_use]
     pub const fn with_analog_input_5_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_5_STAGE_2;
@@ -1740,7 +1740,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_6_STAGE_1) >> 10
     }
 
-    /// The same word with another number of: Analog input 6 stage 1.
+    /// The word with another number of: Analog input 6 stage 1.
     #[must_use]
     pub const fn with_analog_input_6_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_6_STAGE_1;
@@ -1755,7 +1755,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_6_STAGE_2) >> 8
     }
 
-    /// The same word with another number of: Analog input 6 stage 2.
+    /// The word with another number of: Analog input 6 stage 2.
     #[must_use]
     pub const fn with_analog_input_6_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_6_STAGE_2;
@@ -1770,7 +1770,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_7_STAGE_1) >> 6
     }
 
-    /// The same word with another number of: Analog input 7 stage 1.
+    /// The word with another number of: Analog input 7 stage 1.
     #[must_use]
     pub const fn with_analog_input_7_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_7_STAGE_1;
@@ -1785,7 +1785,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_7_STAGE_2) >> 4
     }
 
-    /// The same word with another number of: Analog input 7 stage 2.
+    /// The word with another number of: Analog input 7 stage 2.
     #[must_use]
     pub const fn with_analog_input_7_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_7_STAGE_2;
@@ -1800,7 +1800,7 @@ impl InternalFaults5 {
         (self.0 & Self::ANALOG_INPUT_8_STAGE_1) >> 2
     }
 
-    /// The same word with another number of: Analog input 8 stage 1.
+    /// The word with another number of: Analog input 8 stage 1.
     #[must_use]
     pub const fn with_analog_input_8_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_8_STAGE_1;
@@ -1815,7 +1815,7 @@ impl InternalFaults5 {
         self.0 & Self::ANALOG_INPUT_8_STAGE_2
     }
 
-    /// The same word with another number of: Analog input 8 stage 2.
+    /// The word with another number of: Analog input 8 stage 2.
     #[must_use]
     pub const fn with_analog_input_8_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_8_STAGE_2;
@@ -1885,12 +1885,12 @@ impl From<InternalFaults5> for u16 {
 
 /// Digital input faults 1 to 8.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputFaults1To8(pub u16);
 
 impl DigitalInputFaults1To8 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Digital input 1.
     pub const DIGITAL_INPUT_1: u16 = 0xC000;
@@ -1949,7 +1949,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_1) >> 14
     }
 
-    /// The same word with another number of: Digital input 1.
+    /// The word with another number of: Digital input 1.
     #[must_use]
     pub const fn with_digital_input_1(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_1;
@@ -1964,7 +1964,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_2) >> 12
     }
 
-    /// The same word with another number of: Digital input 2.
+    /// The word with another number of: Digital input 2.
     #[must_use]
     pub const fn with_digital_input_2(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_2;
@@ -1979,7 +1979,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_3) >> 10
     }
 
-    /// The same word with another number of: Digital input 3.
+    /// The word with another number of: Digital input 3.
     #[must_use]
     pub const fn with_digital_input_3(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_3;
@@ -1994,7 +1994,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_4) >> 8
     }
 
-    /// The same word with another number of: Digital input 4.
+    /// The word with another number of: Digital input 4.
     #[must_use]
     pub const fn with_digital_input_4(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_4;
@@ -2009,7 +2009,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_5) >> 6
     }
 
-    /// The same word with another number of: Digital input 5.
+    /// The word with another number of: Digital input 5.
     #[must_use]
     pub const fn with_digital_input_5(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_5;
@@ -2024,7 +2024,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_6) >> 4
     }
 
-    /// The same word with another number of: Digital input 6.
+    /// The word with another number of: Digital input 6.
     #[must_use]
     pub const fn with_digital_input_6(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_6;
@@ -2039,7 +2039,7 @@ impl DigitalInputFaults1To8 {
         (self.0 & Self::DIGITAL_INPUT_7) >> 2
     }
 
-    /// The same word with another number of: Digital input 7.
+    /// The word with another number of: Digital input 7.
     #[must_use]
     pub const fn with_digital_input_7(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_7;
@@ -2054,7 +2054,7 @@ impl DigitalInputFaults1To8 {
         self.0 & Self::DIGITAL_INPUT_8
     }
 
-    /// The same word with another number of: Digital input 8.
+    /// The word with another number of: Digital input 8.
     #[must_use]
     pub const fn with_digital_input_8(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_8;
@@ -2124,12 +2124,12 @@ impl From<DigitalInputFaults1To8> for u16 {
 
 /// Digital input faults 9 to 16.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputFaults9To16(pub u16);
 
 impl DigitalInputFaults9To16 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Digital input 9.
     pub const DIGITAL_INPUT_9: u16 = 0xC000;
@@ -2188,7 +2188,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_9) >> 14
     }
 
-    /// The same word with another number of: Digital input 9.
+    /// The word with another number of: Digital input 9.
     #[must_use]
     pub const fn with_digital_input_9(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_9;
@@ -2203,7 +2203,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_10) >> 12
     }
 
-    /// The same word with another number of: Digital input 10.
+    /// The word with another number of: Digital input 10.
     #[must_use]
     pub const fn with_digital_input_10(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_10;
@@ -2218,7 +2218,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_11) >> 10
     }
 
-    /// The same word with another number of: Digital input 11.
+    /// The word with another number of: Digital input 11.
     #[must_use]
     pub const fn with_digital_input_11(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_11;
@@ -2233,7 +2233,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_12) >> 8
     }
 
-    /// The same word with another number of: Digital input 12.
+    /// The word with another number of: Digital input 12.
     #[must_use]
     pub const fn with_digital_input_12(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_12;
@@ -2248,7 +2248,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_13) >> 6
     }
 
-    /// The same word with another number of: Digital input 13.
+    /// The word with another number of: Digital input 13.
     #[must_use]
     pub const fn with_digital_input_13(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_13;
@@ -2263,7 +2263,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_14) >> 4
     }
 
-    /// The same word with another number of: Digital input 14.
+    /// The word with another number of: Digital input 14.
     #[must_use]
     pub const fn with_digital_input_14(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_14;
@@ -2278,7 +2278,7 @@ impl DigitalInputFaults9To16 {
         (self.0 & Self::DIGITAL_INPUT_15) >> 2
     }
 
-    /// The same word with another number of: Digital input 15.
+    /// The word with another number of: Digital input 15.
     #[must_use]
     pub const fn with_digital_input_15(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_15;
@@ -2293,7 +2293,7 @@ impl DigitalInputFaults9To16 {
         self.0 & Self::DIGITAL_INPUT_16
     }
 
-    /// The same word with another number of: Digital input 16.
+    /// The word with another number of: Digital input 16.
     #[must_use]
     pub const fn with_digital_input_16(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_16;
@@ -2363,12 +2363,12 @@ impl From<DigitalInputFaults9To16> for u16 {
 
 /// Internal faults 7.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults7(pub u16);
 
 impl InternalFaults7 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Earth fault.
     pub const EARTH_FAULT: u16 = 0x2000;
@@ -2381,7 +2381,7 @@ impl InternalFaults7 {
         self.0 & Self::EARTH_FAULT != 0
     }
 
-    /// The same word with another state of: Earth fault.
+    /// The word with another state of: Earth fault.
     #[must_use]
     pub const fn with_earth_fault(self, state: bool) -> Self {
         if state {
@@ -2397,7 +2397,7 @@ impl InternalFaults7 {
         self.0 & Self::OVERCURRENT_INVERSE_TIME != 0
     }
 
-    /// The same word with another state of: Overcurrent inverse time.
+    /// The word with another state of: Overcurrent inverse time.
     #[must_use]
     pub const fn with_overcurrent_inverse_time(self, state: bool) -> Self {
         if state {
@@ -2454,12 +2454,12 @@ impl From<InternalFaults7> for u16 {
 
 /// Digital inputs 1 to 4 logic.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs1To4Logic(pub u8);
 
 impl DigitalInputs1To4Logic {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u8 = 0x08;
@@ -2476,7 +2476,7 @@ impl DigitalInputs1To4Logic {
         self.0 & Self::INPUT_1 != 0
     }
 
-    /// The same word with another state of: Input 1.
+    /// The word with another state of: Input 1.
     #[must_use]
     pub const fn with_input_1(self, state: bool) -> Self {
         if state {
@@ -2492,7 +2492,7 @@ impl DigitalInputs1To4Logic {
         self.0 & Self::INPUT_2 != 0
     }
 
-    /// The same word with another state of: Input 2.
+    /// The word with another state of: Input 2.
     #[must_use]
     pub const fn with_input_2(self, state: bool) -> Self {
         if state {
@@ -2508,7 +2508,7 @@ impl DigitalInputs1To4Logic {
         self.0 & Self::INPUT_3 != 0
     }
 
-    /// The same word with another state of: Input 3.
+    /// The word with another state of: Input 3.
     #[must_use]
     pub const fn with_input_3(self, state: bool) -> Self {
         if state {
@@ -2524,7 +2524,7 @@ impl DigitalInputs1To4Logic {
         self.0 & Self::INPUT_4 != 0
     }
 
-    /// The same word with another state of: Input 4.
+    /// The word with another state of: Input 4.
     #[must_use]
     pub const fn with_input_4(self, state: bool) -> Self {
         if state {
@@ -2583,12 +2583,12 @@ impl From<DigitalInputs1To4Logic> for u8 {
 
 /// Digital inputs 1 to 4 engine delay.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs1To4EngineDelay(pub u8);
 
 impl DigitalInputs1To4EngineDelay {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u8 = 0x08;
@@ -2605,7 +2605,7 @@ impl DigitalInputs1To4EngineDelay {
         self.0 & Self::INPUT_1 != 0
     }
 
-    /// The same word with another state of: Input 1.
+    /// The word with another state of: Input 1.
     #[must_use]
     pub const fn with_input_1(self, state: bool) -> Self {
         if state {
@@ -2621,7 +2621,7 @@ impl DigitalInputs1To4EngineDelay {
         self.0 & Self::INPUT_2 != 0
     }
 
-    /// The same word with another state of: Input 2.
+    /// The word with another state of: Input 2.
     #[must_use]
     pub const fn with_input_2(self, state: bool) -> Self {
         if state {
@@ -2637,7 +2637,7 @@ impl DigitalInputs1To4EngineDelay {
         self.0 & Self::INPUT_3 != 0
     }
 
-    /// The same word with another state of: Input 3.
+    /// The word with another state of: Input 3.
     #[must_use]
     pub const fn with_input_3(self, state: bool) -> Self {
         if state {
@@ -2653,7 +2653,7 @@ impl DigitalInputs1To4EngineDelay {
         self.0 & Self::INPUT_4 != 0
     }
 
-    /// The same word with another state of: Input 4.
+    /// The word with another state of: Input 4.
     #[must_use]
     pub const fn with_input_4(self, state: bool) -> Self {
         if state {
@@ -2712,12 +2712,12 @@ impl From<DigitalInputs1To4EngineDelay> for u8 {
 
 /// Digital inputs 5 to 8 logic.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs5To8Logic(pub u8);
 
 impl DigitalInputs5To8Logic {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 5.
     pub const INPUT_5: u8 = 0x08;
@@ -2734,7 +2734,7 @@ impl DigitalInputs5To8Logic {
         self.0 & Self::INPUT_5 != 0
     }
 
-    /// The same word with another state of: Input 5.
+    /// The word with another state of: Input 5.
     #[must_use]
     pub const fn with_input_5(self, state: bool) -> Self {
         if state {
@@ -2750,7 +2750,7 @@ impl DigitalInputs5To8Logic {
         self.0 & Self::INPUT_6 != 0
     }
 
-    /// The same word with another state of: Input 6.
+    /// The word with another state of: Input 6.
     #[must_use]
     pub const fn with_input_6(self, state: bool) -> Self {
         if state {
@@ -2766,7 +2766,7 @@ impl DigitalInputs5To8Logic {
         self.0 & Self::INPUT_7 != 0
     }
 
-    /// The same word with another state of: Input 7.
+    /// The word with another state of: Input 7.
     #[must_use]
     pub const fn with_input_7(self, state: bool) -> Self {
         if state {
@@ -2782,7 +2782,7 @@ impl DigitalInputs5To8Logic {
         self.0 & Self::INPUT_8 != 0
     }
 
-    /// The same word with another state of: Input 8.
+    /// The word with another state of: Input 8.
     #[must_use]
     pub const fn with_input_8(self, state: bool) -> Self {
         if state {
@@ -2841,12 +2841,12 @@ impl From<DigitalInputs5To8Logic> for u8 {
 
 /// Digital inputs 5 to 8 engine delay.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs5To8EngineDelay(pub u8);
 
 impl DigitalInputs5To8EngineDelay {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 5.
     pub const INPUT_5: u8 = 0x08;
@@ -2863,7 +2863,7 @@ impl DigitalInputs5To8EngineDelay {
         self.0 & Self::INPUT_5 != 0
     }
 
-    /// The same word with another state of: Input 5.
+    /// The word with another state of: Input 5.
     #[must_use]
     pub const fn with_input_5(self, state: bool) -> Self {
         if state {
@@ -2879,7 +2879,7 @@ impl DigitalInputs5To8EngineDelay {
         self.0 & Self::INPUT_6 != 0
     }
 
-    /// The same word with another state of: Input 6.
+    /// The word with another state of: Input 6.
     #[must_use]
     pub const fn with_input_6(self, state: bool) -> Self {
         if state {
@@ -2895,7 +2895,7 @@ impl DigitalInputs5To8EngineDelay {
         self.0 & Self::INPUT_7 != 0
     }
 
-    /// The same word with another state of: Input 7.
+    /// The word with another state of: Input 7.
     #[must_use]
     pub const fn with_input_7(self, state: bool) -> Self {
         if state {
@@ -2911,7 +2911,7 @@ impl DigitalInputs5To8EngineDelay {
         self.0 & Self::INPUT_8 != 0
     }
 
-    /// The same word with another state of: Input 8.
+    /// The word with another state of: Input 8.
     #[must_use]
     pub const fn with_input_8(self, state: bool) -> Self {
         if state {
@@ -2970,12 +2970,12 @@ impl From<DigitalInputs5To8EngineDelay> for u8 {
 
 /// Digital inputs 9 to 12 logic.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs9To12Logic(pub u8);
 
 impl DigitalInputs9To12Logic {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 9.
     pub const INPUT_9: u8 = 0x08;
@@ -2992,7 +2992,7 @@ impl DigitalInputs9To12Logic {
         self.0 & Self::INPUT_9 != 0
     }
 
-    /// The same word with another state of: Input 9.
+    /// The word with another state of: Input 9.
     #[must_use]
     pub const fn with_input_9(self, state: bool) -> Self {
         if state {
@@ -3008,7 +3008,7 @@ impl DigitalInputs9To12Logic {
         self.0 & Self::INPUT_10 != 0
     }
 
-    /// The same word with another state of: Input 10.
+    /// The word with another state of: Input 10.
     #[must_use]
     pub const fn with_input_10(self, state: bool) -> Self {
         if state {
@@ -3024,7 +3024,7 @@ impl DigitalInputs9To12Logic {
         self.0 & Self::INPUT_11 != 0
     }
 
-    /// The same word with another state of: Input 11.
+    /// The word with another state of: Input 11.
     #[must_use]
     pub const fn with_input_11(self, state: bool) -> Self {
         if state {
@@ -3040,7 +3040,7 @@ impl DigitalInputs9To12Logic {
         self.0 & Self::INPUT_12 != 0
     }
 
-    /// The same word with another state of: Input 12.
+    /// The word with another state of: Input 12.
     #[must_use]
     pub const fn with_input_12(self, state: bool) -> Self {
         if state {
@@ -3099,12 +3099,12 @@ impl From<DigitalInputs9To12Logic> for u8 {
 
 /// Digital inputs 9 to 12 engine delay.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs9To12EngineDelay(pub u8);
 
 impl DigitalInputs9To12EngineDelay {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 9.
     pub const INPUT_9: u8 = 0x08;
@@ -3121,7 +3121,7 @@ impl DigitalInputs9To12EngineDelay {
         self.0 & Self::INPUT_9 != 0
     }
 
-    /// The same word with another state of: Input 9.
+    /// The word with another state of: Input 9.
     #[must_use]
     pub const fn with_input_9(self, state: bool) -> Self {
         if state {
@@ -3137,7 +3137,7 @@ impl DigitalInputs9To12EngineDelay {
         self.0 & Self::INPUT_10 != 0
     }
 
-    /// The same word with another state of: Input 10.
+    /// The word with another state of: Input 10.
     #[must_use]
     pub const fn with_input_10(self, state: bool) -> Self {
         if state {
@@ -3153,7 +3153,7 @@ impl DigitalInputs9To12EngineDelay {
         self.0 & Self::INPUT_11 != 0
     }
 
-    /// The same word with another state of: Input 11.
+    /// The word with another state of: Input 11.
     #[must_use]
     pub const fn with_input_11(self, state: bool) -> Self {
         if state {
@@ -3169,7 +3169,7 @@ impl DigitalInputs9To12EngineDelay {
         self.0 & Self::INPUT_12 != 0
     }
 
-    /// The same word with another state of: Input 12.
+    /// The word with another state of: Input 12.
     #[must_use]
     pub const fn with_input_12(self, state: bool) -> Self {
         if state {
@@ -3228,12 +3228,12 @@ impl From<DigitalInputs9To12EngineDelay> for u8 {
 
 /// Relay 1 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic1(pub u8);
 
 impl Relay1Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3248,7 +3248,7 @@ impl Relay1Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3264,7 +3264,7 @@ impl Relay1Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3280,7 +3280,7 @@ impl Relay1Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3338,12 +3338,12 @@ impl From<Relay1Logic1> for u8 {
 
 /// Relay 1 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic2(pub u8);
 
 impl Relay1Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3358,7 +3358,7 @@ impl Relay1Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3374,7 +3374,7 @@ impl Relay1Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3390,7 +3390,7 @@ impl Relay1Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3448,12 +3448,12 @@ impl From<Relay1Logic2> for u8 {
 
 /// Relay 1 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic3(pub u8);
 
 impl Relay1Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3468,7 +3468,7 @@ impl Relay1Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3484,7 +3484,7 @@ impl Relay1Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3500,7 +3500,7 @@ impl Relay1Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3558,12 +3558,12 @@ impl From<Relay1Logic3> for u8 {
 
 /// Relay 2 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic1(pub u8);
 
 impl Relay2Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3578,7 +3578,7 @@ impl Relay2Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3594,7 +3594,7 @@ impl Relay2Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3610,7 +3610,7 @@ impl Relay2Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3668,12 +3668,12 @@ impl From<Relay2Logic1> for u8 {
 
 /// Relay 2 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic2(pub u8);
 
 impl Relay2Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3688,7 +3688,7 @@ impl Relay2Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3704,7 +3704,7 @@ impl Relay2Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3720,7 +3720,7 @@ impl Relay2Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3778,12 +3778,12 @@ impl From<Relay2Logic2> for u8 {
 
 /// Relay 2 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic3(pub u8);
 
 impl Relay2Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3798,7 +3798,7 @@ impl Relay2Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3814,7 +3814,7 @@ impl Relay2Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3830,7 +3830,7 @@ impl Relay2Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3888,12 +3888,12 @@ impl From<Relay2Logic3> for u8 {
 
 /// Relay 3 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic1(pub u8);
 
 impl Relay3Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -3908,7 +3908,7 @@ impl Relay3Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -3924,7 +3924,7 @@ impl Relay3Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -3940,7 +3940,7 @@ impl Relay3Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -3998,12 +3998,12 @@ impl From<Relay3Logic1> for u8 {
 
 /// Relay 3 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic2(pub u8);
 
 impl Relay3Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4018,7 +4018,7 @@ impl Relay3Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4034,7 +4034,7 @@ impl Relay3Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4050,7 +4050,7 @@ impl Relay3Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4108,12 +4108,12 @@ impl From<Relay3Logic2> for u8 {
 
 /// Relay 3 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic3(pub u8);
 
 impl Relay3Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4128,7 +4128,7 @@ impl Relay3Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4144,7 +4144,7 @@ impl Relay3Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4160,7 +4160,7 @@ impl Relay3Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4218,12 +4218,12 @@ impl From<Relay3Logic3> for u8 {
 
 /// Relay 4 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic1(pub u8);
 
 impl Relay4Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4238,7 +4238,7 @@ impl Relay4Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4254,7 +4254,7 @@ impl Relay4Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4270,7 +4270,7 @@ impl Relay4Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4328,12 +4328,12 @@ impl From<Relay4Logic1> for u8 {
 
 /// Relay 4 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic2(pub u8);
 
 impl Relay4Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4348,7 +4348,7 @@ impl Relay4Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4364,7 +4364,7 @@ impl Relay4Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4380,7 +4380,7 @@ impl Relay4Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4438,12 +4438,12 @@ impl From<Relay4Logic2> for u8 {
 
 /// Relay 4 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic3(pub u8);
 
 impl Relay4Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4458,7 +4458,7 @@ impl Relay4Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4474,7 +4474,7 @@ impl Relay4Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4490,7 +4490,7 @@ impl Relay4Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4548,12 +4548,12 @@ impl From<Relay4Logic3> for u8 {
 
 /// Relay 5 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic1(pub u8);
 
 impl Relay5Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4568,7 +4568,7 @@ impl Relay5Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4584,7 +4584,7 @@ impl Relay5Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4600,7 +4600,7 @@ impl Relay5Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4658,12 +4658,12 @@ impl From<Relay5Logic1> for u8 {
 
 /// Relay 5 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic2(pub u8);
 
 impl Relay5Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4678,7 +4678,7 @@ impl Relay5Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4694,7 +4694,7 @@ impl Relay5Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4710,7 +4710,7 @@ impl Relay5Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4768,12 +4768,12 @@ impl From<Relay5Logic2> for u8 {
 
 /// Relay 5 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic3(pub u8);
 
 impl Relay5Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4788,7 +4788,7 @@ impl Relay5Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4804,7 +4804,7 @@ impl Relay5Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4820,7 +4820,7 @@ impl Relay5Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4878,12 +4878,12 @@ impl From<Relay5Logic3> for u8 {
 
 /// Relay 6 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic1(pub u8);
 
 impl Relay6Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -4898,7 +4898,7 @@ impl Relay6Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -4914,7 +4914,7 @@ impl Relay6Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -4930,7 +4930,7 @@ impl Relay6Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -4988,12 +4988,12 @@ impl From<Relay6Logic1> for u8 {
 
 /// Relay 6 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic2(pub u8);
 
 impl Relay6Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -5008,7 +5008,7 @@ impl Relay6Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -5024,7 +5024,7 @@ impl Relay6Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -5040,7 +5040,7 @@ impl Relay6Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -5098,12 +5098,12 @@ impl From<Relay6Logic2> for u8 {
 
 /// Relay 6 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic3(pub u8);
 
 impl Relay6Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -5118,7 +5118,7 @@ impl Relay6Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -5134,7 +5134,7 @@ impl Relay6Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -5150,7 +5150,7 @@ impl Relay6Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -5208,12 +5208,12 @@ impl From<Relay6Logic3> for u8 {
 
 /// Relay 7 logic 1.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic1(pub u8);
 
 impl Relay7Logic1 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -5228,7 +5228,7 @@ impl Relay7Logic1 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -5244,7 +5244,7 @@ impl Relay7Logic1 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -5260,7 +5260,7 @@ impl Relay7Logic1 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -5318,12 +5318,12 @@ impl From<Relay7Logic1> for u8 {
 
 /// Relay 7 logic 2.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic2(pub u8);
 
 impl Relay7Logic2 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -5338,7 +5338,7 @@ impl Relay7Logic2 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -5354,7 +5354,7 @@ impl Relay7Logic2 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -5370,7 +5370,7 @@ impl Relay7Logic2 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {
@@ -5428,12 +5428,12 @@ impl From<Relay7Logic2> for u8 {
 
 /// Relay 7 logic 3.
 ///
-/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+/// Printed as the names of its true flags; the default is [`Self::ALL_FALSE`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic3(pub u8);
 
 impl Relay7Logic3 {
-    /// The word in which nothing is true and every number is 0.
+    /// The word in which no flag is true and every number is 0.
     pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
@@ -5448,7 +5448,7 @@ impl Relay7Logic3 {
         self.0 & Self::LAST != 0
     }
 
-    /// The same word with another state of: Last.
+    /// The word with another state of: Last.
     #[must_use]
     pub const fn with_last(self, state: bool) -> Self {
         if state {
@@ -5464,7 +5464,7 @@ impl Relay7Logic3 {
         self.0 & Self::INVERTED != 0
     }
 
-    /// The same word with another state of: Inverted.
+    /// The word with another state of: Inverted.
     #[must_use]
     pub const fn with_inverted(self, state: bool) -> Self {
         if state {
@@ -5480,7 +5480,7 @@ impl Relay7Logic3 {
         self.0 & Self::AND_WITH_NEXT != 0
     }
 
-    /// The same word with another state of: And with next.
+    /// The word with another state of: And with next.
     #[must_use]
     pub const fn with_and_with_next(self, state: bool) -> Self {
         if state {

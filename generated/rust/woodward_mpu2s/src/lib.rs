@@ -107,7 +107,7 @@ pub const VERSION_PATCH: u32 = 0;
 /// The version as one number, to compare: 1.2.3 is `1_002_003`.
 pub const VERSION_NUMBER: u32 = 1_000_000;
 
-/// What the description says, as a digest.
+/// The digest of the description's facts.
 pub const DIGEST: &str = "847d9a1172af15fd5350f6ef65be50535058899dbf0d7cd6833757e2b146bc2a";
 
 /// All points, to list them or to find one at run time: [`PointInfo::find`].

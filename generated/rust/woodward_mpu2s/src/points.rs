@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only, and the documentation says why; what `documented` has is reached by its address, as raw words:
+//! Points without code; the documentation says why. Those in `documented` can be reached by address, as raw words:
 //! - `reserved_word_11`, telegram `visualisation` word 000Ah (10)
 //! - `reserved_word_21`, telegram `visualisation` word 0014h (20)
 //! - `generator_reactive_power`, telegram `visualisation` word 0018h (24)
@@ -29,47 +29,47 @@
 //! - `reserved_word_69`, telegram `visualisation` word 0044h (68)
 //! - `frequency_controller_ramp`, parameter 0044h (68)
 
-/// Where the words are of points that are documented only: nothing says what they mean.
+/// The addresses of points whose words have no documented meaning.
 pub mod documented {
     use fieldscribe_runtime as runtime;
 
-    /// The words of `generator_reactive_power`.
+    /// The address of `generator_reactive_power`.
     pub const GENERATOR_REACTIVE_POWER: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0018, 1, None);
 
-    /// The words of `analog_input_1`.
+    /// The address of `analog_input_1`.
     pub const ANALOG_INPUT_1: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x003C, 1, None);
 
-    /// The words of `analog_input_2`.
+    /// The address of `analog_input_2`.
     pub const ANALOG_INPUT_2: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x003D, 1, None);
 
-    /// The words of `analog_input_3`.
+    /// The address of `analog_input_3`.
     pub const ANALOG_INPUT_3: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x003E, 1, None);
 
-    /// The words of `analog_input_4`.
+    /// The address of `analog_input_4`.
     pub const ANALOG_INPUT_4: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x003F, 1, None);
 
-    /// The words of `analog_input_5`.
+    /// The address of `analog_input_5`.
     pub const ANALOG_INPUT_5: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0040, 1, None);
 
-    /// The words of `analog_input_6`.
+    /// The address of `analog_input_6`.
     pub const ANALOG_INPUT_6: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0041, 1, None);
 
-    /// The words of `analog_input_7`.
+    /// The address of `analog_input_7`.
     pub const ANALOG_INPUT_7: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0042, 1, None);
 
-    /// The words of `analog_input_8`.
+    /// The address of `analog_input_8`.
     pub const ANALOG_INPUT_8: runtime::Documented =
         runtime::Documented::new(runtime::Space::Telegram, 0x0043, 1, None);
 
-    /// The words of `frequency_controller_ramp`.
+    /// The address of `frequency_controller_ramp`.
     pub const FREQUENCY_CONTROLLER_RAMP: runtime::Documented =
         runtime::Documented::new(runtime::Space::Parameter, 0x0044, 1, None);
 }
