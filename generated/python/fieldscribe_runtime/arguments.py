@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What callers hand over, held against what is taken: errors that say what is expected instead of Python's own."""
+"""Checks of arguments: errors that say what is expected, in place of Python's own."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST = 0x10000
 
 
 def shown(value: object) -> str:
-    """A value in messages, whatever it is."""
+    """Return any value as text for messages."""
     try:
         text = repr(value)
     except ValueError:  # more digits than Python prints
@@ -28,7 +28,7 @@ def shown(value: object) -> str:
 
 
 def whole(number: Any) -> int:
-    """The number itself as a plain int.
+    """Return the number itself as a plain int.
 
     Raises RangeError for a number that is no integer, and WrongTypeError for what is no number: a bool too, since True
     for a number is a mistake more often than a 1.
@@ -44,14 +44,14 @@ def whole(number: Any) -> int:
 
 
 def integral(number: Any) -> int:
-    """The same for a value of a point: a float that is a whole number is that number, exactly."""
+    """Return the same for a value of a point: a float that is a whole number is that number, exactly."""
     if type(number) is float and number.is_integer():
         return int(number)
     return whole(number)
 
 
 def raw_number(number: Any, width: int) -> int:
-    """A raw number as a plain int, also of a bit as a bool; raises WrongTypeError, for a float too."""
+    """Return a raw number as a plain int, also of a bit as a bool; raises WrongTypeError, for a float too."""
     if isinstance(number, bool) and width == 1:
         return int(number)
     try:
@@ -123,7 +123,7 @@ def check_transport(transport: object, **parts: str) -> None:
 
 
 def awaited(transport: object, result: Awaitable[T]) -> Awaitable[T]:
-    """What an async transport gives to be awaited; raises RequestError (bad_transport) for a blocking one."""
+    """Return what an async transport gives to be awaited; raises RequestError (bad_transport) for a blocking one."""
     if not hasattr(result, "__await__"):
         text = f"{shown(transport)} gave {shown(result)} where an async device awaits: it takes an async transport"
         raise RequestError("bad_transport", text)

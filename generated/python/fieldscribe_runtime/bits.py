@@ -24,14 +24,14 @@ class _Packed:
         self.size = (count + 7) // 8
 
     def unpack(self, data: bytes, /) -> tuple[int, ...]:
-        """The bits; raises struct.error for more or fewer bytes."""
+        """Return the bits; raises struct.error for more or fewer bytes."""
         number = int.from_bytes(memoryview(data), "little")
         if len(data) != self.size:
             raise struct.error
         return tuple([number >> at & 1 for at in self._places])
 
     def pack(self, /, *bits: int) -> bytes:
-        """The bytes."""
+        """Return the bytes."""
         return sum([bit << at for at, bit in enumerate(bits)]).to_bytes(self.size, "little")
 
 

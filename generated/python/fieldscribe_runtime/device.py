@@ -35,14 +35,14 @@ class AnyDevice(Session):
         """Do what one step asks of the transport."""
 
     def _bound(self, point: PointAttribute[Any, Any]) -> Handle:
-        """The point, bound to this device."""
+        """Return the point, bound to this device."""
         if (handle := self._handles.get(point)) is None:
             self._require(point)
             handle = self._handles[point] = point.handle(point, self)
         return handle
 
     def point(self, what: str) -> ReadWriteHandle[Any, Any]:
-        """A point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
 
         It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
         """
@@ -51,7 +51,7 @@ class AnyDevice(Session):
         return handle
 
     def _bound_command(self, command: Command) -> CommandHandle:
-        """The command, bound to this device."""
+        """Return the command, bound to this device."""
         return CommandHandle(command, self)
 
     def _run(self, steps: Steps[T]) -> T:
@@ -90,14 +90,14 @@ class AnyAsyncDevice(Session):
         """Do what one step asks of the transport."""
 
     def _bound(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
-        """The point, bound to this device."""
+        """Return the point, bound to this device."""
         if (handle := self._handles.get(point)) is None:
             self._require(point)
             handle = self._handles[point] = point.async_handle(point, self)
         return handle
 
     def point(self, what: str) -> AsyncReadWriteHandle[Any, Any]:
-        """A point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+        """Return a point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
 
         It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
         """
@@ -106,7 +106,7 @@ class AnyAsyncDevice(Session):
         return handle
 
     def _bound_command(self, command: Command) -> AsyncCommandHandle:
-        """The command, bound to this device."""
+        """Return the command, bound to this device."""
         return AsyncCommandHandle(command, self)
 
     async def _run(self, steps: Steps[T]) -> T:

@@ -49,7 +49,7 @@ class Place(Record):
     telegram: str | None = None
 
     def __str__(self) -> str:
-        """The place as manuals print it: numbers of parameters and words in decimal, other addresses not."""
+        """Return the place as manuals print it: numbers of parameters and words in decimal, other addresses not."""
         if self.telegram is not None:
             return f"{self.telegram} word {', '.join(map(str, self.addresses))}"
         notation = str if self.space == "parameter" else "0x{:04X}".format
@@ -72,7 +72,7 @@ class Place(Record):
         return max(self.addresses) - min(self.addresses) + 1
 
     def overlaps(self, other: Place) -> bool:
-        """Whether some word or bit belongs to both."""
+        """Return True if some word or bit belongs to both."""
         same = (self.space, self.telegram) == (other.space, other.telegram)
         same_element = self.index == other.index or None in (self.index, other.index)
         return same and same_element and not set(self.addresses).isdisjoint(other.addresses)
@@ -87,7 +87,7 @@ class Documented(Record):
     write_at: Place | None = None
 
     def __str__(self) -> str:
-        """The reason, and what still works."""
+        """Return the reason, and what still works."""
         if self.at is None:
             return self.reason
         where = f"{self.at.telegram or self.at.space} {', '.join(map(str, self.at.addresses))}"
@@ -111,12 +111,12 @@ class Telegram(Record):
 
 
 def coil(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
-    """A bit that can be read and written."""
+    """Return a bit that can be read and written."""
     return Place("coil", addresses, function, index)
 
 
 def discrete(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
-    """A bit that can be read."""
+    """Return a bit that can be read."""
     return Place("discrete", addresses, function, index)
 
 
@@ -131,12 +131,12 @@ def input_register(*addresses: int, function: int | None = None, index: int | No
 
 
 def parameter(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
-    """A parameter by its number, or an element of one; a text lies in several."""
+    """Return a parameter by its number, or an element of one; a text lies in several."""
     return Place("parameter", addresses, function, index)
 
 
 def telegram(name: str, *addresses: int, index: int | None = None) -> Place:
-    """Words of a telegram, counted from 0; an element of an array has its index."""
+    """Return words of a telegram, counted from 0; an element of an array has its index."""
     return Place("telegram", addresses, None, index, name)
 
 

@@ -24,7 +24,7 @@ _LISTED = 12
 
 
 def described(point: Point) -> str:
-    """What a point is and how it is read, written and converted."""
+    """Return what a point is and how it is read, written and converted."""
     facts = point.facts
     unit = f", in {facts.unit}" if facts.unit else ""
     access = [name for name, kind in (("read", Decoding), ("written", Encoding)) if isinstance(point, kind)]
@@ -36,7 +36,7 @@ def described(point: Point) -> str:
 
 
 def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
-    """What its numbers mean, and which may be written."""
+    """Yield the lines on what its numbers mean, and which may be written."""
     facts = point.facts
     yield "Raw numbers", "{}..{}".format(*point.wire.limits(point.width))
     if names := _names(point):
@@ -60,7 +60,7 @@ def _meanings(point: Point, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _values(point: Point, name: str) -> Iterator[tuple[str, str]]:
-    """How a person sees its values, and which one the factory set."""
+    """Yield the lines on how its values are displayed, and on the factory setting."""
     facts = point.facts
     if facts.display is not None:
         yield "Shown", f"with {facts.display} decimal{'' if facts.display == 1 else 's'}, by {name}.text(value)"
@@ -73,7 +73,7 @@ def _is_word(point: Point) -> bool:
 
 
 def _names(point: Point) -> str:
-    """The names of numbers, or of flags as they are attributes of the word."""
+    """Return the names of numbers, or of flags as they are attributes of the word."""
     kind: Any = point.names
     if kind is None:
         return ""
@@ -87,7 +87,7 @@ def _names(point: Point) -> str:
 
 
 def _range(point: Point) -> str:
-    """What may be written, in the unit where other points do not decide that."""
+    """Return what may be written, in the unit where other points do not decide that."""
     form = _inner(point)
     unit = f" {point.facts.unit}" if point.facts.unit else ""
     if isinstance(form, Floating):
@@ -110,7 +110,7 @@ def _end(point: Point, bound: Bound) -> str:
 
 
 def _uses(point: Point, name: str) -> Iterator[str]:
-    """How it is used, with an example of a conversion where no other points are needed."""
+    """Yield the lines on how it is used, with an example of a conversion where no other points are needed."""
     raw, value = _example(point) or ("raw", "value")
     own = _raws(point.scale_needs)
     limits = _raws(tuple(dict.fromkeys((*point.scale_needs, *point.limit_needs))))
@@ -128,13 +128,13 @@ def _uses(point: Point, name: str) -> Iterator[str]:
 
 
 def _raws(needs: tuple[str, ...]) -> str:
-    """The argument that says the raw numbers of other points."""
+    """Return the argument that says the raw numbers of other points."""
     held = ", ".join([f'"{one}": ...' for one in needs])
     return f", raws={{{held}}}" if needs else ""
 
 
 def _example(point: Point) -> tuple[str, str] | None:
-    """A raw number and its value as a program writes them; None where other points are needed, or there is none."""
+    """Return a raw number and its value as a program writes them; None if other points are needed, or none exists."""
     raw = point.raw_limits[1] if point.facts.allowed else 1
     needs = point.scale_needs or point.limit_needs or _is_word(point)
     if not isinstance(point, Decoding) or needs or isinstance(_inner(point), Floating):
@@ -149,7 +149,7 @@ def _example(point: Point) -> tuple[str, str] | None:
 
 
 def _inner(point: Point) -> Any:
-    """The form without what stands around it."""
+    """Return the form without what stands around it."""
     form: Any = point._form
     while hasattr(form, "form"):
         form = form.form

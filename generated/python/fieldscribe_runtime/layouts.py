@@ -32,10 +32,10 @@ if TYPE_CHECKING:
             """How many bytes there are."""
 
         def unpack(self, data: bytes, /) -> tuple[int, ...]:
-            """The fields; raises struct.error for more or fewer bytes."""
+            """Return the fields; raises struct.error for more or fewer bytes."""
 
         def pack(self, /, *fields: int) -> bytes:
-            """The bytes."""
+            """Return the bytes."""
 
 
 _LETTERS = {16: "H", 32: "I", 64: "Q"}
@@ -84,12 +84,12 @@ class Layout:
         return f"<{type(self).__name__} of {self.size} bytes: {inside}>"
 
     def _cut(self, around: tuple[int, int]) -> tuple[Fields, tuple[Piece, ...]]:
-        """What takes the bytes apart into fields, and where the points are in these."""
+        """Return what takes the bytes apart into fields, and where the points are in these."""
         letters, pieces = _cut(self.points, self.words)
         return struct.Struct(f">{around[0]}x{letters}{around[1]}x"), pieces
 
     def decode(self, data: bytes, raws: Raws = NO_RAWS) -> dict[str, Value]:
-        """The values in the bytes of the words; `raws` holds the raw numbers that scales need of points elsewhere.
+        """Return the values in the bytes of the words; `raws` holds the raw numbers of other points that scales need.
 
         Points that are only written have none. Raises WrongLengthError, and what decoding a point raises.
         """
@@ -119,20 +119,20 @@ class Layout:
         raise WrongLengthError(f"takes {self.size} bytes, not {size}") from None
 
     def _known(self, raws: Raws) -> Raws:
-        """The same; raises WrongTypeError for what holds no numbers by name."""
+        """Return the same; raises WrongTypeError for what holds no numbers by name."""
         if not isinstance(raws, Mapping):
             raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
         return raws
 
     def decode_known(self, data: bytes, raws: Raws) -> dict[str, Value]:
-        """The same without the points whose scales need what is not there."""
+        """Return the same without the points whose scales need what is not there."""
         known = {**raws, **self._numbers(self._own, data)}
         read = [piece for piece in self._read if known.keys() >= set(piece.point.scale_needs)]
         values: dict[str, Value] = self._decoder(read)(data, known)
         return values
 
     def wanted(self, data: bytes) -> dict[str, int]:
-        """The raw numbers in the bytes that scales elsewhere need."""
+        """Return the raw numbers in the bytes that scales elsewhere need."""
         return self._numbers(self._wanted, data)
 
     def _numbers(self, pieces: Mapping[str, Piece], data: bytes) -> dict[str, int]:
@@ -140,7 +140,7 @@ class Layout:
         return {name: piece.raw(fields[piece.at]) for name, piece in pieces.items()}
 
     def encode(self, values: Mapping[str, Any], raws: Raws = NO_RAWS) -> bytes:
-        """The bytes of the words for a value of every point; `raws` as for decoding, and what limits need.
+        """Return the bytes of the words for a value of every point; `raws` as for decoding, and what limits need.
 
         Raises AccessError where a point cannot be written or bits belong to none, RequestError (bad_value) unless there
         are just the values of all points, and what encoding a point raises.
@@ -163,7 +163,7 @@ class Layout:
         return {point.facts.name for point in self.points}
 
     def _encode(self, values: Mapping[str, Any], raws: Raws) -> bytes:
-        """The same point by point, those first that others may need."""
+        """Return the same point by point, those first that others may need."""
         known = dict(self._known(raws))
         words = dict.fromkeys(self.words, 0)
         for point in sorted(self._written, key=lambda one: bool(one.scale_needs or one.limit_needs)):
@@ -174,7 +174,7 @@ class Layout:
         return self._packed(words.values())
 
     def _packed(self, words: Iterable[int]) -> bytes:
-        """The bytes of all words."""
+        """Return the bytes of all words."""
         return struct.pack(f">{len(self.words)}H", *words)
 
     @cached_property
@@ -203,20 +203,20 @@ class Layout:
 
 
 def addresses_of(point: Point) -> Sequence[int]:
-    """The addresses of a point's words in ascending order; where only the first is said, of those behind it, too."""
+    """Return the addresses of all words of a point in ascending order, even if only the first is described."""
     addresses = point.facts.at.addresses
     return sorted(addresses) if len(addresses) > 1 else range(addresses[0], addresses[0] + point.size)
 
 
 def _is_whole(point: Point) -> bool:
-    """Whether the raw number is its words as they are, the high one first."""
+    """Return True if the raw number is its words as they are, the high one first."""
     addresses = point.facts.at.addresses
     in_order = list(addresses) == sorted(addresses)
     return point.facts.bits is None and point.wire.bits in _LETTERS and in_order
 
 
 def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]:
-    """The letters of the Struct, and where the points are in its fields, in the order of these."""
+    """Return the letters of the Struct, and where the points are in its fields, in the order of these."""
     users = Counter(at for point in points for at in addresses_of(point))
     whole = {point.facts.at.address: point for point in points if _is_whole(point)}
     whole = {at: point for at, point in whole.items() if all(users[one] == 1 for one in addresses_of(point))}
@@ -237,7 +237,7 @@ def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[Piece, ...]]
 
 
 def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> Piece:
-    """A point in its fields."""
+    """Return a point in its fields."""
     decoder = point.sure_decoder if isinstance(point, Decoding) else itself
     if whole.get(point.facts.at.address) is point:
         return Piece(point, fields[0], decoder, int, True)

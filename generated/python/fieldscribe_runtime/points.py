@@ -33,7 +33,7 @@ W_contra = TypeVar("W_contra", contravariant=True)
 
 
 def _shown(value: object) -> str:
-    """A value for messages."""
+    """Return a value for messages."""
     try:
         return f"{value:.12g}" if isinstance(value, float) else f"{value!s}"
     except ValueError:  # more digits than Python prints
@@ -45,7 +45,7 @@ _WRITES = frozenset({"write", "write_raw", "encode"})
 
 
 def _lacks(point: Point, name: str) -> str:
-    """Why a point has no such method."""
+    """Return why a point has no such method."""
     for methods, kind, done in ((_READS, Decoding, "written"), (_WRITES, Encoding, "read")):
         if name in methods and not isinstance(point, kind):
             return f"{point.label} is only {done}: it has no {name}"
@@ -87,7 +87,7 @@ class Point(Guided):
             raise AttributeError(_lacks(self, name), name=name, obj=self)
 
     def __getstate__(self) -> dict[str, Any]:
-        """What makes the point, without the functions that are specialised for it: a copy makes its own."""
+        """Return what makes the point, without the functions that are specialised for it: a copy makes its own."""
         return {name: value for name, value in self.__dict__.items() if name not in _SPECIALISED}
 
     @property
@@ -147,11 +147,11 @@ class Point(Guided):
         return tuple(dict.fromkeys(names))
 
     def name_of(self, raw: int) -> str | None:
-        """The description's name for a raw number; None if it has none."""
+        """Return the description's name for a raw number; None if it has none."""
         return self._form.name_of(self._number(raw))
 
     def from_words(self, words: Sequence[int]) -> int:
-        """The raw number in unsigned words (or bits) in ascending order of address.
+        """Return the raw number in unsigned words (or bits) in ascending order of address.
 
         Raises WrongLengthError, RangeError for what is no word, and WrongTypeError.
         """
@@ -161,7 +161,7 @@ class Point(Guided):
         return self.joined(found)
 
     def joined(self, words: Sequence[int]) -> int:
-        """The same for what are known to be the words of the point."""
+        """Return the same for what are known to be the words of the point."""
         if self.facts.bits is not None:
             return self.wire.number(words[0] >> self._lowest_bit, self.width)
         pattern = 0
@@ -170,7 +170,7 @@ class Point(Guided):
         return self.wire.number(pattern, self.wire.bits)
 
     def _words(self, words: Iterable[int]) -> list[int]:
-        """Words as plain numbers, bits too."""
+        """Return words as plain numbers, bits too."""
         try:
             if isinstance(words, (str, bytes, bytearray, set, frozenset, dict)):
                 raise TypeError
@@ -180,7 +180,7 @@ class Point(Guided):
         return [self._within(word, 0, 0xFFFF) for word in listed]
 
     def to_words(self, raw: int) -> tuple[int, ...]:
-        """The unsigned words of a raw number in ascending order of address; raises RangeError."""
+        """Return the unsigned words of a raw number in ascending order of address; raises RangeError."""
         raw = self._within(raw, *self.wire.limits(self.width))
         words = [0] * self.size
         for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
@@ -192,18 +192,18 @@ class Point(Guided):
         return self._from_high(self.facts.at)
 
     def _from_high(self, place: Place) -> Sequence[int]:
-        """Where the words of the number stand among those in ascending order of address, the high one first."""
+        """Return where the words of the number stand among those in ascending order of address, the high one first."""
         if len(place.addresses) == 1:  # it holds all words, which travel with the high one first
             return range(self.size)
         ascending = sorted(place.addresses)
         return [ascending.index(address) for address in place.addresses]
 
     def extract(self, word: int) -> int:
-        """The raw number of a bit group, from its whole word."""
+        """Return the raw number of a bit group, from its whole word."""
         return self.wire.number(self._number(word) >> self._lowest_bit, self.width)
 
     def insert(self, word: int, raw: int) -> int:
-        """The whole word with this bit group replaced, and with the bits that are always written as a constant."""
+        """Return the whole word with this bit group replaced, and with the constant bits set."""
         mask = (1 << self.width) - 1
         word, raw = self._number(word), self._number(raw)
         result = word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
@@ -222,11 +222,11 @@ class Point(Guided):
         return f" {self.facts.unit}" if self.facts.unit else ""
 
     def same(self, raw: int, other: int) -> bool:
-        """Whether two raw numbers mean the same."""
+        """Return True if two raw numbers mean the same."""
         return self._form.same(raw, other)
 
     def text(self, value: Any, raws: Raws = NO_RAWS) -> str:
-        """A value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50.00 Hz`.
+        """Return a value as people read it, with the unit: `drive.base_frequency.text(50.0)` is `50.00 Hz`.
 
         It has as many decimals as the description says, rounded from what the device holds for the value; without that
         as many as it takes. `raws` holds the raw numbers that the scale needs of others. Raises as `encode` does, but
@@ -243,11 +243,11 @@ class Point(Guided):
         return self.told(self._within(raw, *self.wire.limits(self.width)), raws)
 
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
-        """A raw number as `text` says its value; as `raw ...` where `raws` do not say what it means."""
+        """Return a raw number as `text` says its value; as `raw ...` where `raws` do not say what it means."""
         return self._told(raw, raws, self.facts.display)
 
     def told_exactly(self, raw: int, raws: Raws = NO_RAWS) -> str:
-        """The same with all decimals, for messages: rounding could make two numbers look alike."""
+        """Return the same with all decimals, for messages: rounding could make two numbers look alike."""
         return self._told(raw, raws, None)
 
     def _told(self, raw: int, raws: Raws, display: int | None) -> str:
@@ -264,7 +264,7 @@ class Point(Guided):
             return f"raw {raw}"
 
     def _within(self, number: int, low: int, high: int) -> int:
-        """The same as a plain number; a bool is one of a bit."""
+        """Return the same as a plain number; a bool is one of a bit."""
         try:
             plain = int(number) if isinstance(number, bool) and self.width == 1 else whole(number)
             if low <= plain <= high:
@@ -274,7 +274,7 @@ class Point(Guided):
             raise self._named(error) from None
 
     def _number(self, raw: int) -> int:
-        """A raw number as a plain one; raises WrongTypeError for what is no integer."""
+        """Return a raw number as a plain one; raises WrongTypeError for what is no integer."""
         try:
             return raw_number(raw, self.width)
         except CodecError as error:
@@ -293,7 +293,7 @@ class Decoding(Point, Generic[R_co]):
     """The pure functions of a point that can be read."""
 
     def decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
-        """The value (or special code) of a raw number; `raws` holds the raw numbers that the scale needs of others.
+        """Return the value (or special code) of a raw number; `raws` holds the raw numbers that its scale needs.
 
         Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
         RangeError for what is no raw number of the point, and WrongTypeError for what is no integer.
@@ -313,7 +313,7 @@ class Decoding(Point, Generic[R_co]):
         return self._form.sure_decode(*self._ends, self._decode)
 
     def _decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
-        """The same for whatever comes, and with the words of what is wrong."""
+        """Return the same for any argument; raises errors that say what is wrong."""
         try:
             value: R_co = self._form.decode(self._possible(raw), raws)
         except CodecError as error:
@@ -321,14 +321,14 @@ class Decoding(Point, Generic[R_co]):
         return value
 
     def decode_count(self, raw: int, raws: Raws = NO_RAWS) -> int:
-        """The value as an integer count of 10^-decimals units; raises SpecialCodeError for a special code."""
+        """Return the value as an integer count of 10^-decimals units; raises SpecialCodeError for a special code."""
         try:
             return self._form.decode_count(self._possible(raw), raws)
         except CodecError as error:
             raise self._named(error) from None
 
     def _possible(self, raw: int) -> int:
-        """The same number; raises RangeError for what the point cannot hold, as 8000h of an s16 without its sign."""
+        """Return the same number; raises RangeError for what the point cannot hold, such as 8000h for an s16."""
         low, high = self._ends
         raw = raw_number(raw, self.width)
         if low <= raw <= high:
@@ -345,7 +345,7 @@ class Encoding(Point, Generic[W_contra]):
     """The pure functions of a point that can be written."""
 
     def encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
-        """The raw number for a value; `raws` holds the raw numbers of the points that scale and limits need.
+        """Return the raw number for a value; `raws` holds the raw numbers of the points that scale and limits need.
 
         Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError, and
         SpecialCodeError for a value that would be a special code.
@@ -360,7 +360,7 @@ class Encoding(Point, Generic[W_contra]):
         return self._form.quick_encode(self.allowed, self._encode)
 
     def _encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
-        """The same for whatever comes, and with the words of what is wrong."""
+        """Return the same for any argument; raises errors that say what is wrong."""
         self.require(value)
         try:
             raw = self._form.encode(value, self.allowed, raws)
@@ -397,7 +397,7 @@ class Encoding(Point, Generic[W_contra]):
             )
 
     def encode_count(self, count: int, raws: Raws = NO_RAWS) -> int:
-        """The raw number for an integer count of 10^-decimals units, by integers alone; raises as `encode`."""
+        """Return the raw number for an integer count of 10^-decimals units, by integers alone; raises as `encode`."""
         try:
             raw = self._form.encode_count(count, self.allowed, raws)
             if raw is None:
@@ -407,7 +407,7 @@ class Encoding(Point, Generic[W_contra]):
         return raw
 
     def _amount(self, count: int) -> str:
-        """A count in the unit, for messages."""
+        """Return a count in the unit, for messages."""
         count = whole(count)
         try:
             return f"{count / 10**self.decimals:.12g}" if self.decimals else _shown(count)
@@ -434,11 +434,11 @@ class Encoding(Point, Generic[W_contra]):
         return self._form.refused(f"{value}{self._unit} is {choices}")
 
     def _limiting(self) -> str:
-        """Which points set the limits."""
+        """Return which points set the limits."""
         return f" (set by {' and '.join(self.limit_needs)})" if self.limit_needs else ""
 
     def _outside(self, told: Callable[[int], str], unit: str, raws: Raws) -> str:
-        """What a refused number is, by what may be written now, as other points let it be."""
+        """Return why a number is refused, by the limits that other points set now."""
         ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
         left = [(told(low), told(high)) for low, high in ends if low <= high]
         if left:

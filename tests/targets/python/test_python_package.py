@@ -367,7 +367,7 @@ def test_help_shows_how_a_device_is_used(folder: Path) -> None:
                 "help(SampleDrive.acceleration_time)",
             ]
         assert "await drive.acceleration_time.read()" in awaited.__doc__
-        assert "as `AsyncTransport` says; `fieldscribe_runtime` has that class" in awaited.__doc__
+        assert "follows the protocol `AsyncTransport` of `fieldscribe_runtime`" in awaited.__doc__
         told = pydoc.plain(pydoc.render_doc(drive))
         assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())
         assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
@@ -378,7 +378,7 @@ def test_help_shows_how_a_device_is_used(folder: Path) -> None:
 def test_devices_without_points_have_help_too(tmp_path: Path) -> None:
     folder = write_package(replace(sample_device((point("nowhere", None),)), errata=(), blocks={}, id="bare"), tmp_path)
     for package in imported(folder, "bare"):
-        assert package.__doc__.splitlines()[2].startswith("A transport carries bytes")
+        assert package.__doc__.splitlines()[2].startswith("A transport sends bytes")
         assert package.Bare.__doc__.strip() == "Acme S1 over a transport: `drive.point.read()`."
     ruff("check", folder)
     ruff("format", "--diff", folder / "bare")

@@ -70,7 +70,7 @@ class _Request(ModbusPDU):
         self._data = request[2:]
 
     def encode(self) -> bytes:
-        """What stands behind the function."""
+        """Return what stands behind the function."""
         return self._data
 
     def decode(self, data: bytes) -> None:
@@ -83,7 +83,7 @@ class _Request(ModbusPDU):
 
 
 def _reply(answer: ModbusPDU) -> bytes:
-    """The unit that answered, and the answer."""
+    """Return the unit that answered, and the answer."""
     return bytes([answer.dev_id, answer.function_code]) + answer.encode()
 
 
@@ -95,7 +95,7 @@ def _check(client: Any, takes: str, *, awaits: bool) -> None:
 
 
 def _raised(error: Exception) -> Exception:
-    """What devices expect in place of pymodbus' own."""
+    """Return what devices expect in place of pymodbus' own."""
     return LineError(str(error)) if isinstance(error, ConnectionException) else TimeoutError(str(error))
 
 

@@ -21,7 +21,7 @@ _LISTED = 4
 
 @contextmanager
 def about(*asked: Point | Command) -> Iterator[None]:
-    """What goes wrong meanwhile says what was asked for: points that one request reads, or a command."""
+    """Add to errors raised meanwhile what was requested: the points of one request, or a command."""
     try:
         yield
     except FieldscribeError as error:
@@ -32,7 +32,7 @@ def about(*asked: Point | Command) -> Iterator[None]:
 
 @contextmanager
 def about_place(place: Place) -> Iterator[None]:
-    """What goes wrong on the line meanwhile says at which place, unless it does already."""
+    """Add the place to errors of the line raised meanwhile, unless they have one."""
     try:
         yield
     except EchoError:
@@ -44,7 +44,7 @@ def about_place(place: Place) -> Iterator[None]:
 
 @contextmanager
 def needing(point: Point, other: Point) -> Iterator[None]:
-    """What goes wrong while another point is read says which one was asked for, and that it needs the other."""
+    """Add to errors raised while another point is read which point was requested, and that it needs the other."""
     try:
         with about(other):
             yield
@@ -55,7 +55,7 @@ def needing(point: Point, other: Point) -> Iterator[None]:
 
 @contextmanager
 def of_group(group: str | None) -> Iterator[None]:
-    """What goes wrong meanwhile says of which group."""
+    """Add the group to errors raised meanwhile."""
     try:
         yield
     except FieldscribeError as error:

@@ -51,7 +51,7 @@ class Command(Guided):
         raise AttributeError("a command is not assigned to: use its send method")
 
     def steps(self, device: Session, value: int | None) -> Steps[None]:
-        """The write, carried out by a device."""
+        """Return the write, carried out by a device."""
         if value is not None and not (isinstance(value, bool) and self.at.space == "coil"):
             check_integer("bad_value", f"the number of {self.name}", value)
         if self.value is not None and value not in (None, self.value):

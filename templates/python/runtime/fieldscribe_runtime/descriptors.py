@@ -166,7 +166,7 @@ class Renamed(_Attribute):
 
 
 def renamed(attribute: Attribute, new_name: str) -> Attribute:
-    """The same attribute for its old name; using it warns."""
+    """Return the same attribute for its old name; using it warns."""
     alias: Any = Renamed(attribute, new_name)
     made: Attribute = alias
     return made

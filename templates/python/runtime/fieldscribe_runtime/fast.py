@@ -31,7 +31,7 @@ def same(low: int, high: int, slow: Way) -> Way:
     """Both ways for integers of a range that are their own raw numbers."""
 
     def convert(number: int, raws: Raws = NO_RAWS) -> Any:
-        """The same number, if it may be; raises as the point's class says."""
+        """Return the same number, if it may be; raises as the point's class says."""
         if type(number) is int and low <= number <= high:
             return number
         return slow(number, raws)
@@ -43,7 +43,7 @@ def listed(known: Mapping[int, Any], slow: Way) -> Way:
     """From raw numbers to what each of them stands for."""
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         if type(raw) is int:
             try:
                 return known[raw]
@@ -71,7 +71,7 @@ def chosen(kind: type, known: Mapping[Any, int], slow: Way) -> Way:
     """From the values of just one type to raw numbers."""
 
     def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
-        """The raw number for a value; raises as the point's class says."""
+        """Return the raw number for a value; raises as the point's class says."""
         if type(value) is kind and value in known:
             return known[value]
         return slow(value, raws)
@@ -84,13 +84,13 @@ def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
     times, less, over = line
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         if type(raw) is int and low <= raw <= high:
             return raw / over
         return slow(raw, raws)
 
     def decode_by_line(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         if type(raw) is int and low <= raw <= high:
             return (raw * times - less) / over
         return slow(raw, raws)
@@ -112,7 +112,7 @@ def unchecked(line: Line) -> Way:
 
 
 def itself(raw: int, raws: Raws) -> int:
-    """What is known to be a raw number of the point, and its value."""
+    """Return what is known to be a raw number of the point, and its value."""
     del raws
     return raw
 
@@ -124,7 +124,7 @@ def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
     learned = _learner(lines, rule, (low, high), slow)
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         try:
             number = raws[point]
         except (KeyError, TypeError):
@@ -141,13 +141,13 @@ def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
 
 
 def scaled_by_several(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """The same by a scale that several other points decide."""
+    """Return the same by a scale that several other points decide."""
     points = tuple([factor.point for factor in rule.factors])
     lines: dict[Any, Line] = {}
     learned = _learner(lines, rule, (low, high), slow)
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         try:
             numbers = tuple([raws[name] for name in points])
         except (KeyError, TypeError):
@@ -195,7 +195,7 @@ def surely_scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
 
 
 def _learner(lines: dict[Any, Line], rule: Rule, ends: tuple[int, int], slow: Way) -> Way:
-    """The slow way, which adds the scale for these numbers of other points to the lines."""
+    """Return the slow way, which adds the scale for these numbers of other points to the lines."""
 
     def learned(numbers: Any, raw: int, raws: Raws) -> Any:
         value = slow(raw, raws)  # raises what is to be raised
@@ -211,7 +211,7 @@ def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -
     num, den, offset = steps
 
     def encode(value: float, raws: Raws = NO_RAWS) -> Any:
-        """The raw number for a value; raises as the point's class says."""
+        """Return the raw number for a value; raises as the point's class says."""
         if type(value) in _NUMBERS:
             try:
                 result = value * num / den + offset
@@ -235,7 +235,7 @@ def from_pattern(number: struct.Struct, word: struct.Struct, high: int, slow: Wa
     pack, unpack = word.pack, number.unpack
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The number that the bits are; raises as the point's class says."""
+        """Return the number that the bits are; raises as the point's class says."""
         if type(raw) is int and 0 <= raw <= high:
             return unpack(pack(raw))[0]
         return slow(raw, raws)
@@ -248,7 +248,7 @@ def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: flo
     pack, unpack, nearest = number.pack, word.unpack, number.unpack
 
     def encode(value: float, raws: Raws = NO_RAWS) -> Any:
-        """The bit pattern for a value; raises as the point's class says."""
+        """Return the bit pattern for a value; raises as the point's class says."""
         if type(value) in _NUMBERS:
             try:
                 data = pack(value)
@@ -265,7 +265,7 @@ def coded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
     """From raw numbers to special codes, else the `plain` way."""
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
-        """The value (or special code) of a raw number; raises as the point's class says."""
+        """Return the value (or special code) of a raw number; raises as the point's class says."""
         if type(raw) is int:
             return find(raw) or plain(raw, raws)
         return slow(raw, raws)
@@ -283,10 +283,10 @@ def surely_coded(find: Callable[[int], Special | None], plain: Way) -> Way:
 
 
 def uncoded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
-    """The `plain` way from values to raw numbers, if those are no special codes."""
+    """Return the `plain` way from values to raw numbers, if those are no special codes."""
 
     def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
-        """The raw number for a value; raises as the point's class says."""
+        """Return the raw number for a value; raises as the point's class says."""
         raw = plain(value, raws)
         return raw if find(raw) is None else slow(value, raws)
 
@@ -309,7 +309,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
     """
 
     def decode(data: bytes, raws: Raws = NO_RAWS) -> Any:
-        """The values in the bytes; raises as the layout's class says."""
+        """Return the values in the bytes; raises as the layout's class says."""
         try:
             fields = unpack(data)
         except (struct.error, TypeError):
@@ -320,7 +320,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
         (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3) = plan
 
         def decode_3(data: bytes, raws: Raws = NO_RAWS) -> Any:
-            """The values in the bytes; raises as the layout's class says."""
+            """Return the values in the bytes; raises as the layout's class says."""
             try:
                 fields = unpack(data)
             except (struct.error, TypeError):
@@ -336,7 +336,7 @@ def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple
         (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3), (name_4, at_4, way_4) = plan
 
         def decode_4(data: bytes, raws: Raws = NO_RAWS) -> Any:
-            """The values in the bytes; raises as the layout's class says."""
+            """Return the values in the bytes; raises as the layout's class says."""
             try:
                 fields = unpack(data)
             except (struct.error, TypeError):

@@ -36,11 +36,11 @@ class Type(Record):
     signed: bool = False
 
     def limits(self, width: int) -> tuple[int, int]:
-        """The smallest and the largest number in `width` bits of this type."""
+        """Return the smallest and the largest number in `width` bits of this type."""
         return (-(1 << width - 1), (1 << width - 1) - 1) if self.signed else (0, (1 << width) - 1)
 
     def number(self, pattern: int, width: int) -> int:
-        """The number that the lowest `width` bits of `pattern` hold."""
+        """Return the number that the lowest `width` bits of `pattern` hold."""
         pattern &= (1 << width) - 1
         return pattern - (1 << width) if self.signed and pattern >> width - 1 else pattern
 
@@ -71,71 +71,71 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
 
     @abstractmethod
     def decode(self, raw: int, raws: Raws) -> R_co:
-        """The value that a raw number means."""
+        """Return the value that a raw number means."""
 
     @abstractmethod
     def converted(self, value: W_contra, raws: Raws) -> int | None:
-        """The raw number for a value, whether it may be written or not; None where there is none."""
+        """Return the raw number for a value, whether it may be written or not; None where there is none."""
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """A function that decodes raw numbers from `low` to `high` quickly, and leaves the rest to the slow way."""
+        """Return a function that decodes raw numbers from `low` to `high` quickly, and others the slow way."""
         del low, high
         return slow
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The same for what is known to be a number from `low` to `high`."""
+        """Return the same for what is known to be a number from `low` to `high`."""
         return self.quick_decode(low, high, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """A function that encodes usual values quickly, and leaves the rest to the slow way."""
+        """Return a function that encodes usual values quickly, and leaves the rest to the slow way."""
         del allowed
         return slow
 
     def encode(self, value: W_contra, allowed: Allowed, raws: Raws) -> int | None:
-        """The raw number for a value; None if it may not be written."""
+        """Return the raw number for a value; None if it may not be written."""
         raw = self.converted(value, raws)
         return None if raw is None else self.checked(raw, allowed, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """The value as an integer count of 10^-decimals units."""
+        """Return the value as an integer count of 10^-decimals units."""
         return raw
 
     def converted_count(self, count: int, raws: Raws) -> int:
-        """The raw number for an integer count of 10^-decimals units, whether it may be written or not."""
+        """Return the raw number for an integer count of 10^-decimals units, whether it may be written or not."""
         return whole(count)
 
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The raw number for an integer count of 10^-decimals units; None if it may not be written."""
+        """Return the raw number for an integer count of 10^-decimals units; None if it may not be written."""
         return self.checked(self.converted_count(count, raws), allowed, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same number; None if it may not be written."""
+        """Return the same number; None if it may not be written."""
         ends = [(low_end(low, raws), high_end(high, raws)) for low, high in allowed]  # all, whichever holds
         return raw if any(low <= raw <= high for low, high in ends) else None
 
     def limits(self, width: int) -> tuple[int, int]:
-        """The least and the greatest number of `width` bits that the form knows, where nothing else bounds them."""
+        """Return the least and the greatest number of `width` bits that the form knows, if nothing else bounds them."""
         return self.wire.limits(width)
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """The raw number as people read it, in the unit; a quantity with so many decimals where `display` says it."""
+        """Return the raw number as people read it, in the unit; a quantity with `display` decimals, if given."""
         return str(raw) if display is None else decimal_text(raw, 1, display)
 
     def same(self, raw: int, other: int) -> bool:
-        """Whether two raw numbers mean the same."""
+        """Return True if two raw numbers mean the same."""
         return raw == other
 
     def choices(self, unit: str) -> str | None:
-        """What a refused value is, where it is not the range of raw numbers that decides; limits with `unit`."""
+        """Return why a value is refused, if it is not for the range of raw numbers; limits with `unit`."""
         return None
 
     def name_of(self, raw: int) -> str | None:
-        """The name of a raw number, where it has one."""
+        """Return the name of a raw number, where it has one."""
         return None
 
 
 def fixed_ends(allowed: Allowed) -> tuple[int, int] | None:
-    """The ends of what is allowed, where that is one interval that no other point moves."""
+    """Return the ends of what is allowed, where that is one interval that no other point moves."""
     if len(allowed) != 1:
         return None
     low, high = allowed[0]
@@ -149,25 +149,25 @@ class Integer(Form[int, int]):
         self.wire = wire
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The raw number itself."""
+        """Return the raw number itself."""
         return same(low, high, slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The raw number itself, whatever it is."""
+        """Return the raw number itself, whatever it is."""
         del low, high, slow
         return itself
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """The value itself."""
+        """Return the value itself."""
         ends = fixed_ends(allowed)
         return same(*ends, slow) if ends else slow
 
     def decode(self, raw: int, raws: Raws) -> int:
-        """The raw number itself."""
+        """Return the raw number itself."""
         return raw
 
     def converted(self, value: int, raws: Raws) -> int | None:
-        """The value itself."""
+        """Return the value itself."""
         return integral(value)
 
 
@@ -181,7 +181,7 @@ class Bit(Form[bool, bool]):
         return listed({0: False, 1: True}, slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The same."""
+        """Return the same."""
         return found({0: False, 1: True}, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
@@ -189,7 +189,7 @@ class Bit(Form[bool, bool]):
         return chosen(bool, {False: 0, True: 1}, slow) if allowed == ((0, 1),) else slow
 
     def decode(self, raw: int, raws: Raws) -> bool:
-        """Whether the bit is 1."""
+        """Return True if the bit is 1."""
         return bool(raw)
 
     def converted(self, value: bool, raws: Raws) -> int | None:
@@ -230,15 +230,15 @@ class Named(Form[E, E]):
             self.refused = UnknownValueError
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The members as they are listed, and others as they came before."""
+        """Return the members as they are listed, and others as they came before."""
         return listed(_Members(self, low, high), slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The same."""
+        """Return the same."""
         return found(_Members(self, low, high), slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """The members that may be written, as they are listed."""
+        """Return the members that may be written, as they are listed."""
         ends = fixed_ends(allowed)
         if ends is None:
             return slow
@@ -247,11 +247,11 @@ class Named(Form[E, E]):
         )
 
     def decode(self, raw: int, raws: Raws) -> E:
-        """The member, also for a number without a name."""
+        """Return the member, also for a number without a name."""
         return self.names(raw)
 
     def converted(self, value: E, raws: Raws) -> int | None:
-        """The member's number; a member of another enum raises UnknownValueError."""
+        """Return the member's number; a member of another enum raises UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
         if isinstance(value, (str, bool)):
@@ -259,7 +259,7 @@ class Named(Form[E, E]):
         return whole(value)
 
     def _meant(self, value: str | bool) -> str:
-        """The member that is meant, else how members are named."""
+        """Return the member that is meant, else how members are named."""
         named = self.names.__members__
         member = named.get(value.strip().upper()) if isinstance(value, str) else self._known.get(int(value))
         if member is not None:
@@ -268,22 +268,22 @@ class Named(Form[E, E]):
         return f"a {self.names.__name__}" + (f" such as {self.names.__name__}.{first}" if first else "")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same number if it is named (for a closed enum) and in range."""
+        """Return the same number if it is named (for a closed enum) and in range."""
         if self.closed and raw not in self._known:
             return None
         return super().checked(raw, allowed, raws)
 
     def limits(self, width: int) -> tuple[int, int]:
-        """The ends of a closed enum, else of the type."""
+        """Return the ends of a closed enum, else of the type."""
         return (min(self._known), max(self._known)) if self.closed else super().limits(width)
 
     def name_of(self, raw: int) -> str | None:
-        """The member's name in lower case."""
+        """Return the member's name in lower case."""
         member = self._known.get(raw)
         return None if member is None else member.name.lower()
 
     def choices(self, unit: str) -> str | None:
-        """The named numbers of a closed enum."""
+        """Return the named numbers of a closed enum."""
         named = ", ".join(f"{raw} {member.name.lower()}" for raw, member in self._known.items())
         return f"none of {named}" if self.closed else None
 
@@ -298,19 +298,19 @@ class Flags(Form[F, F]):
         self.names = names
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """Words that have come before, as they were then."""
+        """Return words that have come before, as they were then."""
         return listed(_Members(self, low, high), slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The same."""
+        """Return the same."""
         return found(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:
-        """All bits of the word."""
+        """Return all bits of the word."""
         return self.names(raw & (1 << self.wire.bits) - 1)
 
     def converted(self, value: F, raws: Raws) -> int | None:
-        """The word as the type holds it; flags of another word raise UnknownValueError."""
+        """Return the word as the type holds it; flags of another word raise UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
         raw = whole(value)

@@ -25,5 +25,5 @@ class Guided:
         cls.__doc__ = guide
 
     def _guide(self) -> str:
-        """What `help()` says of it."""
+        """Return what `help()` says of it."""
         raise NotImplementedError

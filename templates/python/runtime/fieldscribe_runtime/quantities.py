@@ -36,7 +36,7 @@ _BINARY64 = struct.Struct("<d"), struct.Struct("<Q")
 
 
 def _is_nan(value: float) -> bool:
-    """Whether a number is NaN; raises WrongTypeError for what is no number, and OverflowError far beyond floats."""
+    """Return True for NaN; raises WrongTypeError for what is no number, and OverflowError far beyond floats."""
     if isinstance(value, bool):
         raise WrongTypeError(f"takes a number, not {value}")
     try:
@@ -101,7 +101,7 @@ class Scaled(Form[float, float]):
         return slow if steps is None else rounded(steps, *ends, slow)
 
     def _counted(self) -> int:
-        """The decimals of the counts; raises WrongTypeError where there are none."""
+        """Return the decimals of the counts; raises WrongTypeError where there are none."""
         if self.decimals is None:
             raise WrongTypeError("no 64-bit integer holds the counts, so there are none: use raw numbers or values")
         return self.decimals
@@ -110,7 +110,7 @@ class Scaled(Form[float, float]):
         return self.rule if isinstance(self.rule, Rule) else chosen(self.rule, raws)
 
     def decode(self, raw: int, raws: Raws) -> float:
-        """The binary64 nearest to the exact value."""
+        """Return the binary64 nearest to the exact value."""
         return self._bounded(raw, self._rule(raws).decode(raw, raws))
 
     def converted(self, value: float, raws: Raws) -> int | None:
@@ -127,11 +127,11 @@ class Scaled(Form[float, float]):
         return self._rule(raws).encode(value, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """The count nearest to the exact value, by integers alone."""
+        """Return the count nearest to the exact value, by integers alone."""
         return self._bounded(raw, self._rule(raws).decode_count(raw, self._counted(), raws))
 
     def _bounded(self, raw: int, found: N) -> N:
-        """What was found; raises ResultOverflowError where the other languages cannot compute it exactly."""
+        """Return what was found; raises ResultOverflowError where the other languages cannot compute it exactly."""
         if self.most is not None and abs(raw) > self.most:
             raise ResultOverflowError(f"raw {raw} is beyond {self.most}, up to which the scale is exact")
         return found
@@ -141,7 +141,7 @@ class Scaled(Form[float, float]):
         return self._rule(raws).encode_count(whole(count), self._counted(), raws)
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """The value, as people read it; with `display` rounded from the exact one."""
+        """Return the value, as people read it; with `display` rounded from the exact one."""
         if display is None:
             return f"{self.decode(raw, raws):.12g}"
         if self.needs:  # as counts, which other languages compute in 64 bits
@@ -168,24 +168,24 @@ class Floating(Form[float, float]):
         return _BINARY32 if self.wire.bits == 32 else _BINARY64
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The number that the bits are."""
+        """Return the number that the bits are."""
         return from_pattern(*self._structs, high, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
-        """The nearest number of the type within one pair of limits, or any finite one."""
+        """Return the nearest number of the type within one pair of limits, or any finite one."""
         if len(self._limits) > 1:
             return slow
         low, high = self._limits[0] if self._limits else (-sys.float_info.max, sys.float_info.max)
         return to_pattern(*self._structs, low, high, slow)
 
     def decode(self, raw: int, raws: Raws) -> float:
-        """The number that the bits are."""
+        """Return the number that the bits are."""
         number, word = self._structs
         value: float = number.unpack(word.pack(raw))[0]
         return value
 
     def converted(self, value: float, raws: Raws) -> int | None:
-        """The nearest number of the type, ties to even, if that is finite."""
+        """Return the nearest number of the type, ties to even, if that is finite."""
         nearest = self._nearest(value)
         if math.isnan(nearest):
             raise NotANumberError("the value is NaN")
@@ -196,7 +196,7 @@ class Floating(Form[float, float]):
         return pattern
 
     def _nearest(self, value: float) -> float:
-        """The number of the type nearest to a value; infinity beyond the largest."""
+        """Return the number of the type nearest to a value; infinity beyond the largest."""
         try:
             if _is_nan(value):
                 return math.nan
@@ -213,7 +213,7 @@ class Floating(Form[float, float]):
         return inside and math.isfinite(number)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same bits if they are a number within the limits."""
+        """Return the same bits if they are a number within the limits."""
         inside = 0 <= raw < 1 << self.wire.bits
         return raw if inside and self._fits(self.decode(raw, raws)) else None
 
@@ -226,18 +226,18 @@ class Floating(Form[float, float]):
         raise WrongTypeError("a floating-point number has no counts: use raw numbers or values")
 
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
-        """The number, as people read it; with `display` rounded from the exact one."""
+        """Return the number, as people read it; with `display` rounded from the exact one."""
         number = self.decode(raw, raws)
         if display is None or not math.isfinite(number):
             return f"{number:.12g}"
         return decimal_text(*number.as_integer_ratio(), display)
 
     def same(self, raw: int, other: int) -> bool:
-        """Whether both are the same number: 0 and -0 are."""
+        """Return True if both are the same number: 0 and -0 are."""
         return raw == other or self.decode(raw, NO_RAWS) == self.decode(other, NO_RAWS)
 
     def choices(self, unit: str) -> str | None:
-        """The limits in the unit; without limits any number of the type may be written."""
+        """Return the limits in the unit; without limits any number of the type may be written."""
         if not self.units:
             return f"no finite binary{self.wire.bits}"
         return outside([(f"{low:.12g}", f"{high:.12g}") for low, high in self.units], unit)

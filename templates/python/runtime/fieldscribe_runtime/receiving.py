@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def whole(read: Callable[[int], bytes], size_of: Callable[[bytes], int | None]) -> bytes:
-    """The whole reply. `read` gives up to so many bytes, none when nothing comes in time; `size_of` tells its length.
+    """Return the whole reply. `read` returns up to so many bytes, none after its timeout; `size_of` gives the length.
 
     Raises TimeoutError when nothing more comes.
     """

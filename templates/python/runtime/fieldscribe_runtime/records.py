@@ -61,7 +61,7 @@ class Record:
         return f"{type(self).__name__}({', '.join(fields)})"
 
     def replaced(self, **changes: Any) -> Self:
-        """The same with some fields changed."""
+        """Return the same with some fields changed."""
         return type(self)(**{**self.__dict__, **changes})
 
     __replace__ = replaced

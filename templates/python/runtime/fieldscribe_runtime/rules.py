@@ -37,7 +37,7 @@ Line = tuple[int, int, int]
 
 
 def round_ratio(num: int, den: int) -> int:
-    """The integer nearest to num / den, halves away from zero."""
+    """Return the integer nearest to num / den, halves away from zero."""
     size = (2 * abs(num) + abs(den)) // (2 * abs(den))
     return size if (num < 0) == (den < 0) else -size
 
@@ -51,14 +51,14 @@ def decimal_text(num: int, den: int, decimals: int) -> str:
 
 
 def round_float(value: float) -> int:
-    """A finite float to the nearest integer, halves away from zero."""
+    """Return a finite float to the nearest integer, halves away from zero."""
     whole = math.trunc(value)
     rest = value - whole  # exact: both lie within a factor of two, or whole is zero
     return whole + (rest >= 0.5) - (rest <= -0.5)
 
 
 def raw_of(point: str, raws: Raws) -> int:
-    """The raw number of another point, or an error that says that it is needed."""
+    """Return the raw number of another point, or an error that says that it is needed."""
     try:
         raw = raws[point]
     except KeyError:
@@ -76,7 +76,7 @@ def raw_of(point: str, raws: Raws) -> int:
 
 
 def _binary32(pattern: int) -> Fraction:
-    """The number that the bits are; 0 for infinities and NaN."""
+    """Return the number that the bits are; 0 for infinities and NaN."""
     from fractions import Fraction  # only scales by floating-point points need it
 
     value: float = struct.unpack("<f", struct.pack("<I", pattern & 0xFFFF_FFFF))[0]
@@ -100,16 +100,16 @@ class Factor(Record):
     codes: tuple[tuple[int, int], ...] = ()
 
     def is_code(self, raws: Raws) -> bool:
-        """Whether the point holds a special code, with which nothing can be computed."""
+        """Return True if the point holds a special code, with which nothing can be computed."""
         return any(first <= raw_of(self.point, raws) <= last for first, last in self.codes)
 
     def number(self, raws: Raws) -> int | Fraction:
-        """The factor (or exponent) before `power`, exactly."""
+        """Return the factor (or exponent) before `power`, exactly."""
         raw = raw_of(self.point, raws)
         return (_binary32(raw) if self.f32 else raw) * self.slope + self.intercept
 
     def exponent_fits(self, raws: Raws) -> bool:
-        """Whether the raw number is one for which ten to it is defined."""
+        """Return True if the raw number is one for which ten to it is defined."""
         return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
 
 
@@ -145,7 +145,7 @@ class Rule(Record):
         return num, den
 
     def encode(self, value: float, raws: Raws) -> int | None:
-        """The raw number by steps in binary64 (times num, divided by den, plus offset); None beyond every integer."""
+        """Return the raw number by steps in binary64 (times num, divided by den, plus offset); None if infinite."""
         num, den = self.ratio(raws)
         try:
             result = float(value) * num / den + self.offset[0] / self.offset[1]
@@ -154,7 +154,7 @@ class Rule(Record):
         return round_float(result) if math.isfinite(result) else None
 
     def line(self, raws: Raws) -> Line:
-        """The rule solved for the value, in lowest terms; raises as `ratio` does."""
+        """Return the rule solved for the value, in lowest terms; raises as `ratio` does."""
         num, den = self.ratio(raws)
         over, under = self.offset
         found = (under * den, over * den, num * under)
@@ -162,14 +162,14 @@ class Rule(Record):
         return found[0] // shared, found[1] // shared, found[2] // shared
 
     def steps(self) -> tuple[float, float, float] | None:
-        """What a value is multiplied with and divided by, and what is added; None beyond binary64."""
+        """Return what a value is multiplied with and divided by, and what is added; None beyond binary64."""
         try:
             return float(self.num), float(self.den), self.offset[0] / self.offset[1]
         except OverflowError:
             return None
 
     def decode(self, raw: int, raws: Raws) -> float:
-        """The binary64 nearest to the exact value."""
+        """Return the binary64 nearest to the exact value."""
         times, less, over = self.line(raws)
         try:
             return (raw * times - less) / over  # int / int is correctly rounded
@@ -177,19 +177,19 @@ class Rule(Record):
             raise ResultOverflowError(f"raw {raw} gives no binary64") from None
 
     def is_safe(self, raws: Raws, low: int, high: int) -> bool:
-        """Whether no raw number from `low` to `high` gives a value beyond binary64."""
+        """Return True if no raw number from `low` to `high` gives a value beyond binary64."""
         times, less, over = self.line(raws)
         return all(abs(raw * times - less) >> 1023 < over for raw in (low, high))
 
     def encode_count(self, count: int, decimals: int, raws: Raws, *, zero_allowed: bool = False) -> int:
-        """The raw number of `count` units of 10^-decimals, by integers alone."""
+        """Return the raw number of `count` units of 10^-decimals, by integers alone."""
         num, den = self.ratio(raws, zero_allowed=zero_allowed)
         over, under = self.offset
         scale = den * 10**decimals
         return round_ratio(count * num * under + over * scale, scale * under)
 
     def decode_count(self, raw: int, decimals: int, raws: Raws) -> int:
-        """The count of 10^-decimals units, by integers alone; raises ResultOverflowError beyond 64 bits."""
+        """Return the count of 10^-decimals units, by integers alone; raises ResultOverflowError beyond 64 bits."""
         num, den = self.ratio(raws)
         over, under = self.offset
         count = round_ratio((raw * under - over) * den * 10**decimals, num * under)
@@ -207,7 +207,7 @@ class Case(Record):
 
 
 def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
-    """The first rule whose case fits; raises NoCaseError."""
+    """Return the first rule whose case fits; raises NoCaseError."""
     for case in cases:
         if case.point is None or raw_of(case.point, raws) == case.raw:
             return case.rule
@@ -227,7 +227,7 @@ class Limit(Record):
     unless: Mapping[str, tuple[tuple[int, int], ...]]
 
     def raw(self, raws: Raws) -> int | None:
-        """The limit as a raw number; None while it does not hold."""
+        """Return the limit as a raw number; None while it does not hold."""
         for point, bands in self.unless.items():
             held = raw_of(point, raws)
             if any(first <= held <= last for first, last in bands):
@@ -239,7 +239,7 @@ Bound = int | Limit
 
 
 def low_end(bound: Bound, raws: Raws) -> int:
-    """The lower end of an interval as a raw number."""
+    """Return the lower end of an interval as a raw number."""
     if isinstance(bound, int):
         return bound
     raw = bound.raw(raws)
@@ -247,7 +247,7 @@ def low_end(bound: Bound, raws: Raws) -> int:
 
 
 def high_end(bound: Bound, raws: Raws) -> int:
-    """The upper end of an interval as a raw number."""
+    """Return the upper end of an interval as a raw number."""
     if isinstance(bound, int):
         return bound
     raw = bound.raw(raws)
@@ -255,7 +255,7 @@ def high_end(bound: Bound, raws: Raws) -> int:
 
 
 def outside(intervals: Sequence[tuple[str, str]], unit: str) -> str:
-    """What a refused number is, by the limits of what may be written, as people read them."""
+    """Return what a refused number is, by the limits of what may be written, as people read them."""
     texts = [low if low == high else f"{low}..{high}" for low, high in intervals]
     if all(low != high for low, high in intervals):
         return f"outside {' or '.join(texts)}{unit}"

@@ -70,7 +70,7 @@ class Session(NamedPoints, ABC):
         return raws
 
     def _shared_word_steps(self, point: Point) -> Steps[int]:
-        """The word that a bit group shares with others, as it is before the group is written."""
+        """Yield the word that a bit group shares with others, as it is before the group is written."""
         if not isinstance(point, Decoding):
             raise AccessError("the other bits of its word cannot be read back")
         return (yield from self._get_steps(point.facts.at))[0]
@@ -85,7 +85,7 @@ class Session(NamedPoints, ABC):
             return self._taken(point, (yield from self._get_steps(point.facts.at)))
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
-        """The raw number in words that came; it is remembered if the description says when it changes."""
+        """Return the raw number in words that came; it is remembered if the description says when it changes."""
         raw = point.from_words(words)
         if point.facts.changes in _KEPT or point.facts.changes_with:
             self._kept[point.facts.item] = raw
@@ -94,7 +94,7 @@ class Session(NamedPoints, ABC):
     def _raws_steps(
         self, point: Point, names: Iterable[str], known: Mapping[str, int] = NO_RAWS, *, writes: bool = False
     ) -> Steps[dict[str, int]]:
-        """The raw numbers that a point needs of others: those known (by item), those remembered, the rest read.
+        """Yield the raw numbers that a point needs of others: those known (by item), those remembered, the rest read.
 
         What is written must not follow from a number that has changed meanwhile, by another master or by hand: then
         only what never changes is taken from memory.
@@ -169,7 +169,7 @@ class Session(NamedPoints, ABC):
             return (yield from self._values_steps(points, group))
 
     def _values_steps(self, points: Sequence[Decoding[Any]], group: str | None) -> Steps[dict[str, Value]]:
-        """The values of points, by name, and before them what their scales need."""
+        """Yield the values of points, by name, and before them what their scales need."""
         needed = [self._needed(point, name) for point in points for name in point.scale_needs]
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
@@ -188,11 +188,11 @@ class Session(NamedPoints, ABC):
         return [point for point in members if isinstance(point, Decoding) and self._travels(point)]
 
     def _travels(self, point: Point) -> bool:
-        """Whether the link carries a point, and all that its scale needs."""
+        """Return True if the link carries a point, and all that its scale needs."""
         needed = [self._found(name) for name in point.scale_needs]
         return all(self._carried(one) for one in (point, *needed) if one is not None)
 
     def _carried(self, point: Point) -> bool:
-        """Whether the words of a point travel the way the link is set; families say where that differs."""
+        """Return True if the words of a point travel the way the link is set; families say where that differs."""
         del point
         return True

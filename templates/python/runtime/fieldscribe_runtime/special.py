@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Special(Record):
-    """What a point holds in the place of a quantity: a code by its name.
+    """A special code, which a point holds in place of a quantity.
 
     With `no_value` it says that there is no value; only a `writable` one may be written.
     """
@@ -49,7 +49,7 @@ class Codes:
         self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
 
     def __call__(self, raw: int) -> Special | None:
-        """The code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
+        """Return the code that a raw number is; None for a quantity. Raises WrongTypeError for what is no integer."""
         if type(raw) is not int:
             raw = raw_number(raw, 0)
         found = self._single.get(raw)
@@ -63,7 +63,7 @@ class Codes:
         return self if self._bands else self._single.get
 
     def __getitem__(self, name: str) -> Special:
-        """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
+        """Return the code of that name; raises KeyError, also for a band, in which a raw number is meant."""
         if not isinstance(name, str) or name not in self._spans:
             raise KeyError(self._no_such(name))
         low, high = self._spans[name]
@@ -84,19 +84,19 @@ class Codes:
         return f"there is no special code {name if isinstance(name, str) else shown(name)}{known}"
 
     def __iter__(self) -> Iterator[str]:
-        """The names."""
+        """Return the names."""
         return iter(self._spans)
 
     def __len__(self) -> int:
         return len(self._spans)
 
     def said(self, code: Special) -> str:
-        """How a program names a code: `special.inactive`, or `special(4101)` for one of a band."""
+        """Return how a program names a code: `special.inactive`, or `special(4101)` for one of a band."""
         low, high = self._spans[code.name]
         return f"special.{code.name}" if low == high else f"special({code.raw})"
 
     def not_a_text(self, given: str) -> str:
-        """Why a text is not taken for a value, and the code that is meant by it."""
+        """Return why a text is not taken for a value, and the code that is meant by it."""
         named = given if given in self._spans and self._spans[given][0] == self._spans[given][1] else "name"
         return f"takes a number or a special code, as in special.{named}, not {shown(given)}"
 

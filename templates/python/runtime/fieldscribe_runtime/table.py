@@ -35,7 +35,7 @@ def check_variants(axes: Mapping[str, tuple[str, ...]], variants: Mapping[str, s
 
 
 def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
-    """Whether the variants that are told have a point; one of a variant needs it told."""
+    """Return True if the known variants have a point; a point of a variant needs that variant to be known."""
     axis, values = point.facts.only_for or ("", ())
     left = variants.get(axis) in (None, *values)
     variant = point.facts.variant
@@ -43,7 +43,7 @@ def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
 
 
 def _declares(kind: type, name: str) -> bool:
-    """Whether a class says that its objects have such an attribute."""
+    """Return True if a class says that its objects have such an attribute."""
     return name in getattr(kind, "__annotations__", ())
 
 
@@ -96,7 +96,7 @@ class NamedPoints(PointTable):
     variants: Mapping[str, str | None]
 
     def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
-        """A point by name, old name or code, that of this device's variant; raises AccessError."""
+        """Return a point by name, old name or code, that of this device's variant; raises AccessError."""
         check_name("point", what)
         name = what
         if (old := self.OLD_NAMES.get(what)) is not None:
@@ -115,11 +115,11 @@ class NamedPoints(PointTable):
         return points[0]
 
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
-        """The points of that name, one for each variant that has its own."""
+        """Return the points of that name, one for each variant that has its own."""
         return [point for point in self.POINTS.values() if point.facts.name == name]
 
     def _labelled(self, label: str) -> PointAttribute[Any, Any] | None:
-        """The point that errors call so, by code and name."""
+        """Return the point that errors call so, by code and name."""
         code, _, name = label.rpartition(" ")
         found = self._found(name) if code else None
         return found if found is not None and found.label == label else None
@@ -128,7 +128,7 @@ class NamedPoints(PointTable):
         return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
 
     def _absence(self, name: str) -> str:
-        """Why there is no such point, or not yet."""
+        """Return why there is no such point, or not yet."""
         axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
         if not axes:
             return self._other_meaning(name)
@@ -137,7 +137,7 @@ class NamedPoints(PointTable):
         return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
 
     def _other_meaning(self, name: str) -> str:
-        """What a name is that no point has as its own: a documented point, a command, a group, or one like others."""
+        """Return the meaning of a name of no point: a documented point, a command, a group, or similar names."""
         for documented, facts in self.DOCUMENTED.items():
             if name in (documented, documented.rstrip("_")) or is_code(facts.code, name):
                 return f"is documented only{'' if documented == name else f', as {documented}'}: {facts}"
@@ -152,13 +152,13 @@ class NamedPoints(PointTable):
         return list(dict.fromkeys([point.facts.group for point in self.POINTS.values() if point.facts.group]))
 
     def _meant_by_group(self, group: str) -> str:
-        """What may be meant where there is no such group."""
+        """Return what may be meant where there is no such group."""
         if self._found(group) is not None or find(self.POINTS.values(), group):
             return f"; it is a point: read_many([{group!r}]) reads it"
         return f", only {', '.join(self._groups())}"
 
     def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
-        """The point that another one needs; raises AccessError that says so."""
+        """Return the point that another one needs; raises AccessError that says so."""
         found = self._found(name)
         if found is None:
             raise AccessError(f"{point.label} needs {name}, which {self._absence(name)}")
@@ -177,7 +177,7 @@ class NamedPoints(PointTable):
         return exists(point, self.variants)
 
     def _surely_has(self, point: Point) -> bool:
-        """Whether the point is there for all that is known: no condition is open."""
+        """Return True if the point is there for all that is known: no condition is open."""
         axis, _ = point.facts.only_for or ("", ())
         known = not axis or self.variants.get(axis) is not None
         return known and not point.facts.uncertain and self._has(point)
@@ -195,7 +195,7 @@ class NamedPoints(PointTable):
         return points
 
     def _own(self, one: Any) -> PointAttribute[Any, Any]:
-        """The point that a caller means by a name, a code, or a point of this device."""
+        """Return the point that a caller means by a name, a code, or a point of this device."""
         if isinstance(one, ByVariant):
             same = getattr(type(self), one.name, None) is one
             return self._resolved(one.name.rstrip("_") if same else one)

@@ -32,12 +32,12 @@ class Text(Form[str, str]):
         self._writable = _WRITABLE[encoding]
 
     def decode(self, raw: int, raws: Raws) -> str:
-        """The characters without the spaces behind them; each byte is one, whatever it is."""
+        """Return the characters without the spaces behind them; each byte is one, whatever it is."""
         data = raw.to_bytes(self.characters, "big")
         return data.rstrip(b" ").decode("latin-1")
 
     def converted(self, value: str, raws: Raws) -> int | None:
-        """The words of a text that fits and has only printable characters."""
+        """Return the words of a text that fits and has only printable characters."""
         if not isinstance(value, str) or len(value) > self.characters:
             return None
         try:
@@ -47,7 +47,7 @@ class Text(Form[str, str]):
         return int.from_bytes(data, "big") if self._writable.issuperset(data) else None
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same words if they hold only printable characters."""
+        """Return the same words if they hold only printable characters."""
         if not 0 <= raw < 1 << self.wire.bits:
             return None
         return raw if self._writable.issuperset(raw.to_bytes(self.characters, "big")) else None
@@ -61,7 +61,7 @@ class Text(Form[str, str]):
         raise WrongTypeError("a text has no counts: use raw numbers or values")
 
     def choices(self, unit: str) -> str | None:
-        """What a text has to be."""
+        """Return what a text has to be."""
         return f"no text of at most {self.characters} printable {self.encoding} characters"
 
 
@@ -78,7 +78,7 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         self._numbers = {int(entry): entry for entry in names}
 
     def _digits(self, raw: int) -> tuple[int, ...]:
-        """The digits as numbers; the first one is whatever the others leave."""
+        """Return the digits as numbers; the first one is whatever the others leave."""
         digits = []
         for _ in range(self.count - 1):
             raw, digit = divmod(raw, 10)
@@ -86,11 +86,11 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         return (raw, *reversed(digits))
 
     def decode(self, raw: int, raws: Raws) -> tuple[E, ...]:
-        """A member for each digit, also for one without a name."""
+        """Return a member for each digit, also for one without a name."""
         return tuple([self.names(digit) for digit in self._digits(raw)])
 
     def converted(self, value: Sequence[E], raws: Raws) -> int | None:
-        """The word of that many members; a member of another enum raises UnknownValueError."""
+        """Return the word of that many members; a member of another enum raises UnknownValueError."""
         if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
             raise WrongTypeError(f"takes {self.count} digits, not {shown(value)}")
         if len(value) != self.count:
@@ -105,16 +105,16 @@ class Digits(Form[tuple[E, ...], Sequence[E]]):
         return raw if raw < 1 << self.wire.bits else None
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same word if every digit is one of the enum's numbers."""
+        """Return the same word if every digit is one of the enum's numbers."""
         inside = 0 <= raw < 1 << self.wire.bits
         return raw if inside and self._numbers.keys() >= set(self._digits(raw)) else None
 
     def name_of(self, raw: int) -> str | None:
-        """The name of one digit's number in lower case."""
+        """Return the name of one digit's number in lower case."""
         entry = self._numbers.get(raw)
         return None if entry is None else entry.name.lower()
 
     def choices(self, unit: str) -> str | None:
-        """What each digit has to be."""
+        """Return what each digit has to be."""
         named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
         return f"not made of {self.count} digits out of {named}"

@@ -17,7 +17,7 @@ class Turns:
         self._turn: Any = None
 
     def lock(self) -> Any:
-        """The lock, in the next loop once the one before is done; raises AccessError where it is not."""
+        """Return the lock, in the next loop once the one before is done; raises AccessError where it is not."""
         import asyncio  # costs more than all of this package, so it is imported where it is needed
 
         try:

@@ -34,15 +34,15 @@ class Flag:
         return self if word is None else self.number(word) == self.active
 
     def number(self, word: int) -> int:
-        """The bit as it is in the word, 0 or 1."""
+        """Return the bit as it is in the word, 0 or 1."""
         return word >> self.low & 1
 
     def place(self, true: bool) -> int:
-        """The bit at its place, as it has to be for the name to be true, or not."""
+        """Return the bit at its place, as it has to be for the name to be true, or not."""
         return (self.active if true else 1 - self.active) << self.low
 
     def told(self, name: str, word: int) -> str:
-        """The name if it is true on a word, else nothing."""
+        """Return the name if it is true on a word, else nothing."""
         return name if self.number(word) == self.active else ""
 
 
@@ -70,23 +70,23 @@ class Field(Generic[N]):
         return number if self.names is None else self.names(number)
 
     def number(self, word: int) -> int:
-        """The bits as they are in the word, right-aligned."""
+        """Return the bits as they are in the word, right-aligned."""
         return word >> self.low & (1 << self.width) - 1
 
     def place(self, number: int) -> int:
-        """A number at the field's place, for combining with other flags."""
+        """Return a number at the field's place, for combining with other flags."""
         plain = whole(number)
         if plain >> self.width:
             raise RangeError(f"{shown(plain)} does not fit into {self.width} bits")
         return plain << self.low
 
     def told(self, name: str, word: int) -> str:
-        """The name with its number on a word."""
+        """Return the name with its number on a word."""
         return f"{name}={self._named(word)}"
 
 
 class Word:
-    """What the flags of a word make of it: it is shown with the names that are true, whichever bit means so."""
+    """A word of flags, printed as the names of its true flags."""
 
     if TYPE_CHECKING:
 
@@ -94,7 +94,7 @@ class Word:
 
     @staticmethod
     def _joined(*parts: int) -> int:
-        """A number of the bits of all parts."""
+        """Return a number of the bits of all parts."""
         return functools.reduce(operator.or_, parts, 0)
 
     def __repr__(self) -> str:

@@ -93,11 +93,11 @@ class _Coded(_Around[R | Special, W]):
         self.codes = codes
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The special code, else as in the form."""
+        """Return the special code, else as in the form."""
         return coded(self.codes.finder, super().quick_decode(low, high, slow), slow)
 
     def sure_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The same."""
+        """Return the same."""
         return surely_coded(self.codes.finder, super().sure_decode(low, high, slow))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
@@ -105,7 +105,7 @@ class _Coded(_Around[R | Special, W]):
         return uncoded(self.codes.finder, self.form.quick_encode(allowed, slow), slow)
 
     def decode(self, raw: int, raws: Raws) -> R | Special:
-        """The special code, else as in the form."""
+        """Return the special code, else as in the form."""
         return self.codes(raw) or super().decode(raw, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
@@ -127,7 +127,7 @@ class _Coded(_Around[R | Special, W]):
         return self._quantity(super().converted_count(count, raws), "would be")
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same number if it is a code that may be written, or the form takes it; raises SpecialCodeError."""
+        """Return the same number if it is a code that may be written, or the form takes it; raises SpecialCodeError."""
         code = self.codes(raw)
         if code is not None and code.writable:
             return raw
@@ -166,7 +166,7 @@ class WithWritableCodes(_Coded[R, W | Special]):
 
 
 def with_fixed(form: Form[Any, Any], mask: int, bits: int) -> Form[Any, Any]:
-    """The form with bits that are always written as a constant; special codes stay outermost."""
+    """Return the form with bits that are always written as a constant; special codes stay outermost."""
     if isinstance(form, _Coded):
         form.form = FixedBits(form.form, mask, bits)
         return form
@@ -194,7 +194,7 @@ class FixedBits(_Around[R, W]):
         return raw & ~self.mask | self.bits
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """The same number if it has the constant bits and the form takes it."""
+        """Return the same number if it has the constant bits and the form takes it."""
         if raw & self.mask != self.bits:
             raise RangeError(f"raw {shown(raw)} has not {self.bits:04X}h in the bits {self.mask:04X}h, as it must")
         return super().checked(raw, allowed, raws)

@@ -47,7 +47,7 @@ def _message(frame: Frame) -> can.Message:
 
 
 def _frame(message: can.Message) -> Frame | None:
-    """A data frame; None for what is none."""
+    """Return a data frame; None for what is none."""
     if message.is_error_frame or message.is_remote_frame:
         return None
     return Frame(message.arbitration_id, bytes(message.data))
@@ -71,14 +71,14 @@ class Listener:
         self._line.send(frame)
 
     def receive(self) -> Frame:
-        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        """Return the next data frame, whoever sent it; raises TimeoutError and LineError."""
         frame = self._line.next_of(self.frames, self._line.timeout)
         if frame is None:
             raise TimeoutError("no frame came")
         return frame
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that has come already; None when there is none."""
+        """Return the next frame that has come already; None when there is none."""
         return self._line.next_of(self.frames, 0)
 
 
@@ -110,11 +110,11 @@ class CanLine:
             raise LineError(f"{self.bus}: {error}") from error
 
     def receive(self) -> Frame:
-        """The next data frame, whoever sent it; raises TimeoutError and LineError."""
+        """Return the next data frame, whoever sent it; raises TimeoutError and LineError."""
         return self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that has come already; None when there is none."""
+        """Return the next frame that has come already; None when there is none."""
         return self._listening().receive_waiting()
 
     def _listening(self) -> Listener:
@@ -123,7 +123,7 @@ class CanLine:
         return self._own
 
     def next_of(self, frames: deque[Frame], timeout: float) -> Frame | None:
-        """The next frame of a listener; None when none comes in time."""
+        """Return the next frame of a listener; None when none comes in time."""
         until, late = time.monotonic() + timeout, 0
         with self._turn:
             while not frames:
@@ -196,7 +196,7 @@ class AsyncListener:
             raise
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that has come already; None when there is none."""
+        """Return the next frame that has come already; None when there is none."""
         with suppress(asyncio.QueueEmpty):
             return self._frames.get_nowait()
         return None
@@ -253,7 +253,7 @@ class AsyncCanLine:
         return await self._listening().receive()
 
     def receive_waiting(self) -> Frame | None:
-        """The next frame that has come already; None when there is none."""
+        """Return the next frame that has come already; None when there is none."""
         return self._listening().receive_waiting()
 
     def _listening(self) -> AsyncListener:

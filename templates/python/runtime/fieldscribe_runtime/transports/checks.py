@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: 0BSD
-"""What transports are made with, held against what they take."""
+"""Checks of the arguments of transports."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ def refuse(what: str, takes: str, given: object) -> NoReturn:
 
 
 def text(what: str, takes: str, given: Any) -> str:
-    """A text that is not empty."""
+    """Return a text that is not empty."""
     if not isinstance(given, str) or not given.strip():
         refuse(what, takes, given)
     return given
 
 
 def number(what: str, given: Any, ends: tuple[int, int]) -> int:
-    """An integer between the ends."""
+    """Return an integer between the ends."""
     if isinstance(given, bool) or not isinstance(given, int) or not ends[0] <= given <= ends[1]:
         refuse(what, f"a number from {ends[0]} to {ends[1]}", given)
     return given
 
 
 def seconds(given: Any) -> float:
-    """How long to wait."""
+    """Return how long to wait."""
     is_number = isinstance(given, (int, float)) and not isinstance(given, bool)
     if not is_number or not math.isfinite(given) or not 0 < given <= _MOST_SECONDS:
         refuse("a timeout", "a number of seconds above 0", given)

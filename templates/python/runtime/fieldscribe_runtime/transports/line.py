@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def size_of_reply(framing: str) -> Callable[[bytes], int | None]:
-    """What tells the length of a reply by its first bytes. Raises RequestError for an unknown framing."""
+    """Return what tells the length of a reply by its first bytes. Raises RequestError for an unknown framing."""
     if framing == USS:
         return uss.reply_size
     told = partial(modbus.reply_size, framing=framing)
