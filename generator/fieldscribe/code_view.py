@@ -1,4 +1,4 @@
-"""The device as code may know it: names in place of titles, no notes, no places in the manual, no reasons for errata.
+"""The device as code sees it: names in place of titles, no notes, no places in the manual, no reasons for errata.
 
 Titles and notes change often. They reach only the documentation, so that vendored code stays the same when they do.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from functools import lru_cache
+from typing import Any
 
 from fieldscribe.model import (
     Code,
@@ -29,7 +30,7 @@ _NOWHERE = Source("", None, None, None)
 
 
 def for_code(device: Device) -> Device:
-    """The same device without anything that is only for people."""
+    """Return the device without anything that is only for people."""
     enums = _Enums()
     shapes = {id(shape): shape for shape in (point.shape for point in device.points)}
     interner = Interner()  # shapes that differed in titles only become one
@@ -46,38 +47,35 @@ def for_code(device: Device) -> Device:
             note={},
             timing={},
             serial={},
-            functions=_codes(device.bus.functions),
-            exceptions=_codes(device.bus.exceptions),
-            family_facts=device.bus.family_facts and _own(device.bus.family_facts),
+            functions=_without_texts(device.bus.functions),
+            exceptions=_without_texts(device.bus.exceptions),
+            family_facts=device.bus.family_facts and _family_facts(device.bus.family_facts),
         ),
-        groups=tuple(replace(group, title=_title(group.name), note={}, source=_NOWHERE) for group in device.groups),
+        groups=_without_texts(device.groups),
         points=tuple([_point(point, shapes[id(point.shape)], terms[id(point.terms)]) for point in device.points]),
         enums=tuple(map(enums.of, device.enums)),
-        commands=tuple(
-            replace(command, title=_title(command.name), note={}, source=_NOWHERE) for command in device.commands
-        ),
-        frames=tuple(replace(frame, title=_title(frame.name), source=_NOWHERE) for frame in device.frames),
+        commands=_without_texts(device.commands),
+        frames=_without_texts(device.frames),
         errata=tuple(replace(erratum, why="", where="", source=_NOWHERE) for erratum in device.errata),
-        messages=tuple(replace(message, title=_title(message.name), source=_NOWHERE) for message in device.messages),
-        telegrams=tuple(
-            replace(telegram, title=_title(telegram.name), source=_NOWHERE) for telegram in device.telegrams
-        ),
+        messages=_without_texts(device.messages),
+        telegrams=_without_texts(device.telegrams),
     )
 
 
-def _codes(codes: tuple[Code, ...]) -> tuple[Code, ...]:
-    return tuple(replace(code, title=_title(code.name)) for code in codes)
+def _without_texts(things: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Things with their names as titles, without notes and places in the manual."""
+    empty = {"note": {}, "source": _NOWHERE}
+    return tuple(
+        replace(thing, title=_title(thing.name), **{key: empty[key] for key in empty if hasattr(thing, key)})
+        for thing in things
+    )
 
 
-def _own(own: FamilyFacts) -> FamilyFacts:
-    """The facts of one family, with names as the titles of their codes."""
-    held = {field.name: getattr(own, field.name) for field in fields(own)}
-    codes = {
-        name: value
-        for name, value in held.items()
-        if isinstance(value, tuple) and value[:1] and isinstance(value[0], Code)
-    }
-    return replace(own, **{name: _codes(value) for name, value in codes.items()})
+def _family_facts(own: FamilyFacts) -> FamilyFacts:
+    """The facts of one family, its codes with their names as titles."""
+    values = {field.name: getattr(own, field.name) for field in fields(own)}
+    codes = {name: value for name, value in values.items() if value and isinstance(value, tuple)}
+    return replace(own, **{name: _without_texts(value) for name, value in codes.items() if isinstance(value[0], Code)})
 
 
 def _point(point: Point, shape: Shape, terms: Terms) -> Point:
@@ -126,14 +124,14 @@ def _shape(shape: Shape, enums: _Enums) -> Shape:
 
 
 class _Enums:
-    """The enums of a device for code; those that share their entries still do."""
+    """The enums of a device as code sees them; those that share their entries still do."""
 
     def __init__(self) -> None:
         self._enums: dict[int, Enum] = {}
         self._entries: dict[int, tuple[Entry, ...]] = {}
 
     def of(self, enum: Enum) -> Enum:
-        """An enum with names as titles."""
+        """Return an enum with names as titles."""
         if id(enum) not in self._enums:
             entries = self._entries.get(id(enum.entries))
             if entries is None:

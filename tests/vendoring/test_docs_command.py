@@ -96,7 +96,7 @@ def _walked(text: str, capsys: pytest.CaptureFixture[str]) -> str:
 
 
 def _told(table: str) -> str:
-    rows = [f"| `{column.name}` | {column.says} |" for column in TABLES[table]]
+    rows = [f"| `{column.name}` | {column.meaning} |" for column in TABLES[table]]
     return "\n".join(("| column | what it says |", "|---|---|", *rows, ""))
 
 

@@ -20,15 +20,15 @@ EXAMPLE = """examples:
   fieldscribe diff old/my_drive my_drive --keep-names
 
 classes: wire and api break (major), behaviour and compatible are new (minor), docs changes no code (patch)
-ends with 1 when there are differences at or above --fail-on, or errors in a description: they are told on stderr,
-and what they leave of it is compared"""
+ends with 1 when there are differences at or above --fail-on, or errors in a description: stderr lists them,
+and the rest of the description is compared"""
 
 _LEAST = {"breaking": 2, "behaviour": 3, "any": len(CLASSES)}
-"""How many of the classes, the gravest first, count."""
+"""How many of the classes count, the gravest first."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+    """Add the arguments of the command."""
     what = "a device's id, a folder of one device or of several, a file, an exported model, or GIT-REVISION:PATH"
     parser.add_argument("old", metavar="OLD", help=what)
     parser.add_argument("new", metavar="NEW", help="the same; they may be of different kinds")
@@ -46,7 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Compare; the exit code."""
+    """Compare and report; return the exit code."""
     from fieldscribe.cli.common import StopError, report_findings
     from fieldscribe.diagnostics import Report
     from fieldscribe.differences.changes import compared
@@ -79,7 +79,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _known(argument: str) -> str:
-    """The argument; the folder of a device that it names by its id. Raises StopError."""
+    """Return the argument, or the folder of the device that it names. Raises StopError."""
     from fieldscribe.cli.common import StopError, description_paths
 
     if not argument:
@@ -107,7 +107,7 @@ def _print(form: str, comparisons: list[Comparison]) -> None:
 
 
 def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
-    """Write `was` to the renamed points; whether anything was written. Raises StopError."""
+    """Write `was` to the renamed points; return True if anything was written. Raises StopError."""
     import sys
 
     from fieldscribe.cli.common import StopError
@@ -122,6 +122,6 @@ def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
         edited = with_aliases(each)
         rewrite(edited.files)
         written = written or bool(edited.files)
-        for sentence in edited.told:
-            print(visible(sentence), file=sys.stderr)
+        for message in edited.messages:
+            print(visible(message), file=sys.stderr)
     return written

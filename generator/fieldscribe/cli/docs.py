@@ -1,4 +1,4 @@
-"""`fieldscribe docs`: the documentation of devices, in the form that one works with."""
+"""`fieldscribe docs`: the documentation of devices as a workbook, as CSV or in Markdown."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+    """Add the arguments of the command."""
     from fieldscribe.cli.common import add_descriptions, some_path
     from fieldscribe.vendoring.requests import FORMATS
 
@@ -29,15 +29,15 @@ def add_arguments(parser: ArgumentParser) -> None:
         "devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml"
     )
     add_descriptions(parser)
-    told = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
-    parser.add_argument("--format", choices=tuple(FORMATS), required=True, help=told)
+    forms = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
+    parser.add_argument("--format", choices=tuple(FORMATS), required=True, help=forms)
     parser.add_argument("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
     parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
     parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
 
 
 def run(arguments: Namespace) -> int:
-    """Write it, or compare; the exit code."""
+    """Write or compare the files; return the exit code."""
     from fieldscribe.cli.vendor import deliver_all, print_deliveries
 
     orders, code = _orders(arguments)
@@ -47,7 +47,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _orders(arguments: Namespace) -> tuple[list[Order], int]:
-    """An order for each device that has no errors, and the exit code of the others."""
+    """The requests for the devices without errors, and the exit code for the others."""
     from argparse import Namespace as Asked
 
     from fieldscribe.cli import FINE

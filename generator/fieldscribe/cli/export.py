@@ -18,14 +18,14 @@ _JSON = "json"
 
 
 def _forms() -> tuple[str, ...]:
-    """All forms: the model, which every device has, and those that only some families have."""
+    """All forms: the model of any device, and those of some families only."""
     from fieldscribe.families import families
 
     return (_JSON, *(form for family in families() for form in family.exports))
 
 
 def add_arguments(parser: ArgumentParser) -> None:
-    """The command's arguments."""
+    """Add the arguments of the command."""
     from fieldscribe.cli.common import add_device
 
     parser.add_argument("form", choices=_forms(), metavar="FORM", help=f"the form: {' or '.join(_forms())}")
@@ -34,7 +34,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Print it; the exit code."""
+    """Print the export; return the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
     from fieldscribe.export import ExportError
@@ -58,7 +58,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _print_bytes(data: bytes) -> None:
-    """Bytes on stdout, whatever encoding it has."""
+    """Print bytes on stdout, whatever encoding it has."""
     import sys
 
     sys.stdout.flush()

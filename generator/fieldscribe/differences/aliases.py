@@ -1,4 +1,4 @@
-"""Old names kept as deprecated aliases: `was: [old_name]` written to renamed points, where a person would write it."""
+"""Keeps old names as deprecated aliases: writes `was: [old_name]` to renamed points, where a person would."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ _SCALAR = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[A-Za-z0-9_]+")
 
 
 class Edited(NamedTuple):
-    """The texts of files, as they were and as they shall be, and what people are told."""
+    """The old and the new texts of files, and messages for people."""
 
     files: Mapping[str, tuple[str, str]]
-    told: list[str]
+    messages: list[str]
 
 
 class _Alias(NamedTuple):
-    """An old name for the row that a point comes from, and the points that get it from there, with their aliases."""
+    """An old name for a row of the description, and the points that come from the row, each with its old name."""
 
     row: Map
     old: str
@@ -40,16 +40,16 @@ class _Alias(NamedTuple):
 
 
 def with_aliases(comparison: Comparison) -> Edited:
-    """The files of the new description with the old names of renamed points. Nothing is written here."""
+    """Return the files of the new description with the old names of renamed points; this writes no file."""
     described = None if comparison.new is None else comparison.new.described
     if described is None:
         return Edited({}, [])
     aliases, by_hand = _aliases(comparison, described)
-    kept, told = _proven(described, aliases)
+    kept, messages = _proven(described, aliases)
     lines = [f"{new}: the old name `{old}` stays as an alias" for alias in kept for new, old in alias.points]
     changed = {file: text for file, text in _texts(kept).items() if text != file.text}
-    told = lines + [_advice(*pair) for pair in by_hand] + told
-    return Edited({file.name: (file.text, text) for file, text in changed.items()}, told)
+    messages = lines + [_advice(*pair) for pair in by_hand] + messages
+    return Edited({file.name: (file.text, text) for file, text in changed.items()}, messages)
 
 
 def _advice(item: str, old: str) -> str:
@@ -57,7 +57,7 @@ def _advice(item: str, old: str) -> str:
 
 
 def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias], list[tuple[str, str]]]:
-    """The old names by row, one for all points that it stands for, and the points that a row cannot give theirs."""
+    """The old names by row, and the points whose old names cannot be written to their row."""
     aliases: dict[tuple[int, str], _Alias] = {}
     by_hand = []
     for difference in comparison.differences:
@@ -78,26 +78,26 @@ def _aliases(comparison: Comparison, described: Described) -> tuple[list[_Alias]
 
 
 def _plain(item: str, written: PointFacts) -> str:
-    """The name of a point in generated code, without its variant."""
+    """The name of a point in generated code without its variant."""
     return item if written.variant is None else item.removesuffix(f"_{written.variant.value.lower()}")
 
 
 def _proven(described: Described, aliases: list[_Alias]) -> tuple[list[_Alias], list[str]]:
-    """Those aliases that do what they should in a copy of the description, and what is to be said of the others."""
-    left, told = aliases, list[str]()
+    """The aliases that work in a copy of the description, and messages about the others."""
+    left, messages = aliases, list[str]()
     while left:
         lost, finding = _lost(described, left)
         if finding:
-            return [], [*told, f"no alias was written: {finding}"]
+            return [], [*messages, f"no alias was written: {finding}"]
         if not lost:
-            return left, told
-        told += [_advice(*pair) for pair in lost]
+            return left, messages
+        messages += [_advice(*pair) for pair in lost]
         left = [alias for alias in left if not set(lost) & set(alias.points)]
-    return [], told
+    return [], messages
 
 
 def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, str]], str]:
-    """The points that do not get their old names so, and the first finding that comes of the aliases."""
+    """The points that do not get their old names in a copy, and the first finding that the aliases cause."""
     sources = _sources(described)
     texts = {file: file.text for file in sources} | dict(_texts(aliases))
     folder = os.path.dirname(os.path.abspath(sources[0].name))
@@ -118,12 +118,12 @@ def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, 
 
 
 def _sources(described: Described) -> list[SourceFile]:
-    """The files of a description, that of the head first."""
+    """The files of a description, that with the head first."""
     return list({id(node.file): node.file for node in described.analysis.scope.files}.values())
 
 
 def _texts(aliases: Iterable[_Alias]) -> Mapping[SourceFile, str]:
-    """The texts of the files with these aliases in them."""
+    """The texts of the files with these aliases."""
     rows: dict[int, tuple[Map, list[str]]] = {}
     for alias in aliases:
         rows.setdefault(id(alias.row), (alias.row, []))[1].append(alias.old)
@@ -142,29 +142,29 @@ def _inserted(text: str, places: list[tuple[int, str]]) -> str:
 
 
 def _edit(row: Map, old_names: list[str]) -> tuple[int, str] | None:
-    """Where `was` is written, and as what; None where the row has no such place."""
+    """The offset and the text of `was`; None if the row has no place for it."""
     was = row.get("was")
     if isinstance(was, Seq):
         return _into_list(row, was, old_names)
     return _behind_name(row, f"was: [{', '.join(old_names)}]") if "name" in row else None
 
 
-def _behind_name(row: Map, said: str) -> tuple[int, str] | None:
-    """On the line below the name, or behind it in braces."""
+def _behind_name(row: Map, key: str) -> tuple[int, str] | None:
+    """The key on the line below the name, or behind the name in braces."""
     text, column = row.file.text, row.key_span("name").column
     name = _SCALAR.match(text, row.file.offset(row.span("name").at))
     if name is None:
         return None
     if text[row.start] == "{":
-        return name.end(), f", {said}"
-    end, line = text.find("\n", name.end()), f"{' ' * (column - 1)}{said}{_ending(text)}"
+        return name.end(), f", {key}"
+    end, line = text.find("\n", name.end()), f"{' ' * (column - 1)}{key}{_ending(text)}"
     if end < 0:
         return len(text), f"{_ending(text)}{line}"
     return end + 1, line
 
 
 def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
-    """More old names in a list that is there."""
+    """More old names in an existing list."""
     text, start = row.file.text, was.start
     if text[start] == "[":
         return start + 1, f"{', '.join(old_names)}{', ' if was else ''}"
@@ -174,5 +174,5 @@ def _into_list(row: Map, was: Seq, old_names: list[str]) -> tuple[int, str]:
 
 
 def _ending(text: str) -> str:
-    """How lines end."""
+    """The line ending of a text."""
     return "\r\n" if "\r\n" in text else "\n"

@@ -1,4 +1,4 @@
-"""The differences of two sides, device by device, each with its places and the symbols that it touches."""
+"""The differences of two sides, device by device, with their places, their names in code, and the version step."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CLASSES = {
     COMPATIBLE: "is compatible",
     DOCS: "changes the documentation",
 }
-"""The classes, the gravest first, and what such a difference does."""
+"""The classes, the gravest first, and what a difference of the class does."""
 
 _STEPS = {WIRE: "major", API: "major", BEHAVIOUR: "minor", COMPATIBLE: "minor", DOCS: "patch"}
 STEPS = ("patch", "minor", "major")
@@ -28,15 +28,15 @@ STEPS = ("patch", "minor", "major")
 
 
 def step_for(classes: Iterable[str]) -> str | None:
-    """The step that differences of these classes ask for; None where there are none."""
-    asked = {_STEPS[name] for name in classes}
-    return next((step for step in reversed(STEPS) if step in asked), None)
+    """Return the step that differences of these classes require; None without any."""
+    required = {_STEPS[name] for name in classes}
+    return next((step for step in reversed(STEPS) if step in required), None)
 
 
 def next_version(version: str, step: str) -> str | None:
-    """The lowest version that takes this step; None where the version is no `1.2.3`.
+    """Return the lowest version that takes this step; None if the version is not like `1.2.3`.
 
-    Below 1.0 the middle number says what breaks, as Cargo and npm read it, and the last one everything else.
+    Below 1.0 the middle number counts what breaks, as in Cargo and npm, and the last one everything else.
     """
     numbers = _numbers(version)
     if numbers is None:
@@ -50,7 +50,7 @@ def next_version(version: str, step: str) -> str | None:
 
 
 def is_taken(old: str, new: str, step: str) -> bool:
-    """Whether the way from the old version to the new one is at least that step; True where one is no `1.2.3`."""
+    """Return True if the new version is at least that step from the old one, or if one is not like `1.2.3`."""
     least, there = next_version(old, step), _numbers(new)
     return least is None or there is None or there >= (_numbers(least) or there)
 
@@ -86,11 +86,11 @@ class Comparison:
 
     @property
     def step(self) -> str | None:
-        """The step that the version must take."""
+        """The step that the version must take; None if nothing differs."""
         return step_for(difference.weight for difference in self.differences)
 
     def places(self, difference: Difference) -> dict[str, str | None]:
-        """Where the fact stands on each side."""
+        """Return the place of the fact on each side."""
         return {
             "old": None if self.old is None else self._place(self.old, difference, old=True),
             "new": None if self.new is None else self._place(self.new, difference, old=False),
@@ -114,11 +114,11 @@ class Comparison:
 
     @property
     def is_nameless(self) -> bool:
-        """Whether names in code are missing in what is told."""
+        """Return True if some names in code are not known."""
         return any(self.nameless(difference) for difference in self.differences)
 
     def nameless(self, difference: Difference) -> list[str]:
-        """The sides whose names in code are not known: exported models, where the other side has not the same ones."""
+        """Return the sides whose names in code are not known: exported models, unless the other side has the same."""
         if difference.weight == DOCS or not difference.things:
             return []
         names = {"old": _names(difference, old=True), "new": _names(difference, old=False)}
@@ -128,7 +128,7 @@ class Comparison:
         return [which for which in exported if names[which] is not None and names[which] not in known]
 
     def _place(self, side: Side, difference: Difference, *, old: bool) -> str | None:
-        """Where a fact stands; of a part that this side does not have the thing that it would be a part of."""
+        """The place of a fact; for a part that this side does not have, the place of the thing around it."""
         names = _names(difference, old=old)
         if names is None:
             names = _names(difference._replace(things=difference.things[:-1]), old=old)
@@ -136,7 +136,7 @@ class Comparison:
         return side.place(names, difference.fact)
 
     def _is_lost(self, difference: Difference) -> bool:
-        """Whether a thing is told to come or to go only because a side has findings."""
+        """Return True if a thing only seems to come or go because a side has errors."""
         thing = difference.things[0] if difference.things else None
         if difference.fact or thing is None or None not in thing[1:]:
             return False
@@ -148,13 +148,13 @@ class Comparison:
 
 
 def compared(old: Mapping[str, Side], new: Mapping[str, Side]) -> list[Comparison]:
-    """The devices of both sides by id, in the order of the new side, and those behind them that are gone."""
+    """Return the devices of both sides, in the order of the new side, those that are gone last."""
     ids = dict.fromkeys([*new, *old])
     return [Comparison(device, old.get(device), new.get(device)) for device in ids]
 
 
 def subject_of(difference: Difference) -> str | None:
-    """What a difference is about: a point by its name, another thing as `kind:name`, None for the whole device."""
+    """Return the subject of a difference: a point by name, another thing as `kind:name`, None for the device."""
     if not difference.things or difference.things[0].kind == "device":
         return None
     thing = difference.things[0]
@@ -162,7 +162,7 @@ def subject_of(difference: Difference) -> str | None:
 
 
 def fact_of(difference: Difference) -> str:
-    """The fact in words, behind the parts that it is a fact of: `entry keypad raw`."""
+    """Return the fact in words, after the parts that it belongs to: `entry keypad raw`."""
     inner, renamed = difference.things[1:], difference.is_rename
     words = [f"{thing.kind} {thing.old if renamed else thing.name}" for thing in inner]
     if renamed:
@@ -198,6 +198,6 @@ def _change(comparison: Comparison, difference: Difference) -> dict[str, Any]:
 
 
 def _names(difference: Difference, *, old: bool) -> Names | None:
-    """The thing by its names on one side; None where this side does not have it."""
+    """The thing by its names on one side; None if this side does not have it."""
     names = [(thing.kind, thing.old if old else thing.new) for thing in difference.things]
     return None if any(name is None for _, name in names) else tuple((kind, name or "") for kind, name in names)

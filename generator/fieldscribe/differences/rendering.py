@@ -25,20 +25,20 @@ _OTHER_LINES = "other lines of the manual"
 _ARROW = "\N{RIGHTWARDS ARROW}"
 
 
-class _Alike(NamedTuple):
-    """Differences that say the same of several points."""
+class _Group(NamedTuple):
+    """The same difference of several points."""
 
     first: Difference
     all: list[Difference]
 
     @property
     def subjects(self) -> list[str]:
-        """The points, or the one thing that is no point."""
+        """The points, or the one other thing."""
         return [subject for difference in self.all if (subject := subject_of(difference)) is not None]
 
     @property
     def moved(self) -> str:
-        """How many things stand at other lines of the manual, if these differences say so of several."""
+        """How many things moved to other lines of the manual; empty if that is not the difference."""
         return f"{len(self.all)} things" if len(self.all) > 1 and _is_moved(self.first) else ""
 
 
@@ -50,14 +50,14 @@ def as_text(comparisons: list[Comparison]) -> Iterator[Line]:
         yield [("strong", visible(f"{comparison.device} {_versions(comparison)}"))]
         for weight, groups in _by_class(comparison.differences):
             yield [("", "  "), ("error" if weight in ("wire", "api") else "warning", CLASSES[weight])]
-            for alike in groups:
-                yield from _text_of(comparison, alike)
+            for group in groups:
+                yield from _text_of(comparison, group)
         if comparison.is_nameless:
             yield [("hint", f"  {visible(_nameless(comparison))}")]
         yield [("hint", f"  {visible(_advice(comparison))}")]
         yield []
-    told = sum(len(comparison.differences) for comparison in comparisons)
-    yield [("strong", f"{told or 'no'} difference{'' if told == 1 else 's'}")]
+    count = sum(len(comparison.differences) for comparison in comparisons)
+    yield [("strong", f"{count or 'no'} difference{'' if count == 1 else 's'}")]
 
 
 def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
@@ -69,27 +69,27 @@ def as_markdown(comparisons: list[Comparison]) -> Iterator[str]:
         yield from (markdown(_advice(comparison, _ARROW)), "")
         for weight, groups in _by_class(comparison.differences):
             yield from (f"### {CLASSES[weight].capitalize()}", "")
-            yield from (_item(comparison, alike) for alike in groups)
+            yield from (_item(comparison, group) for group in groups)
             yield ""
         if comparison.is_nameless:
             yield from (f"{markdown(_nameless(comparison)).capitalize()}.", "")
 
 
-def _by_class(told: list[Difference]) -> Iterator[tuple[str, list[_Alike]]]:
-    """The differences of each class, those together that say the same of several points."""
-    groups: dict[str, dict[object, _Alike]] = {weight: {} for weight in CLASSES}
-    for difference in told:
+def _by_class(found: list[Difference]) -> Iterator[tuple[str, list[_Group]]]:
+    """The differences of each class; the same difference of several points is one group."""
+    groups: dict[str, dict[object, _Group]] = {weight: {} for weight in CLASSES}
+    for difference in found:
         whole = len(difference.things) == 1 and not difference.fact
-        said = id(difference) if whole else (fact_of(difference), repr(difference.old), repr(difference.new))
+        same = id(difference) if whole else (fact_of(difference), repr(difference.old), repr(difference.new))
         about = difference.things[0].kind if difference.things else ""
         if _is_moved(difference):
-            about, said = "", ("source", "", "")
-        groups[difference.weight].setdefault((about, said), _Alike(difference, [])).all.append(difference)
-    return ((weight, list(alike.values())) for weight, alike in groups.items() if alike)
+            about, same = "", ("source", "", "")
+        groups[difference.weight].setdefault((about, same), _Group(difference, [])).all.append(difference)
+    return ((weight, list(group.values())) for weight, group in groups.items() if group)
 
 
 def _is_moved(difference: Difference) -> bool:
-    """Whether the same stands at another line of the manual, or names one: a new edition moves most of them."""
+    """Return True if only lines of the manual differ: a new edition moves most of them."""
     old, new = difference.old, difference.new
     if difference.weight != DOCS or not difference.fact:
         return False
@@ -98,43 +98,43 @@ def _is_moved(difference: Difference) -> bool:
     return bool(without_lines(old) == without_lines(new))
 
 
-def _text_of(comparison: Comparison, alike: _Alike) -> Iterator[Line]:
-    if alike.moved:
-        yield [("", "    "), ("strong", alike.moved), ("", f": {_OTHER_LINES}")]
+def _text_of(comparison: Comparison, group: _Group) -> Iterator[Line]:
+    if group.moved:
+        yield [("", "    "), ("strong", group.moved), ("", f": {_OTHER_LINES}")]
         return
-    yield [("", "    "), ("strong", visible(_subject(alike))), ("", visible(_sentence(alike.first)))]
-    places = comparison.places(alike.first)
+    yield [("", "    "), ("strong", visible(_subject(group))), ("", visible(_sentence(group.first)))]
+    places = comparison.places(group.first)
     where = [place for place in dict.fromkeys(places.values()) if place]
     yield [("", "      "), ("place", visible(" -> ".join(where)))]
-    for language, names in _symbols(comparison, alike.first):
+    for language, names in _symbols(comparison, group.first):
         yield [("", visible(f"      {language}: {names}"))]
 
 
-def _item(comparison: Comparison, alike: _Alike) -> str:
-    if alike.moved:
-        return f"- {alike.moved}: {_OTHER_LINES}"
-    symbols = "; ".join(f"{language} {names}" for language, names in _symbols(comparison, alike.first, _code))
-    sentence = markdown(_sentence(alike.first, _ARROW)).lstrip()
-    subject = _subject(alike, _code)
+def _item(comparison: Comparison, group: _Group) -> str:
+    if group.moved:
+        return f"- {group.moved}: {_OTHER_LINES}"
+    symbols = "; ".join(f"{language} {names}" for language, names in _symbols(comparison, group.first, _code))
+    sentence = markdown(_sentence(group.first, _ARROW)).lstrip()
+    subject = _subject(group, _code)
     joint = "" if not subject or sentence.startswith(":") else " "
     return f"- {subject}{joint}{sentence}{f' ({symbols})' if symbols else ''}"
 
 
 def _code(name: str) -> str:
-    """A name as code; a strange one, from a file of strangers, as text."""
+    """A name as code; one with unusual characters, from a foreign file, as text."""
     return f"`{name}`" if all(char.isalnum() or char in "_:." for char in name) else markdown(name)
 
 
-def _subject(alike: _Alike, quoted: Callable[[str], str] = str) -> str:
-    """The points, or the thing; empty for the device as a whole."""
-    subjects = alike.subjects
+def _subject(group: _Group, quoted: Callable[[str], str] = str) -> str:
+    """The points or the thing as they are quoted; empty for the device as a whole."""
+    subjects = group.subjects
     if not subjects:
         return ""
-    if alike.first.is_rename and len(alike.first.things) == 1:
-        thing = alike.first.things[0]
+    if group.first.is_rename and len(group.first.things) == 1:
+        thing = group.first.things[0]
         return quoted(thing.old or "" if thing.kind == "point" else f"{thing.kind}:{thing.old}")
     few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
-    return few if len(subjects) == 1 else f"{len(subjects)} {_many(alike.first.things[0].kind)} ({few})"
+    return few if len(subjects) == 1 else f"{len(subjects)} {_many(group.first.things[0].kind)} ({few})"
 
 
 def _many(kind: str) -> str:
@@ -142,7 +142,7 @@ def _many(kind: str) -> str:
 
 
 def _sentence(difference: Difference, arrow: str = "->") -> str:
-    """What happened, as a sentence goes on behind the subject."""
+    """What happened, as it follows the subject in a sentence."""
     thing = difference.things[-1] if difference.things else None
     inner = " ".join(f"{part.kind} {part.name}" for part in difference.things[1:])
     what = f": {inner}" if inner else ""
@@ -151,10 +151,10 @@ def _sentence(difference: Difference, arrow: str = "->") -> str:
         return f"{f': {before}' if before else ''} is now {difference.new}{_kept(difference)}"
     if not difference.fact and thing is not None:
         kind = thing.kind if len(difference.things) == 1 else ""
-        told = difference.old if difference.new is None else difference.new
-        more = f": {shown('', told)}" if told != thing.name else ""
+        value = difference.old if difference.new is None else difference.new
+        more = f": {value_text('', value)}" if value != thing.name else ""
         return f"{what} is {'gone' if difference.new is None else 'new'}{f' ({kind})' if kind else ''}{more}"
-    values = [shown(difference.fact, value) for value in (difference.old, difference.new)]
+    values = [value_text(difference.fact, value) for value in (difference.old, difference.new)]
     return f"{what}{' ' if what else ': ' if thing else ''}{difference.fact} {values[0]} {arrow} {values[1]}"
 
 
@@ -168,7 +168,7 @@ def _versions(comparison: Comparison) -> str:
 
 
 def _next(comparison: Comparison) -> str:
-    """The version that the changes are released as: the one that the new side says, if it goes far enough."""
+    """The version that has the changes: that of the new side if its step is large enough, else the next one."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None or is_taken(old.version, new.version, step):
         side = new or old
@@ -177,7 +177,7 @@ def _next(comparison: Comparison) -> str:
 
 
 def _advice(comparison: Comparison, arrow: str = "->") -> str:
-    """Which step the version must take, and whether it did."""
+    """Which step the version must take, and whether it takes it."""
     old, new, step = comparison.old, comparison.new, comparison.step
     if old is None or new is None or step is None:
         return f"{'a new device' if old is None else 'the device is gone'}"
@@ -193,7 +193,7 @@ def _advice(comparison: Comparison, arrow: str = "->") -> str:
 def _symbols(
     comparison: Comparison, difference: Difference, quoted: Callable[[str], str] = str
 ) -> Iterator[tuple[str, str]]:
-    """The first names in each language: what is called otherwise now by its old and its new ones."""
+    """The first names in each language; of a renamed thing its old and its new ones."""
     for language, sides in comparison.symbols_of_sides(difference).items():
         if difference.is_rename and all(sides):
             yield language, " -> ".join(_few(names, quoted) for names in sides)
@@ -220,8 +220,8 @@ _ADDRESSES = frozenset({"address", "number", "identifier"})
 _NOTHING = {"order of words": "as usual", "range": "all that the type holds"}
 
 
-def shown(fact: str, value: Any) -> str:
-    """A value in one line; mostly `none` where there is nothing."""
+def value_text(fact: str, value: Any) -> str:
+    """Return a value in one line; mostly `none` where it is empty."""
     if value is None or value in ([], {}, ""):
         return _NOTHING.get(fact, "none")
     return _WORDS.get(fact, _plain)(value)

@@ -74,20 +74,20 @@ def opened(argument: str, report: Report) -> Iterator[dict[str, Side]]:
     if Path(argument).exists() or not colon:
         yield _sides(Path(argument), report, str)
         return
-    with TemporaryDirectory(prefix="fieldscribe-") as name:
-        folder = Path(name).resolve()
+    with TemporaryDirectory(prefix="fieldscribe-") as temporary:
+        folder = Path(temporary).resolve()
         copy = copied(revision, inside, folder)
         cut = len(argument) if copy == folder else max(argument.rfind("/"), argument.find(":")) + 1
-        shown = argument[:cut] if argument[:cut].endswith((":", "/")) else f"{argument[:cut]}/"
-        own, name_of = Report(), _renaming(f"{shown_path(folder)}/", shown)
+        name = argument[:cut] if argument[:cut].endswith((":", "/")) else f"{argument[:cut]}/"
+        own, name_of = Report(), _renaming(f"{shown_path(folder)}/", name)
         sides = _sides(copy, own, name_of)
         report.extend(own.in_files(name_of))
         yield sides
 
 
-def _renaming(copy: str, shown: str) -> Callable[[str], str]:
+def _renaming(copy: str, name: str) -> Callable[[str], str]:
     """Return what names files of the copy as in git: `HEAD~1:descriptions/hitachi_l200/bus.yaml`."""
-    return lambda file: shown + f"{file}/".removeprefix(copy).rstrip("/") if f"{file}/".startswith(copy) else file
+    return lambda file: name + f"{file}/".removeprefix(copy).rstrip("/") if f"{file}/".startswith(copy) else file
 
 
 def _sides(path: Path, report: Report, name_of: Callable[[str], str]) -> dict[str, Side]:

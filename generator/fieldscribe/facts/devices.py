@@ -392,7 +392,7 @@ def device_table(own_family: str) -> Table:
             "Where the manual is wrong, unclear or silent.",
             list_of(ref("erratum")),
             table=ERRATUM,
-            views=(_of_class(Parts("erratum", "erratum", _errata, ERRATUM, shown=_erratum_in_short), BEHAVIOUR),),
+            views=(_of_class(Parts("erratum", "erratum", _errata, ERRATUM, summary=_erratum_in_short), BEHAVIOUR),),
         ),
     )
 

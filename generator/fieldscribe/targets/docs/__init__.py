@@ -20,7 +20,7 @@ NAMES_CONTAIN_POINT = True
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """The files for one device: path relative to the output folder, and text."""
+    """Yield the files of a device: path relative to the output folder, and text."""
     from fieldscribe.targets.docs.scope import scope_of
 
     scope = scope_of(device)
@@ -29,14 +29,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def markdown_files(scope: Scope, render: Render) -> Iterable[tuple[str, str]]:
-    """The reference in Markdown."""
+    """Yield the reference in Markdown."""
     from fieldscribe.targets.docs.page import page_of
 
     yield f"{scope.device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
 
 
 def csv_files(scope: Scope) -> Iterable[tuple[str, str]]:
-    """The points and their meanings as CSV."""
+    """Yield the points and their meanings as CSV."""
     from fieldscribe.targets.docs.tables import csv_of
 
     points, meanings, _ = tables_of(scope)
@@ -45,14 +45,14 @@ def csv_files(scope: Scope) -> Iterable[tuple[str, str]]:
 
 
 def xlsx_files(scope: Scope) -> Iterable[tuple[str, bytes]]:
-    """All tables as one workbook. Raises ModuleNotFoundError without XlsxWriter."""
+    """Yield all tables as one workbook. Raises ModuleNotFoundError without XlsxWriter."""
     from fieldscribe.targets.docs.workbook import workbook_of
 
     yield f"{scope.device.id}.xlsx", workbook_of(scope.device, tables_of(scope))
 
 
 def tables_of(scope: Scope) -> tuple[Table, Table, Table]:
-    """The points, their meanings, and the errata."""
+    """Return the tables of the points, their meanings, and the errata."""
     from fieldscribe.targets.docs.sheet import points_table
     from fieldscribe.targets.docs.tables import errata_table, meanings_table
 
@@ -60,18 +60,18 @@ def tables_of(scope: Scope) -> tuple[Table, Table, Table]:
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """Documentation needs no runtime."""
+    """Return nothing: documentation needs no runtime."""
     del device
     return ()
 
 
 def identifiers(device: Device) -> Iterable[Names]:
-    """Pages have no identifiers that could clash."""
+    """Return nothing: pages have no identifiers that could clash."""
     del device
     return ()
 
 
 def device_name_taken(name: str) -> str:
-    """A page may have any name."""
+    """Return nothing: a page may have any name."""
     del name
     return ""

@@ -27,7 +27,7 @@ class BusView:
 
 
 def bus_view(device: Device) -> BusView:
-    """The bus section of a device."""
+    """Return the bus section of a device."""
     bus, own_family, part = device.bus, family(device.family), part_of(device)
     asks = next((section for section in own_family.codes if section.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
@@ -55,7 +55,7 @@ def bus_view(device: Device) -> BusView:
 
 
 def part_of(device: Device) -> OfFamily:
-    """What the family of a device says of itself in the documentation."""
+    """Return what the family of a device knows about its bus."""
     part: OfFamily = family(device.family).part("bus_facts") or OfFamily()
     return part
 
@@ -64,16 +64,16 @@ class OfFamily:
     """The part `bus_facts` of a family. These are the defaults."""
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
-        """Facts about the line, with their labels."""
+        """Yield label and text of each fact about the line."""
         yield "Unit numbers", "{}..{}".format(*bus.units)
 
     def goes_to_all(self, function: Code) -> bool:
-        """Whether a function may be broadcast, where the description does not say it."""
+        """Return True if a function may be broadcast where the description does not say so."""
         del function
         return False
 
     def numbers(self, space: str, address: int) -> Mapping[str, int]:
-        """The numbers that people of this family use for an address, whatever the manual prints."""
+        """Return the numbers that people use for an address in this family, by numbering."""
         del space, address
         return {}
 

@@ -1,4 +1,4 @@
-"""Text for the cells of a Markdown table."""
+"""Texts, links and sources as cells of a Markdown table."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 LINE_BREAK = "<br>"
 """Begins a new line inside a cell."""
 MAY_BREAK = "_<wbr>"
-"""A sign of a name behind which a line may break."""
+"""An underscore after which a line may break."""
 _BARE = re.compile(r"[0-9A-Za-z°%.,;:/?'()=+ -]*")
-"""What most cells are made of, and Markdown escapes nothing of it."""
+"""Characters of most cells; Markdown escapes none of them."""
 _PLAIN = re.compile(r"(?:[^\W_]|[°%.,;:/?'()=+ -]|(?<=[A-Za-z0-9])_(?=[A-Za-z0-9])|(?<= )\*{1,2}(?= ))*")
 _CODE = re.compile(r"[A-Za-z0-9_.+/=-]+(?: [A-Za-z0-9_.+/=-]+)*")
 _LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
@@ -25,16 +25,16 @@ _LONG_NAME = re.compile(r"\b(?=\w{14})[A-Za-z0-9]+(?:_[A-Za-z0-9]+)+\b")
 _NARROW = 12
 """A shorter text needs no break."""
 _LONG = 17
-"""A point's own name is broken if it is so long: names are code, which takes more signs to break."""
+"""The name of a point may be broken from this length on: as code it takes more characters to break it."""
 _LONG_SPAN = re.compile(r"(?:(?<=[a-z)])|(?<=[0-9.]{5}))\.\.|\.\.(?=[A-Za-z]|-?[0-9]{6})")
-"""What parts the ends of a range where one is a name or a long number."""
+"""The dots of a range with a name or a long number at an end."""
 _NUMBERED = re.compile(r"^([0-9]+)([.)])")
 _ANCHOR = re.compile(r"[a-z0-9_-]+")
 _NO_ANCHOR = re.compile(r"[^a-z0-9_-]")
 
 
 def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Container[str] = ()) -> str:
-    """The lines of a table of finished Markdown; empty without rows.
+    """Return the lines of a table of finished Markdown; empty without rows.
 
     Columns where nothing stands are left out, but for those that are there always: where most rows say nothing, the
     first that does would change the lines of all others. For the same reason nothing is padded.
@@ -56,7 +56,7 @@ def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Contain
 
 
 def cell(text: str) -> str:
-    """Plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
+    """Return plain text as a table cell; only possible markup is escaped, so that the source stays readable."""
     if not text or text.isalnum():
         return text
     plain = (_BARE.fullmatch(text) or _PLAIN.fullmatch(text)) and "://" not in text and "www." not in text
@@ -64,22 +64,22 @@ def cell(text: str) -> str:
 
 
 def number_cell(number: int | str) -> str:
-    """A number of the manual, which may have letters, as a table cell."""
+    """Return a number of the manual, which may have letters, as a table cell."""
     return cell(number) if isinstance(number, str) else str(number)
 
 
 def paragraph(text: str) -> str:
-    """Plain text at the beginning of a line: a number that would start a list is escaped too."""
+    """Return plain text as the beginning of a line: a number that would start a list is escaped too."""
     return _NUMBERED.sub(r"\1\\\2", markdown(text))
 
 
 def code(text: str) -> str:
-    """A name or bytes as a code span; as escaped text when it holds anything unusual."""
+    """Return a name or bytes as a code span; as escaped text if it has unusual characters."""
     return f"`{text}`" if _CODE.fullmatch(text) else markdown(text)
 
 
 def narrow(text: str) -> str:
-    """A finished cell whose long names may be broken behind their signs `_`; who searches for them does not notice."""
+    """Return a finished cell whose long names may be broken after an underscore; searching still finds them."""
     return text if len(text) < _NARROW else _LONG_NAME.sub(_breaking, _LONG_SPAN.sub("..<wbr>", text))
 
 
@@ -88,33 +88,33 @@ def _breaking(name: re.Match[str]) -> str:
 
 
 def narrow_link(kind: str, name: str) -> str:
-    """A link in a narrow column."""
+    """Return a link for a narrow column."""
     return f"[{narrow(cell(name))}](#{anchor(kind, name)})"
 
 
 def anchor(kind: str, name: str) -> str:
-    """The anchor that a link and its target share."""
+    """Return the anchor that a link and its target share."""
     return f"{kind}-{name if _ANCHOR.fullmatch(name) else _NO_ANCHOR.sub('-', name.lower())}"
 
 
 def target(kind: str, name: str) -> str:
-    """A name in a cell, as the target of links."""
+    """Return a name as the target of links."""
     return f'<a id="{anchor(kind, name)}"></a>{code(name)}'
 
 
 def narrow_target(kind: str, name: str) -> str:
-    """A name in a narrow column, as the target of links; a long one may be broken."""
+    """Return a name as the target of links in a narrow column; a long one may be broken."""
     long = _LONG_NAME.fullmatch(name) if len(name) >= _LONG else None
     return f'<a id="{anchor(kind, name)}"></a>{f"<code>{_breaking(long)}</code>" if long else code(name)}'
 
 
 def link(kind: str, name: str) -> str:
-    """A name as a link to its target."""
+    """Return a name as a link to its target."""
     return f"[{code(name)}](#{anchor(kind, name)})"
 
 
 def source_text(source: Source, with_document: bool) -> str:
-    """The place of a fact in the manual, as plain text."""
+    """Return the place of a fact in the manual as plain text."""
     parts = [source.document] if with_document else []
     parts += [source.section] if source.section else []
     parts += [f"page {source.page}"] if source.page else []
@@ -123,7 +123,7 @@ def source_text(source: Source, with_document: bool) -> str:
 
 
 def source_cell(source: Source, with_document: bool) -> str:
-    """The place of a fact in the manual; what facts of the same page share is worked out once."""
+    """Return the place of a fact in the manual as a cell; what facts of a page share is worked out once."""
     if source.line is None:
         return cell(source_text(source, with_document))
     return f"{_before_line(source.document, source.section, source.page, with_document)}{source.line}"

@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 _ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
 """Columns that every device has: the first point that fills one changes no line of others."""
 _SHORT_LIST = 4
-"""A list of so many names or fewer stands in the row of every point that uses it; a longer one stands once a group."""
+"""Up to so many names are in the row of every point that uses them; a longer list is shown once in a group."""
 _LONGEST_CELL = 24
-"""A list of more names would make a row longer than a page: it has a table below that of the points."""
+"""A list of more names gets a table below that of the points."""
 _LONGEST_REMARK = 120
-"""A note and errata that are longer together stand below the table."""
+"""A note with errata that is longer goes below the table."""
 _KEEPS = {
     "no": "lost when switched off",
     "yes": "kept, each write wears the memory",
@@ -236,7 +236,7 @@ def _errata(point: Point, linked: Callable[[str, str], str]) -> str:
 
 
 class _Lists:
-    """The long lists of names in a group: each is shown once, at the first point that uses it."""
+    """The long lists of names in a group; each is shown once, at the first point that uses it."""
 
     def __init__(self) -> None:
         self._first: dict[int, str] = {}

@@ -26,7 +26,7 @@ class Scope(NamedTuple):
     by_name: Mapping[str, Point]
     by_code: RenamedPoints
     several: bool
-    """Whether facts come from several documents, so that each source names its own."""
+    """True if facts come from several documents: then each source names its own."""
 
 
 def scope_of(device: Device) -> Scope:
@@ -37,7 +37,7 @@ def scope_of(device: Device) -> Scope:
 
 
 def _codes(points: Iterable[Point]) -> dict[str, str]:
-    """The codes by which rules call points: those that belong to one name."""
+    """The codes of points by their names, as far as a code belongs to one name."""
     names: dict[str, set[str]] = {}
     for point in points:
         if point.code:

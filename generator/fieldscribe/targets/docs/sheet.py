@@ -84,7 +84,7 @@ _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
 _IN_COLUMNS = frozenset(
     {"variant", "record", "set", "telegram", "special_of", "conditions", "changes", "note", "reason", "reserved"}
 )
-"""Facts that have columns, and so are no remarks; that a point is reserved is its reason."""
+"""Facts with columns of their own, which are no remarks; `reserved` is part of the reason."""
 
 
 class _Cells(NamedTuple):
@@ -202,7 +202,7 @@ def _address(place: Place) -> tuple[str, str]:
 
 
 def _bits(point: Point) -> tuple[str, ...]:
-    """Where in its word a bit group is, whether it shares the word, and the bits that are always the same."""
+    """The place of a bit group in its word, `yes` if it shares the word, its mask, and the fixed bits."""
     fixed = ("", "") if point.fixed is None else (str(point.fixed.mask), str(point.fixed.bits))
     if point.bits is None:
         return "", "", "", "", *fixed
@@ -230,7 +230,7 @@ def _keeps(point: Point, encode: Encode) -> str:
 
 
 def scale_cells(point: Point, points: Mapping[str, Point], encode: Encode) -> tuple[str, str, str]:
-    """Factor and offset, or the rule as text where they cannot say it."""
+    """Return factor, offset and empty text; without a linear decimal rule the rule as text."""
     line = line_of(point)
     if line is not None:
         factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
@@ -240,7 +240,7 @@ def scale_cells(point: Point, points: Mapping[str, Point], encode: Encode) -> tu
 
 
 def line_of(point: Point) -> Line | None:
-    """The rule from numbers of the type to values, if they are quantities and it needs no other point."""
+    """Return the rule from raw numbers to values; None if they are no quantities or other points are needed."""
     if point.form not in ("scaled", "integer", "float"):
         return None
     if point.scale is not None:
@@ -249,7 +249,7 @@ def line_of(point: Point) -> Line | None:
 
 
 def ends_of(point: Point) -> tuple[str, str, str, str]:
-    """The least and the greatest raw number and value."""
+    """Return the least and the greatest raw number and value; empty texts where there is none."""
     if point.info.floating:
         units = point.allowed.units
         return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
@@ -275,7 +275,7 @@ def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int
 
 
 def range_of(point: Point, points: Mapping[str, Point]) -> str:
-    """What least and greatest do not say: other points, gaps, and numbers that are no decimals."""
+    """Return the limits as text if least and greatest are not all: other points, gaps, fractions."""
     allowed, line = point.allowed, line_of(point)
     parts = allowed.units if point.info.floating else allowed.intervals
     unsaid = line is not None and bool(parts) and "" in ends_of(point)[2:]
@@ -287,7 +287,7 @@ def range_of(point: Point, points: Mapping[str, Point]) -> str:
 
 
 def default_of(point: Point) -> str:
-    """The factory setting as a value; a special code is none."""
+    """Return the factory setting as a value; a special code is none."""
     raw = point.default_raw
     if point.default is None or (raw is not None and point.special(raw) is not None):
         return ""
@@ -295,7 +295,7 @@ def default_of(point: Point) -> str:
 
 
 def command_cells(command: Command, device: Device, encode: Encode) -> Mapping[str, str]:
-    """The cells of a command's row, by column."""
+    """Return the cells of a command's row by column."""
     numbers = part_of(device).numbers(command.space, command.address)
     value = "" if command.value is None else str(command.value)
     is_bit = family(device.family).spaces[command.space] == "bit"
@@ -331,5 +331,5 @@ def _command_remarks(command: Command) -> Iterator[str]:
 
 
 def wanted_text(command: Command) -> str:
-    """Which number is written: `write 1150`."""
+    """Return which number the command writes: `write 1150`."""
     return f"write {'any number' if command.value is None else command.value}"

@@ -14,24 +14,24 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 
     Encode = Callable[[str], str]
-    """What makes a text of a description fit for a cell; numbers need it not."""
+    """Makes a text of a description fit for a cell; numbers do not need it."""
 
 _MARK = "\ufeff"
-"""What tells spreadsheets that a text is UTF-8; without it `°C` and umlauts are garbled."""
+"""The mark by which spreadsheets recognise UTF-8; without it `°C` and umlauts are garbled."""
 _LIKE_A_NUMBER = re.compile(r"[-+0-9.,:/ eE]+")
 _WHOLE = re.compile(r"0|[1-9][0-9]*")
 
 
 class Column(NamedTuple):
-    """A column, what its cells say, and whether they are numbers."""
+    """A column: its name, what its cells mean, and whether they are numbers."""
 
     name: str
-    says: str
+    meaning: str
     is_number: bool = False
 
 
 class Table(NamedTuple):
-    """A table: its columns, and what makes its rows of finished cells."""
+    """A table: its name, its columns, and a function that returns rows of finished cells."""
 
     name: str
     columns: tuple[Column, ...]
@@ -39,21 +39,21 @@ class Table(NamedTuple):
 
 
 def csv_of(table: Table) -> str:
-    """The table as CSV, its head first."""
+    """Return the table as CSV, its head first."""
     lines = [",".join([column.name for column in table.columns])]
     lines += [",".join(row) for row in table.rows(csv_cell)]
     return _MARK + "\n".join(lines) + "\n"
 
 
 def original(titles: Titles) -> str:
-    """A title in the languages of the manual: all but English."""
+    """Return a title in the languages of the manual: all but English."""
     if len(titles) == 1:
         return ""
     return " / ".join(dict.fromkeys([text for language, text in titles.items() if language != "en"]))
 
 
 def source_cells(source: Source, encode: Encode) -> Iterator[str]:
-    """Where in which document: document, section, page, line."""
+    """Yield the cells of a place in the manual: document, section, page, line."""
     yield encode(source.document)
     yield encode(no_number("section", source.section or ""))
     page = source.page or ""
@@ -62,12 +62,12 @@ def source_cells(source: Source, encode: Encode) -> Iterator[str]:
 
 
 def no_number(what: str, text: str) -> str:
-    """A text that spreadsheets would take for a number or a date (section 4.10, page 7-25), with a word before it."""
+    """Return a text; before one that looks like a number or a date (section 4.10, page 7-25) comes a word."""
     return f"{what} {text}" if _LIKE_A_NUMBER.fullmatch(text) else text
 
 
 def decimal(text: str) -> str:
-    """An exact number, or nothing where it is a fraction that has no end as a decimal."""
+    """Return an exact decimal; empty for a fraction without an end."""
     return "" if "/" in text else text
 
 
@@ -86,36 +86,36 @@ MEANINGS = (
     Column("writable", "special codes: whether the code may be written"),
 )
 _NAMELESS = ("zero", "one")
-"""What numbers of a flag are called whose manual has only a text for them."""
+"""The names of the numbers of a flag if the manual has only texts for them."""
 
 
 def meanings_table(device: Device) -> Table:
-    """The meanings of a device's numbers, in the order of the points."""
+    """Return the table of the meanings of numbers, in the order of the points."""
     return Table("meanings", MEANINGS, partial(_meaning_rows, device))
 
 
 def enum_of(point: Point) -> Enum | None:
-    """The names of the point's numbers, or of its digits."""
+    """Return the names of the point's numbers, or of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
 
 
 def codes_of(point: Point) -> str:
-    """What the special codes of a point are called: its own, or those that it only shares with others."""
+    """Return what the special codes of a point are called in the meanings; empty if it has none."""
     shared = point.shared_codes
     return f"codes of {shared}" if shared else point.item if point.specials else ""
 
 
 def _meaning_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
-    told: set[tuple[str, str]] = set()
+    listed: set[tuple[str, str]] = set()
     for point in device.points:
-        if (enum := enum_of(point)) is not None and ("enum", enum.name) not in told:
-            told.add(("enum", enum.name))
+        if (enum := enum_of(point)) is not None and ("enum", enum.name) not in listed:
+            listed.add(("enum", enum.name))
             yield from _of_enum(enum, encode)
         for flag in point.flags:
             yield from _of_flag(point, flag, encode)
         codes = codes_of(point)
-        if codes and ("code", codes) not in told:
-            told.add(("code", codes))
+        if codes and ("code", codes) not in listed:
+            listed.add(("code", codes))
             yield from (_of_code(codes, special, encode) for special in point.specials)
 
 
@@ -164,7 +164,7 @@ ERRATA = (
 
 
 def items_of(device: Device) -> Mapping[str, list[str]]:
-    """The names in code of the points of a name, one for each variant."""
+    """Return the names in code of the points by name, one for each variant."""
     items: dict[str, list[str]] = {}
     for point in device.points:
         items.setdefault(point.name, []).append(point.item)
@@ -172,7 +172,7 @@ def items_of(device: Device) -> Mapping[str, list[str]]:
 
 
 def errata_table(device: Device) -> Table:
-    """The errata of a device."""
+    """Return the table of errata."""
     return Table("errata", ERRATA, partial(_erratum_rows, device))
 
 
@@ -181,5 +181,5 @@ def _erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
     for erratum in device.errata:
         points = "; ".join(item for name in erratum.points for item in items.get(name, ()))
         where = str(erratum.where)
-        told = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty)
-        yield (*map(encode, told), *source_cells(erratum.source, encode))
+        texts = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty)
+        yield (*map(encode, texts), *source_cells(erratum.source, encode))

@@ -21,12 +21,12 @@ _SAME = "←"
 """One more bit of the name on its left."""
 _WIDEST = 1200
 _SIGN, _BORDERS = 9, 18
-"""About how many pixels a page of 1,280 leaves to a row, and how many a sign and the borders of a cell take."""
+"""Estimated pixels: a row on a page of 1,280, a character, the borders of a cell."""
 
 
 @dataclass(frozen=True, slots=True)
 class WordView:
-    """The bits of a word, and the points that have just these."""
+    """The bits of a word, and the points with exactly these bits."""
 
     points: str
     bits: str
@@ -46,7 +46,7 @@ def word_views(points: Iterable[Point]) -> Iterator[WordView]:
 
 
 class _Field(NamedTuple):
-    """Neighbouring bits that have a name together, or none; `always` are bits that are always written so."""
+    """Neighbouring bits with one name or none; `always` is the constant that is always written to them."""
 
     high: int
     low: int
@@ -67,7 +67,7 @@ class _Field(NamedTuple):
         return _BORDERS + _SIGN * max(map(len, parts))
 
     def bit(self, number: int) -> str:
-        """What stands at one bit: the name at the highest, and again where a byte begins."""
+        """Return the text at one bit: the name at the highest bit, and again where a byte begins."""
         is_first = number == self.high or number % _BYTE == _BYTE - 1
         name = self.name if is_first or not self.name else _SAME
         return _text(name, self.always[self.high - number] if self.always else "")
@@ -88,7 +88,7 @@ def _drawn(point: Point) -> str:
 
 
 def is_broken(point: Point) -> bool:
-    """Whether a point has a word of bits that is drawn byte by byte."""
+    """Return True if the word of a point is drawn byte by byte."""
     return bool(point.flags) and _is_wide(list(_fields(point)))
 
 
@@ -97,7 +97,7 @@ def _is_wide(fields: Sequence[_Field]) -> bool:
 
 
 def _bytes(fields: Sequence[_Field]) -> Iterator[list[str]]:
-    """Two rows a byte, its bits and what they say; only the first bits are the head of the table."""
+    """Two rows for each byte, the numbers of its bits and their texts; the first row is the head of the table."""
     texts = {bit: field.bit(bit) for field in fields for bit in range(field.low, field.high + 1)}
     highest = fields[0].high // _BYTE
     for byte in range(highest, fields[-1].low // _BYTE - 1, -1):
@@ -122,7 +122,7 @@ def _fields(point: Point) -> Iterator[_Field]:
 
 
 def _nameless(point: Point, above: int, lowest: int) -> Iterator[_Field]:
-    """Bits without a name: those that are always written as a constant are apart from the others."""
+    """Fields of bits without a name, divided where bits begin or end that are always written as a constant."""
     mask = point.shape.fixed.mask if point.shape.fixed else 0
     for _, run in groupby(range(above - 1, lowest - 1, -1), key=lambda bit: mask >> bit & 1):
         bits = [*run]
@@ -157,7 +157,7 @@ def _flag_table(point: Point) -> str:
 
 
 def _meaning_of(flag: Flag, number: int) -> str:
-    """What a single bit says at 0 or at 1."""
+    """What a single bit means at 0 or at 1."""
     entry = next((entry for entry in flag.values if flag.width == 1 and entry.raw == number), None)
     if entry is None:
         return ""

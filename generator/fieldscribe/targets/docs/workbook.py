@@ -21,32 +21,32 @@ if TYPE_CHECKING:
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
 _ESCAPE = re.compile(r"(?<=_)(?=x[0-9A-Fa-f]{1,4}_)")
-"""Where a text looks like an escaped character (`_x1_`), as LibreOffice and others would read it."""
+"""The place in a text that LibreOffice and others would read as an escaped character (`_x1_`)."""
 _MOST = 1 << 53
-"""Workbooks hold floating point: greater whole numbers stay exact as text."""
+"""Workbooks store floating point; greater whole numbers are written as text to stay exact."""
 _NARROW, _WIDE = 6, 48
 _HEAD = {"bold": True, "bottom": 1}
 _TOP = {"valign": "top"}
 _STAYS = {"points": 2}
-"""How many columns on the left stay when a sheet is scrolled."""
+"""How many columns on the left stay visible when a sheet is scrolled."""
 _WHEN = datetime(2000, 1, 1)  # the format wants a date, and the bytes may not depend on today
 _COLUMNS = (Column("sheet", ""), Column("column", ""), Column("says", ""))
 
 
 class _Formats:
-    """How cells look; a text that is wider than its column is broken."""
+    """The formats of cells; a text wider than its column is wrapped."""
 
     def __init__(self, book: Any) -> None:
         self.head, self.plain = book.add_format(_HEAD), book.add_format()
         self._short, self._long = book.add_format(_TOP), book.add_format({**_TOP, "text_wrap": True})
 
     def column(self, width: int) -> object:
-        """The format of a column whose longest text is so long."""
+        """Return the format of a column with a longest text of that length."""
         return self._long if width > _WIDE else self._short
 
 
 def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
-    """The bytes of the workbook. Raises ModuleNotFoundError without XlsxWriter."""
+    """Return the bytes of the workbook. Raises ModuleNotFoundError without XlsxWriter."""
     from xlsxwriter import Workbook  # type: ignore[import-untyped]  # it has no types
 
     contents = BytesIO()
@@ -61,8 +61,8 @@ def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
         }
     )
     formats = _Formats(book)
-    shown = tuple(tables)
-    for table in (*shown, Table("columns", _COLUMNS, lambda encode: _explained(shown, encode))):
+    sheets = tuple(tables)
+    for table in (*sheets, Table("columns", _COLUMNS, lambda encode: _explained(sheets, encode))):
         _write(book.add_worksheet(table.name), table, formats)
     book.close()
     return contents.getvalue()
@@ -71,7 +71,7 @@ def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
 def _explained(tables: Iterable[Table], encode: Encode) -> Iterator[tuple[str, ...]]:
     for table in tables:
         for column in table.columns:
-            yield table.name, column.name, encode(column.says.replace("`", ""))
+            yield table.name, column.name, encode(column.meaning.replace("`", ""))
 
 
 def _write(sheet: Any, table: Table, formats: _Formats) -> None:
@@ -95,19 +95,19 @@ def _write(sheet: Any, table: Table, formats: _Formats) -> None:
 
 
 def _print_wide(sheet: Any) -> None:
-    """On paper: all columns beside each other, the head on each page."""
+    """Print all columns side by side, and the head on each page."""
     sheet.set_landscape()
     sheet.fit_to_pages(1, 0)
     sheet.repeat_rows(0)
 
 
 def _fits(text: str) -> bool:
-    """Whether a cell for numbers can hold it."""
+    """Return True if a cell for numbers can hold the text exactly."""
     return _NUMBER.fullmatch(text) is not None and ("." in text or abs(int(text)) <= _MOST)
 
 
 def _write_text(sheet: Any, at: tuple[int, int], text: str, plain: object) -> None:
-    """Write a text, never as a formula, a link or a date; in pieces where a reader would take it for an escape."""
+    """Write a text, never as a formula, a link or a date; in pieces where it looks like an escaped character."""
     first, *others = _ESCAPE.split(text)
     if others:
         sheet.write_rich_string(*at, first, *(piece for other in others for piece in (plain, other)))
