@@ -76,9 +76,9 @@ class Parts:
     """Named parts of a thing for `diff`: what `listed` gives of it, with the facts of `table` and `views`.
 
     Two parts are the same if their names are, or if they alone have equal values for `same_by`: labels of their facts,
-    or further views. `whole` is the class where all parts come or go at once; without it each part is reported. `summary`
-    is what is reported of a part that came or went. `in_code` gives the class of a fact from the part on both sides,
-    the label of the fact (empty for parts of it) and its usual class.
+    or further views. `whole` is the class where all parts come or go at once; without it each part is reported.
+    `summary` is what is reported of a part that came or went. `in_code` gives the class of a fact from the part on both
+    sides, the label of the fact (empty for parts of it) and its usual class.
     """
 
     label: str
