@@ -285,7 +285,7 @@ def test_columns_are_named_by_heading_or_number(tmp_path: Path, capsys: pytest.C
     assert "# ? not read at line 1: Unit\n" in out
     assert main(["import", "table", path, "--column", "address=Wo"]) == 1
     assert capsys.readouterr().err == (
-        "fieldscribe: --column: no table has a column `Wo`\n  hint: there are `what`, `where`, `so`, `Unit`, `Notes`\n"
+        f"fieldscribe: {path}: no table has a column `Wo`\n  hint: there are `what`, `where`, `so`, `Unit`, `Notes`\n"
     )
     assert main(["import", "table", path, "--column", "address=6"]) == 1
 

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import StopError, some_path
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.families import FAMILIES, families
-from fieldscribe.importing import Draft, UnknownHeadingError, compilable, draft
+from fieldscribe.importing import Draft, compilable, draft
 from fieldscribe.importing.draft_points import Options
 from fieldscribe.importing.draft_text import Head
 from fieldscribe.importing.headings import ROLES
 from fieldscribe.importing.readers import FORMATS, read_tables
-from fieldscribe.importing.tables import MOST_BYTES, MissingExtraError, UnreadableError
+from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from pathlib import Path
 
-    from fieldscribe.importing.tables import Table
 
 EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml
@@ -87,11 +86,7 @@ def run(arguments: Namespace) -> int:
     for role, name in arguments.column:
         columns.setdefault(role, []).append(name)
     options = Options(columns, **{name: getattr(arguments, name) for name in names})
-    try:
-        drafted = draft(_tables(arguments.file), options)
-    except UnknownHeadingError as error:
-        hint = f"there are {', '.join(f'`{heading[:60]}`' for heading in error.headings[:60])}"
-        raise StopError(f"--column: no table has a column `{error.name}`", hint, FINDINGS) from error
+    drafted = _drafted(arguments.file, options)
     if arguments.list:
         _print_list(drafted)
         return FINE
@@ -140,16 +135,16 @@ def _refuse_arguments(arguments: Namespace) -> None:
         raise StopError(f"`{arguments.out}` is there already", "name another file, or remove it first")
 
 
-def _tables(path: Path) -> list[Table]:
-    """Return the tables of the file. Raises StopError if it cannot be read."""
+def _drafted(path: Path, options: Options) -> Draft:
+    """Return the draft of a file. Raises StopError if it cannot be read, or has no such column."""
     try:
-        return read_tables(path)
+        return draft(read_tables(path), options)
     except UnreadableError as error:
         where = f"{path}:{error.line}" if error.line else str(path)
-        raise StopError(f"{where}: {error.message}", code=FINDINGS) from error
-    except MissingExtraError as error:
-        hint = f'pip install "fieldscribe[{error.extra}]"'
-        raise StopError(f"`{path}` needs the extra `{error.extra}`, which is not installed", hint) from error
+        raise StopError(f"{where}: {error.message}", error.hint, FINDINGS) from error
+    except ModuleNotFoundError as error:
+        message = f"`{path}` needs the extra `import`, which is not installed"
+        raise StopError(message, 'pip install "fieldscribe[import]"') from error
 
 
 def _head(arguments: Namespace, drafted: Draft) -> Head:
@@ -170,7 +165,8 @@ def _write(text: str, out: Path | None) -> None:
 
 def _print_list(drafted: Draft) -> None:
     """Print a line for each table: where it is, whether it holds points, and what its columns hold."""
-    for table, columns in drafted.tables:
+    for columns in drafted.tables:
+        table = columns.table
         roles = sorted((place + 1, role) for role, places in columns.places.items() for place in places)
         listed = ", ".join(f"{number} {role}" for number, role in roles) or "no column is known"
         title = columns.title or table.heading or "(no heading)"
@@ -180,7 +176,7 @@ def _print_list(drafted: Draft) -> None:
 
 def _print_left_out(drafted: Draft) -> None:
     """Print to stderr how many tables hold no points."""
-    lines = [str(table.line) for table, columns in drafted.tables if not columns.hold_points]
+    lines = [str(columns.table.line) for columns in drafted.tables if not columns.hold_points]
     if lines:
         verbs = "s hold no points and are" if len(lines) > 1 else " holds no points and is"
         shown = ", ".join(lines[:12]) + (", …" if len(lines) > 12 else "")

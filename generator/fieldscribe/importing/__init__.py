@@ -19,6 +19,7 @@ from fieldscribe.importing.cells import one_line, space_in
 from fieldscribe.importing.draft_points import points_of
 from fieldscribe.importing.draft_text import DraftGroup, Names, draft_lines, snake
 from fieldscribe.importing.headings import columns_of, is_column_number, same_heading, upright
+from fieldscribe.importing.tables import UnreadableError
 from fieldscribe.pipeline import DEVICE_FILE, load_device
 
 if TYPE_CHECKING:
@@ -31,40 +32,24 @@ if TYPE_CHECKING:
     from fieldscribe.importing.tables import Table
 
 
-class UnknownHeadingError(Exception):
-    """No table has a column that the user named; `headings` are those that there are."""
-
-    def __init__(self, name: str, headings: Sequence[str]) -> None:
-        super().__init__(name)
-        self.name = name
-        self.headings = headings
-
-
-class ReadTable(NamedTuple):
-    """A table of the file, and its columns."""
-
-    table: Table
-    columns: Columns
-
-
 class Draft(NamedTuple):
     """The drafted groups, all tables that were read, and the family of their spaces."""
 
     groups: list[DraftGroup]
-    tables: list[ReadTable]
+    tables: list[Columns]
     family: Family
 
 
 def draft(tables: Iterable[Table], options: Options) -> Draft:
-    """Draft groups of points from the tables that hold points. Raises UnknownHeadingError."""
-    read: list[ReadTable] = []
+    """Draft groups of points from the tables that hold points. Raises UnreadableError for an unknown column."""
+    read: list[Columns] = []
     for table in (upright(table) for table in tables if _is_chosen(table, options)):
-        read.append(ReadTable(table, columns_of(table, options.columns, read[-1].columns if read else None)))
+        read.append(columns_of(table, options.columns, read[-1] if read else None))
     _refuse_unknown(read, [name for names in options.columns.values() for name in names])
-    with_points = [entry for entry in read if entry.columns.hold_points]
+    with_points = [columns for columns in read if columns.hold_points]
     family = _family_of(with_points, options)
     groups: dict[tuple[str, str], DraftGroup] = {}
-    homeless = [text for entry in with_points for text in _add_to_groups(groups, entry, family, options)]
+    homeless = [text for columns in with_points for text in _add_to_groups(groups, columns, family, options)]
     for group in list(groups.values())[:1]:
         group.comments += homeless
     _ask_about_doubles(point for group in groups.values() for point in group.points)
@@ -72,11 +57,11 @@ def draft(tables: Iterable[Table], options: Options) -> Draft:
     return Draft(list(groups.values()), read, family)
 
 
-def _family_of(tables: Iterable[ReadTable], options: Options) -> Family:
+def _family_of(tables: Iterable[Columns], options: Options) -> Family:
     """Return the family that the user names, or the first that has the most of the spaces."""
     if options.family:
         return family_of_name(options.family)
-    spaces = {options.space or _space_of(*entry) or "holding" for entry in tables}
+    spaces = {options.space or _space_of(columns) or "holding" for columns in tables}
     return max(families(), key=lambda family: len(spaces & family.spaces.keys()))
 
 
@@ -85,32 +70,33 @@ def _is_chosen(table: Table, options: Options) -> bool:
     return first <= table.line <= last and (not options.tables or table.number in options.tables)
 
 
-def _refuse_unknown(tables: Sequence[ReadTable], names: Iterable[str]) -> None:
-    """Raise UnknownHeadingError for a heading or a column number that no table has."""
-    rows = (columns.headings if any(columns.headings) else table.rows[0].cells for table, columns in tables)
+def _refuse_unknown(tables: Sequence[Columns], names: Iterable[str]) -> None:
+    """Raise UnreadableError for a heading or a column number that no table has."""
+    rows = (columns.headings if any(columns.headings) else columns.table.rows[0].cells for columns in tables)
     headings = list(dict.fromkeys(one_line(heading) for row in rows for heading in row if heading))
-    widest = max((table.width for table, _ in tables), default=0)
+    widest = max((columns.table.width for columns in tables), default=0)
     for name in names:
         is_number = is_column_number(name) and int(name) <= widest
         if not is_number and same_heading(name) not in map(same_heading, headings):
-            raise UnknownHeadingError(name, headings)
+            hint = f"there are {', '.join(f'`{heading[:60]}`' for heading in headings[:60])}"
+            raise UnreadableError(f"no table has a column `{name}`", hint=hint)
 
 
 def _add_to_groups(
-    groups: dict[tuple[str, str], DraftGroup], entry: ReadTable, family: Family, options: Options
+    groups: dict[tuple[str, str], DraftGroup], columns: Columns, family: Family, options: Options
 ) -> list[str]:
     """Add the points of a table to the groups of its title, one group for each space.
 
     The comments about the table go to the group of its first point; without points, they are returned.
     """
-    table, columns = entry
-    known = options.space or _space_of(table, columns)
+    table = columns.table
+    known = options.space or _space_of(columns)
     usual = "holding" if "holding" in family.spaces else next(iter(family.spaces))
-    points, comments = points_of(table, columns, known or usual, options)
+    points, comments = points_of(columns, known or usual, options)
     title = columns.title or table.heading or "Points"
     if not columns.first:
         comments.append(f"the table at line {table.line} has no headings: it was read as the one above")
-    if unread := columns.unread(table):
+    if unread := columns.unread:
         comments.append(f"not read at line {table.line}: {', '.join(unread)}")
     if known is None and options.base is not None:
         comments.append(f"nothing names the space: is it {usual}?")
@@ -132,9 +118,9 @@ def _may_be_reference(point: DraftPoint) -> bool:
     return point.wire is None or re.fullmatch("[134][0-9]{4,5}", str(point.wire)) is not None
 
 
-def _space_of(table: Table, columns: Columns) -> str | None:
+def _space_of(columns: Columns) -> str | None:
     """Return the space that the heading of the addresses, the title or the heading of the table names."""
-    return next(filter(None, map(space_in, (columns.heading("address"), columns.title, table.heading))), None)
+    return next(filter(None, map(space_in, (columns.heading("address"), columns.title, columns.table.heading))), None)
 
 
 def _ask_about_doubles(points: Iterable[DraftPoint]) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.importing.cells import Address
     from fieldscribe.importing.headings import Columns
-    from fieldscribe.importing.tables import Row, Table
+    from fieldscribe.importing.tables import Row
 
 _MODICON_SPACES = {"0": "coil", "1": "discrete", "3": "input", "4": "holding"}
 """The spaces by the first digit of a Modicon reference."""
@@ -47,16 +47,17 @@ class Options:
     ranges: str | None = None
 
 
-def points_of(table: Table, columns: Columns, space: str, options: Options) -> tuple[list[DraftPoint], list[str]]:
+def points_of(columns: Columns, space: str, options: Options) -> tuple[list[DraftPoint], list[str]]:
     """Return the points of a table, and comments for the rows above the first point that are none.
 
     A further row without address, code and name is a bit of the point above, or a question there.
     """
     points: list[DraftPoint] = []
     comments: list[str] = []
-    reader = _RowReader(table, columns, space, options)
-    repeated = {row.cells for row in table.rows[: columns.first]}
-    for row in table.rows[columns.first :]:
+    reader = _RowReader(columns, space, options)
+    rows = columns.table.rows
+    repeated = {row.cells for row in rows[: columns.first]}
+    for row in rows[columns.first :]:
         cells = _by_role(row, columns)
         if row.cells in repeated:
             continue
@@ -94,19 +95,19 @@ def _add_flag(point: DraftPoint, bits: str, name: str) -> None:
         point.questions.append(f"bit {bits} is printed twice: {point.flags[bits]}, {name}")
 
 
-def _has_unmarked_hex(table: Table, columns: Columns, place: int) -> bool:
+def _has_unmarked_hex(columns: Columns, place: int) -> bool:
     """Return True if a number of an address column has hexadecimal digits but no mark, so that all may be so."""
-    cells = [row.cells[place] for row in table.rows[columns.first :] if place < len(row.cells)]
+    cells = [row.cells[place] for row in columns.table.rows[columns.first :] if place < len(row.cells)]
     return not columns.is_hex(place) and any(map(read.looks_hex, cells))
 
 
 class _RowReader:
     """Reads the rows of one table."""
 
-    def __init__(self, table: Table, columns: Columns, space: str, options: Options) -> None:
+    def __init__(self, columns: Columns, space: str, options: Options) -> None:
         self._space, self._options, self._columns = space, options, columns
         self._places = columns.places.get("address", ())
-        unclear = (place for place in self._places if _has_unmarked_hex(table, columns, place))
+        unclear = (place for place in self._places if _has_unmarked_hex(columns, place))
         self._unclear_hex = frozenset(() if options.is_hex else unclear)
 
     def point(self, row: Row, cells: Mapping[str, str]) -> DraftPoint:

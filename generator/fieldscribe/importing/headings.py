@@ -91,8 +91,9 @@ _NUMBER = re.compile(r"[\d.,/x-]*\d[\d.,/x-]*|0x[0-9A-F]+|[0-9A-F]*\d[0-9A-F]*h"
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """The columns of a table: by role their places from 0, all headings, a title above them, and the first data row."""
+    """A table with its columns: by role their places from 0, all headings, a title above them, the first data row."""
 
+    table: Table
     places: Mapping[str, tuple[int, ...]]
     headings: tuple[str, ...]
     title: str = ""
@@ -115,10 +116,13 @@ class Columns:
             and self.places.keys() & {"name", "description", "range", "unit", "type", "access"}
         )
 
-    def unread(self, table: Table) -> list[str]:
+    @property
+    def unread(self) -> list[str]:
         """Return the columns that hold something and have no role, or a role that another column has already."""
         read = {place for role, places in self.places.items() for place in (places if role in _JOINED else places[:1])}
-        filled = {place for row in table.rows[self.first :] for place, cell in enumerate(row.cells) if cell.strip()}
+        filled = {
+            place for row in self.table.rows[self.first :] for place, cell in enumerate(row.cells) if cell.strip()
+        }
         return [self.headings[place] or f"column {place + 1}" for place in sorted(filled - read)]
 
 
@@ -143,7 +147,7 @@ def columns_of(table: Table, wanted: Wanted, above: Columns | None) -> Columns:
     named = {same_heading(name) for names in wanted.values() for name in names}
     title, headings, first = _headings(table, named)
     if not first and above is not None and len(above.headings) == table.width:
-        return Columns(above.places, above.headings)
+        return Columns(table, above.places, above.headings)
     forced = {
         role: tuple(place for name in names for place in _places(name, headings) if place < table.width)
         for role, names in wanted.items()
@@ -154,7 +158,7 @@ def columns_of(table: Table, wanted: Wanted, above: Columns | None) -> Columns:
         role = role_of(heading)
         if role and place not in taken and role not in forced:
             places[role] = (*places.get(role, ()), place)
-    return Columns(places, headings, title, first)
+    return Columns(table, places, headings, title, first)
 
 
 def _is_heading_row(cells: Iterable[str], named: Iterable[str] = ()) -> bool:

@@ -14,7 +14,6 @@ from fieldscribe.importing.tables import (
     MOST_CELL,
     MOST_COLUMNS,
     MOST_ROWS,
-    MissingExtraError,
     Table,
     TableCollector,
     UnreadableError,
@@ -41,7 +40,7 @@ _MOST_UNPACKED = 64 << 20
 
 
 def read_tables(path: Path) -> list[Table]:
-    """Return the tables of the file. Raises OSError, UnreadableError and MissingExtraError."""
+    """Return the tables of the file. Raises OSError, UnreadableError, and ModuleNotFoundError without openpyxl."""
     form = FORMATS[path.suffix.lower()]
     data = read_regular(path, MOST_BYTES).data
     if form == "XLSX":
@@ -87,11 +86,9 @@ def _delimiter(text: str) -> str:
 
 
 def _read_workbook(data: bytes) -> list[Table]:
-    """Return the sheets of a workbook, one table each. Raises MissingExtraError without openpyxl."""
-    try:
-        from openpyxl import load_workbook
-    except ModuleNotFoundError as error:
-        raise MissingExtraError("import") from error
+    """Return the sheets of a workbook, one table each."""
+    from openpyxl import load_workbook
+
     _refuse_bomb(data)
     collector = TableCollector()
     try:

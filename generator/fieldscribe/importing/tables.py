@@ -11,20 +11,13 @@ MOST_ROWS, MOST_COLUMNS, MOST_CELL = 50_000, 400, 8_000
 
 
 class UnreadableError(Exception):
-    """The file cannot be read as tables; `line` is where (0: the whole file)."""
+    """The file cannot be read as tables, or has no such column; `line` is where (0: the whole file)."""
 
-    def __init__(self, message: str, line: int = 0) -> None:
+    def __init__(self, message: str, line: int = 0, hint: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.line = line
-
-
-class MissingExtraError(Exception):
-    """A library is not installed; `extra` names the extra of this package that brings it."""
-
-    def __init__(self, extra: str) -> None:
-        super().__init__(extra)
-        self.extra = extra
+        self.hint = hint
 
 
 @dataclass(frozen=True, slots=True)
