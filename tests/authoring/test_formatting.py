@@ -16,7 +16,7 @@ from fieldscribe.language.json_schema import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import comments, pieces, unbroken
 from fieldscribe.language.source import SourceFile
-from support.described import DEVICES, described, loaded
+from support.described import DEVICES, described
 from support.places import ROOT, TESTS
 
 if TYPE_CHECKING:
@@ -66,10 +66,10 @@ def test_form(case: str) -> None:
     before, after = CASES[case]
     assert canonical(unbroken(before)) == after
     assert canonical(after) == after
-    assert said(unbroken(before)) == said(after)
+    assert parsed(unbroken(before)) == parsed(after)
 
 
-def said(text: str) -> list[Any] | None:
+def parsed(text: str) -> list[Any] | None:
     """What a text says, with the order of its keys; None if it is no sound description."""
     report = Report()
     documents = load(SourceFile("a.yaml", text), report) if text else []
@@ -92,20 +92,8 @@ def test_shipped_descriptions_are_the_model(file: Path) -> None:
 def sound(files: list[Path]) -> Iterator[tuple[Path, str]]:
     for file in files:
         text = unbroken(file.read_bytes().decode("utf-8", "replace"))
-        if said(text):
+        if parsed(text):
             yield file, text
-
-
-@pytest.mark.full(seconds=2)
-def test_what_is_wrong_with_a_description_stays() -> None:
-    count = 0
-    for file, text in sound([*MADE, *WRONG]):
-        formed = canonical(text)
-        assert said(formed) == said(text), file
-        assert comments(formed) == comments(text), file
-        assert canonical(formed) == formed, file
-        count += 1
-    assert count > 100
 
 
 def disturbed(text: str, dice: random.Random) -> str:
@@ -139,25 +127,13 @@ def test_careless_hands(seed: int) -> None:
     files = list(sound([*SHIPPED, *MADE]))
     for file, text in files if seed > 1 else dice.sample(files, 8):
         before = disturbed(text, dice)
-        assert said(before) == said(text), file
+        assert parsed(before) == parsed(text), file
         formed = canonical(before)
-        assert said(formed) == said(text), file
+        assert parsed(formed) == parsed(text), file
         assert comments(formed) == comments(before), file
         assert canonical(formed) == formed, file
         changed += formed != before
     assert changed > 5
-
-
-@pytest.mark.full(seconds=2)
-def test_the_model_stays(tmp_path: Path) -> None:
-    dice = random.Random(7)
-    for folder in (DEVICES / "kitchen_sink", ROOT / "descriptions/siemens_mm4"):
-        copy = tmp_path / folder.name
-        copy.mkdir()
-        for file in folder.glob("*.yaml"):
-            (copy / file.name).write_text(disturbed(file.read_text("utf-8"), dice), "utf-8")
-        assert main(["fmt", str(copy)]) == 0
-        assert loaded(copy / "device.yaml") == loaded(folder / "device.yaml")
 
 
 @pytest.fixture

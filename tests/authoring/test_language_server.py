@@ -75,8 +75,8 @@ def shown(server: LanguageServer, text: str, word: str) -> str:
 
 
 def documentation(item: dict[str, Any]) -> str:
-    said = item["documentation"]
-    return str(said["value"] if isinstance(said, dict) else said)
+    output = item["documentation"]
+    return str(output["value"] if isinstance(output, dict) else output)
 
 
 def test_a_new_description_has_no_findings(server: LanguageServer, folder: Path) -> None:

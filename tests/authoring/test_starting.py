@@ -40,15 +40,15 @@ def test_every_family_starts_with_a_sound_description(
     family: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert init("heat_pump", "--family", family, *GIVEN) == 0
-    said = capsys.readouterr()
-    assert said.out.splitlines()[:3] == [
+    output = capsys.readouterr()
+    assert output.out.splitlines()[:3] == [
         "made heat_pump/device.yaml and heat_pump/main.yaml and heat_pump/schema.json",
         "next:",
         "  fieldscribe check heat_pump",
     ]
     assert main(["check", "heat_pump"]) == 0
-    said = capsys.readouterr()
-    assert (said.out, said.err) == ("heat_pump: 1 point (1 generated) in 1 group, 0 errata, 2 printed frames\n", "")
+    output = capsys.readouterr()
+    assert (output.out, output.err) == ("heat_pump: 1 point (1 generated) in 1 group, 0 errata, 2 printed frames\n", "")
     assert main(["generate", "heat_pump"]) == 0
     for file in ("device.yaml", "main.yaml"):
         text = (tmp_path / "heat_pump" / file).read_text("utf-8")

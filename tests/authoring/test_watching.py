@@ -55,7 +55,7 @@ def outcomes(*steps: Callable[[], object]) -> list[Outcome]:
     return list(watch.outcomes(stopped))
 
 
-def told(outcome: Outcome) -> tuple[list[str], list[str], set[str]]:
+def printout(outcome: Outcome) -> tuple[list[str], list[str], set[str]]:
     """The devices that were compiled, the rules of their findings, and the devices of which something was written."""
     names = {Path(path).name.partition(".")[0] for path in outcome.result.written}
     written = {name.removesuffix("_meanings") for name in names}
@@ -70,8 +70,8 @@ def test_only_what_changed_is_compiled(tmp_path: Path) -> None:
         lambda: describe(tmp_path, "second_drive", POINTS.replace("100", "200")),
         lambda: (tmp_path / "first_drive/notes.txt").write_text("nothing of ours"),
     )
-    assert told(start) == (["first_drive", "second_drive"], [], {"first_drive", "second_drive"})
-    assert told(change) == (["second_drive"], ["version-not-raised"], {"second_drive"})
+    assert printout(start) == (["first_drive", "second_drive"], [], {"first_drive", "second_drive"})
+    assert printout(change) == (["second_drive"], ["version-not-raised"], {"second_drive"})
     assert "0..200" in Path("made/docs/second_drive.md").read_text("utf-8")
 
 
@@ -88,9 +88,9 @@ def test_what_is_broken_leaves_its_output_and_is_tried_with_every_change(tmp_pat
         lambda: describe(tmp_path, "second_drive", POINTS.replace("100", "200")),
         lambda: describe(tmp_path, "first_drive"),
     )
-    assert told(broken) == (["first_drive"], ["file-empty"], set())
-    assert told(other) == (["first_drive", "second_drive"], ["file-empty", "version-not-raised"], {"second_drive"})
-    assert told(mended) == (["first_drive"], [], set())  # a warning is no reason to compile again
+    assert printout(broken) == (["first_drive"], ["file-empty"], set())
+    assert printout(other) == (["first_drive", "second_drive"], ["file-empty", "version-not-raised"], {"second_drive"})
+    assert printout(mended) == (["first_drive"], [], set())  # a warning is no reason to compile again
     assert Path("made/docs/first_drive.md").read_bytes() == seen[0]
     assert second.exists()
 
@@ -104,11 +104,11 @@ def test_devices_come_and_go(tmp_path: Path) -> None:
         lambda: shutil.rmtree("first_drive"),
         lambda: describe(tmp_path, "first_drive"),
     )
-    assert told(copied) == (["copy"], ["duplicate-device"], set())
-    assert told(named) == (["copy"], [], {"second_drive"})
+    assert printout(copied) == (["copy"], ["duplicate-device"], set())
+    assert printout(named) == (["copy"], [], {"second_drive"})
     assert (gone.devices, gone.gone) == ([], ["copy"])
     assert (none.gone, [finding.rule for finding in none.report.findings]) == (["first_drive"], ["no-device"])
-    assert told(back) == (["first_drive"], [], set())
+    assert printout(back) == (["first_drive"], [], set())
     assert Path("made/docs/first_drive.md").exists()
 
 
@@ -122,7 +122,7 @@ def test_what_cannot_be_written_is_tried_again(tmp_path: Path) -> None:
 
     trouble, fine = outcomes(clears)
     assert trouble.trouble is not None
-    assert told(fine) == (["first_drive", "second_drive"], [], {"first_drive", "second_drive"})
+    assert printout(fine) == (["first_drive", "second_drive"], [], {"first_drive", "second_drive"})
 
 
 class Process:

@@ -89,8 +89,10 @@ def write_build(project: Project, builder: str, command: str) -> list[str]:
         return [tool(builder)]
     command = command.replace("--out ", f"--out {folder}/")
     command = command if "--out" in command else f"{command} --project {folder}/fieldscribe.toml"
-    said = project.say(f"{command} --depfile ${{CMAKE_BINARY_DIR}}/made.d").replace("env ", "${CMAKE_COMMAND} -E env ")
-    text = CMAKE.format(absolute=" ".join(project.listed(command)), command=said)
+    output = project.say(f"{command} --depfile ${{CMAKE_BINARY_DIR}}/made.d").replace(
+        "env ", "${CMAKE_COMMAND} -E env "
+    )
+    text = CMAKE.format(absolute=" ".join(project.listed(command)), command=output)
     (folder / "CMakeLists.txt").write_text(text, "utf-8")
     succeed([tool("cmake"), "-G", builder, "-B", folder / "build", "-S", folder])
     return [tool("cmake"), "--build", str(folder / "build")]

@@ -86,11 +86,11 @@ def test_check_sees_a_touched_output_and_writes_nothing(
 def test_check_asks_no_memory(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     main(["generate", "--target", "docs"])
 
-    def asked(*_: object) -> None:
+    def requested(*_: object) -> None:
         raise AssertionError("--check asked its memory")
 
-    monkeypatch.setattr("fieldscribe.output.memory.Memory.outputs", asked)
-    monkeypatch.setattr("fieldscribe.output.memory.Memory.__init__", asked)
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.outputs", requested)
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.__init__", requested)
     assert main(["generate", "--target", "docs", "--check"]) == 0
 
 
@@ -128,10 +128,10 @@ def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
     place.parent.mkdir(parents=True)
     place.write_text("precious")
     assert main(["generate", "--target", "docs", "--out", "made"]) == 1
-    said = capsys.readouterr().err
-    assert "error[foreign-file]: a file is in the way: " in said
-    assert " --> made/docs/jumo_controller.csv:1:1\n" in said
-    assert "hint: move it away, or replace it with `--force`; nothing of jumo_controller was written\n" in said
+    shown_text = capsys.readouterr().err
+    assert "error[foreign-file]: a file is in the way: " in shown_text
+    assert " --> made/docs/jumo_controller.csv:1:1\n" in shown_text
+    assert "hint: move it away, or replace it with `--force`; nothing of jumo_controller was written\n" in shown_text
     assert place.read_text() == "precious"
     assert list(files(project / "made")) == ["docs/jumo_controller.csv"]
     assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
@@ -186,9 +186,9 @@ def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
     monkeypatch.setattr(vectors, "outputs", failing)
     assert main(["generate", "--target", "docs,vectors"]) == 1
     assert sorted(files(project / "generated")) == [*DOCS, "vectors/jumo_controller.txt"]
-    said = capsys.readouterr().err
-    assert "internal error in target vectors: ValueError: no [31m vectors" in said
-    assert "descriptions/other/device.yaml" in said
+    shown_text = capsys.readouterr().err
+    assert "internal error in target vectors: ValueError: no [31m vectors" in shown_text
+    assert "descriptions/other/device.yaml" in shown_text
     assert main(["generate", "--target", "docs,vectors", "--check"]) == 1
 
 
@@ -199,9 +199,9 @@ def test_a_text_that_no_file_can_hold_is_a_bug_of_its_device(
 
     monkeypatch.setattr(docs, "outputs", lambda *_: [("docs/jumo_controller.md", "half a pair: \ud800")])
     assert main(["generate", "--target", "docs"]) == 1
-    said = " ".join(capsys.readouterr().err.split())
-    assert "internal error in a text: UnicodeEncodeError: " in said
-    assert "descriptions/jumo_controller/device.yaml:1:1" in said
+    shown_text = " ".join(capsys.readouterr().err.split())
+    assert "internal error in a text: UnicodeEncodeError: " in shown_text
+    assert "descriptions/jumo_controller/device.yaml:1:1" in shown_text
     assert not (project / "generated/docs").exists()
 
 
@@ -244,9 +244,9 @@ def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind:
     for command in (["check"], ["generate", "--target", "docs"]):
         done = run_bounded(project, *command)
         assert done.returncode == 1
-        said = done.stdout + done.stderr
-        assert any(rule in said for rule in ("file-unreadable", "file-too-large", "part-outside")), said
-        assert f"jumo_controller/{'device.yaml' if 'part-outside' in said else name}" in said
+        shown_text = done.stdout + done.stderr
+        assert any(rule in shown_text for rule in ("file-unreadable", "file-too-large", "part-outside")), shown_text
+        assert f"jumo_controller/{'device.yaml' if 'part-outside' in shown_text else name}" in shown_text
 
 
 def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path, tmp_path: Path) -> None:
@@ -261,17 +261,17 @@ def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path,
 
 
 @pytest.mark.parametrize(
-    ("put", "said"), [("link", "it is a link that leads nowhere"), ("nothing", "there is no file")]
+    ("put", "shown_text"), [("link", "it is a link that leads nowhere"), ("nothing", "there is no file")]
 )
 def test_a_part_that_is_not_there_is_told_from_a_link_that_leads_nowhere(
-    project: Path, put: str, said: str, capsys: pytest.CaptureFixture[str]
+    project: Path, put: str, shown_text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = project / "descriptions/jumo_controller/process_data.yaml"
     place.unlink()
     if put == "link":
         place.symlink_to("nowhere.yaml")
     assert main(["check"]) == 1
-    assert said in capsys.readouterr().out
+    assert shown_text in capsys.readouterr().out
 
 
 def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:
@@ -319,8 +319,8 @@ def test_names_of_files_reach_nobody_raw(project: Path, capsys: pytest.CaptureFi
         [evil],
     ):
         main(command)
-        said = capsys.readouterr()
-        shown = said.out + said.err
+        shown_text = capsys.readouterr()
+        shown = shown_text.out + shown_text.err
         assert shown
         assert "\x1b" not in shown, command
         assert "\u202e" not in shown, command
@@ -435,8 +435,8 @@ def test_depfile_and_list(project: Path, capsys: pytest.CaptureFixture[str]) -> 
 
 def test_json_tells_what_happened(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate", "--target", "docs", "--format", "json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert sorted(told["written"]) == DOCS
+    printed = json.loads(capsys.readouterr().out)
+    assert sorted(printed["written"]) == DOCS
 
 
 @pytest.mark.parametrize(

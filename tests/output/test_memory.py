@@ -237,16 +237,18 @@ def test_nothing_executable_is_kept_or_loaded(place: Path, monkeypatch: pytest.M
     assert [json.loads(path.read_bytes()).keys() for path in kept] == [{"run", "inputs", "outputs"}]
 
 
-@pytest.mark.parametrize(("said", "found"), [("caches", "home/.cache"), ("", "home/.cache"), ("/ABSOLUTE", "absolute")])
+@pytest.mark.parametrize(
+    ("variable", "found"), [("caches", "home/.cache"), ("", "home/.cache"), ("/ABSOLUTE", "absolute")]
+)
 def test_the_place_of_caches_is_that_of_the_specification(
-    said: str, found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    variable: str, found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A relative XDG_CACHE_HOME is to be ignored."""
     from fieldscribe.output.memory import cache_dir
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    monkeypatch.setenv("XDG_CACHE_HOME", said.replace("/ABSOLUTE", str(tmp_path / "absolute")))
+    monkeypatch.setenv("XDG_CACHE_HOME", variable.replace("/ABSOLUTE", str(tmp_path / "absolute")))
     place = cache_dir("runs")
     assert place == tmp_path / found / "fieldscribe/runs"
     assert place.stat().st_mode & 0o777 == 0o700

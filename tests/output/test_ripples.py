@@ -98,7 +98,7 @@ def made(point: str = "", *, first: bool = False) -> Lines:
 def cases(table: dict[str, T], core: str) -> list[ParameterSet]:
     """All of a table, of which one belongs to the core suite."""
     full = pytest.mark.full(seconds=1)
-    return [pytest.param(said, id=name, marks=() if name == core else full) for name, said in table.items()]
+    return [pytest.param(case, id=name, marks=() if name == core else full) for name, case in table.items()]
 
 
 @pytest.mark.parametrize("point", cases(POINTS, "a list of others"))

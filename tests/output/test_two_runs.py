@@ -51,26 +51,26 @@ def nobody() -> None:
 
 def test_who_waits_is_told_within_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """But not at once: most runs are over before anybody has read that."""
-    told: list[float] = []
+    printed: list[float] = []
     hours = iter(at / 4 for at in range(1000))
     monkeypatch.setattr(time, "monotonic", lambda: next(hours))
     monkeypatch.setattr(time, "sleep", lambda _: None)
     monkeypatch.setattr(lock, "_try_lock", lambda _: None)
     with (
         pytest.raises(TimeoutError, match="for 60 seconds"),
-        only_run(tmp_path, lambda: told.append(next(hours)), 60.0),
+        only_run(tmp_path, lambda: printed.append(next(hours)), 60.0),
     ):
         raise AssertionError("locked")
-    assert len(told) == 1
-    assert 0.5 < told[0] <= 1.25
+    assert len(printed) == 1
+    assert 0.5 < printed[0] <= 1.25
 
 
 def test_a_second_run_waits_says_so_and_gives_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lock, "_SILENCE", 0.0)
-    process, told = holder(tmp_path), []
-    with pytest.raises(TimeoutError, match="another run"), only_run(tmp_path, lambda: told.append(1), 0.2):
+    process, printed = holder(tmp_path), []
+    with pytest.raises(TimeoutError, match="another run"), only_run(tmp_path, lambda: printed.append(1), 0.2):
         raise AssertionError("two runs at once")
-    assert told == [1]
+    assert printed == [1]
     process.communicate("")
     assert list(tmp_path.iterdir()) == []
 

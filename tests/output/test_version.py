@@ -43,7 +43,7 @@ def test_other_versions_are_refused(tmp_path: Path, version: str) -> None:
 
 
 def test_it_stands_in_every_output(tmp_path: Path) -> None:
-    said = {
+    output = {
         "c/made_up.h": [
             '#define MADE_UP_DESCRIPTION_VERSION "2.13.4"',
             "#define MADE_UP_DESCRIPTION_VERSION_MAJOR 2U",
@@ -65,7 +65,7 @@ def test_it_stands_in_every_output(tmp_path: Path) -> None:
         "vectors/made_up.txt": ["\tmade_up\t2.13.4\t"],
     }
     texts = files(tmp_path, "2.13.4")
-    assert [(path, line) for path, lines in said.items() for line in lines if line not in texts[path]] == []
+    assert [(path, line) for path, lines in output.items() for line in lines if line not in texts[path]] == []
 
 
 def test_one_c_program_may_hold_two_versions(tmp_path: Path) -> None:

@@ -191,7 +191,8 @@ def script_of(steps: list[tuple[str, str]]) -> str:
         return "{" + ", ".join(f"0x{byte}" for byte in text.split() or ["0"]) + "}"
 
     rows = ",\n".join(
-        f"{{{len(asked.split())}, {bytes_of(asked)}, {len(said.split())}, {bytes_of(said)}}}" for asked, said in steps
+        f"{{{len(requested.split())}, {bytes_of(requested)}, {len(output.split())}, {bytes_of(output)}}}"
+        for requested, output in steps
     )
     return f"static const step steps[] = {{{rows}}};\n"
 
@@ -280,13 +281,13 @@ def test_blocks_on_uss(page: Page) -> None:
     text = (ROOT / "descriptions/siemens_mm4/frames.yaml").read_text("utf-8")
     assert "143A 0000 0000 0000" in text
     assert "243A 0000 4248 0000" in text
-    asked = bcc("02 0E 03 14 3A 00 00 00 00 00 00 04 7F 40 00")
+    requested = bcc("02 0E 03 14 3A 00 00 00 00 00 00 04 7F 40 00")
     answer = bcc("02 0E 03 24 3A 00 00 42 48 00 00 FA 31 12 34")
     refusal = bcc("02 0E 03 74 3A 00 00 00 00 00 00 FA 31 12 34")
     assert "047E 3333" in text
     run = bcc("02 0E 03 00 00 00 00 00 00 00 00 04 7F 33 33")
     runs = bcc("02 0E 03 00 00 00 00 00 00 00 00 FB 34 33 33")
-    steps = [(asked, f"02 {answer}"), (asked, refusal), (asked, answer[:-2] + "00"), (run, runs), (run, "")]
+    steps = [(requested, f"02 {answer}"), (requested, refusal), (requested, answer[:-2] + "00"), (run, runs), (run, "")]
     run_here(page, f'#include "host.h"\n{page.uss}{script_of(steps)}{USS}', board=True)
 
 

@@ -73,9 +73,9 @@ def test_a_table_with_notes_of_ones_own_is_not_replaced(tmp_path: Path, capsys: 
 def test_a_wrong_device_leaves_the_others_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "wrong.yaml").write_text("fieldscribe: 1\n", "utf-8")
     assert docs(tmp_path / "wrong.yaml", KITCHEN, "nobody", "--format", "csv", "--out", tmp_path / "out") == 2
-    said = capsys.readouterr()
-    assert "3 written" in said.out
-    assert "there is no device or path `nobody`" in said.err
+    output = capsys.readouterr()
+    assert "3 written" in output.out
+    assert "there is no device or path `nobody`" in output.err
     assert docs(tmp_path / "wrong.yaml", "--format", "csv", "--out", tmp_path / "out") == 1
 
 

@@ -68,8 +68,12 @@ def test_what_the_project_names_no_more_is_told(project: Path, capsys: pytest.Ca
     capsys.readouterr()
     assert main(["vendor"]) == 0
     assert main(["vendor", "--check"]) == 0
-    told = [line for line in capsys.readouterr().out.splitlines() if line.startswith("not in")]
-    assert told[:2] == ["not in the project file: d/other.h", "not in the project file: d/other_modbus.h"] == told[2:]
+    printed = [line for line in capsys.readouterr().out.splitlines() if line.startswith("not in")]
+    assert (
+        printed[:2]
+        == ["not in the project file: d/other.h", "not in the project file: d/other_modbus.h"]
+        == printed[2:]
+    )
     assert main(["vendor", "--check", "--format", "json"]) == 0
     assert json.loads(capsys.readouterr().out)["not_in_project"] == ["d/other.h", "d/other_modbus.h"]
     for name in ("other.h", "other_modbus.h"):
@@ -83,7 +87,7 @@ TOP = 'out = "d"\ntargets = ["c"]\n'
 
 
 @pytest.mark.parametrize(
-    ("text", "place", "said"),
+    ("text", "place", "output"),
     [
         ("out = ", "1:6", "this is no TOML"),
         ("out = 1\nout 2\n", "2:5", "this is no TOML"),
@@ -112,14 +116,14 @@ TOP = 'out = "d"\ntargets = ["c"]\n'
     ],
 )
 def test_what_is_wrong_is_told_with_its_place(
-    text: str, place: str, said: str, project: Path, capsys: pytest.CaptureFixture[str]
+    text: str, place: str, output: str, project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (project / "fieldscribe.toml").write_text(text, "utf-8")
     assert main(["vendor"]) == 1
-    told = capsys.readouterr().err
-    assert f"fieldscribe.toml:{place}" in told
-    assert said in told
-    assert "internal error" not in told
+    printed = capsys.readouterr().err
+    assert f"fieldscribe.toml:{place}" in printed
+    assert output in printed
+    assert "internal error" not in printed
     assert [path.name for path in project.iterdir()] == ["fieldscribe.toml"]
 
 
@@ -129,9 +133,11 @@ def test_the_same_files_twice_are_refused(project: Path, capsys: pytest.CaptureF
     assert "requested twice" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("make", "said"), [("mkdir", "it is a folder"), ("fifo", "a pipe"), ("link", "leads nowhere")])
+@pytest.mark.parametrize(
+    ("make", "output"), [("mkdir", "it is a folder"), ("fifo", "a pipe"), ("link", "leads nowhere")]
+)
 def test_what_is_no_file_is_called_by_its_kind(
-    make: str, said: str, project: Path, capsys: pytest.CaptureFixture[str]
+    make: str, output: str, project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = project / "fieldscribe.toml"
     if make == "mkdir":
@@ -141,7 +147,7 @@ def test_what_is_no_file_is_called_by_its_kind(
     else:
         place.symlink_to("nothing")
     assert main(["vendor"]) == 2
-    assert said in capsys.readouterr().err
+    assert output in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("form", ["text", "json"])
@@ -153,13 +159,13 @@ def test_what_was_done_is_told_when_the_next_fails(
     text = f'{TOP}{DEVICE}points = ["A020"]\n{DEVICE}points = ["A020"]\nout = "taken"\n'
     (project / "fieldscribe.toml").write_text(text, "utf-8")
     assert main(["vendor", "--format", form]) == 2
-    told = capsys.readouterr()
-    assert "taken" in told.err
+    printed = capsys.readouterr()
+    assert "taken" in printed.err
     if form == "json":
-        [delivery] = json.loads(told.out)["deliveries"]
+        [delivery] = json.loads(printed.out)["deliveries"]
         assert len(delivery["written"]) == 6
     else:
-        assert "6 written" in told.out
+        assert "6 written" in printed.out
 
 
 def test_a_device_with_errors_is_no_success(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -210,8 +216,8 @@ def test_wheels_are_the_same_every_time_and_install(project: Path, capsys: pytes
     subprocess.run(install, check=True, capture_output=True)
     assert not (project / "site/hitachi_l200/pyproject.toml").exists()
     program = "from hitachi_l200 import HitachiL200 as D; print(D.base_frequency.decode(500))"
-    said = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
-    assert subprocess.run(said, capture_output=True, text=True, check=True).stdout == "50.0\n"
+    command = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, 'site'); {program}"]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "50.0\n"
     assert main([*order[:-2], "A020,D001", "--wheel"]) == 0
     [other] = (project / "wheels").glob("hitachi_l200-*.whl")
     assert other.name != wheel.name, "pip takes other points for another version"

@@ -95,9 +95,9 @@ def test_words_that_mean_nothing(device: str, word: str, message: str, hint: str
 
 def test_all_wrong_words_are_told_at_once(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert vendor("c", "hitachi_l200", "--out", tmp_path, "--points", "A02O,D001,Q1") == 2
-    said = capsys.readouterr().err
-    assert "`A02O`; hitachi_l200 has no point, group or command `Q1`" in said
-    assert "for `A02O`, did you mean `A020`" in said
+    shown_text = capsys.readouterr().err
+    assert "`A02O`; hitachi_l200 has no point, group or command `Q1`" in shown_text
+    assert "for `A02O`, did you mean `A020`" in shown_text
     with pytest.raises(UnclearError, match="and 10 more"):
         select(shipped("hitachi_l200"), [f"none{number}" for number in range(30)])
 
@@ -221,8 +221,8 @@ def test_the_command_in_a_head_can_be_pasted(code: str, in_head: dict[str, str],
 def test_points_from_a_file(tmp_path: Path) -> None:
     (tmp_path / "points.txt").write_text("A001, D001  # what the panel shows\n\n# and what it sets\nF002\n", "utf-8")
     assert vendor("c", "hitachi_l200", "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
-    asked = json.loads((tmp_path / "out/hitachi_l200.manifest.json").read_text("utf-8"))["asked"]
-    assert asked == {"c": {"device": "hitachi_l200", "points": ["A001", "D001", "F002"]}}
+    requested = json.loads((tmp_path / "out/hitachi_l200.manifest.json").read_text("utf-8"))["asked"]
+    assert requested == {"c": {"device": "hitachi_l200", "points": ["A001", "D001", "F002"]}}
 
 
 def test_check_tells_what_is_missing_stale_edited_and_foreign(
@@ -275,8 +275,8 @@ def test_a_code_may_have_a_sharp_in_a_file(tmp_path: Path) -> None:
     place = write(tmp_path / "made_up", described('- {name: odd_one, code: "P#1", at: 1}\n'))
     (tmp_path / "points.txt").write_text("P#1 # this\n#and that\n", "utf-8")
     assert vendor("c", place, "--out", tmp_path / "out", "--points", f"@{tmp_path / 'points.txt'}") == 0
-    asked = json.loads((tmp_path / "out/made_up.manifest.json").read_text("utf-8"))["asked"]
-    assert asked["c"]["points"] == ["P#1"]
+    requested = json.loads((tmp_path / "out/made_up.manifest.json").read_text("utf-8"))["asked"]
+    assert requested["c"]["points"] == ["P#1"]
 
 
 def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -288,16 +288,16 @@ def test_an_edited_manifest_removes_no_foreign_file(tmp_path: Path, capsys: pyte
     head = (tmp_path / "hitachi_l200.h").read_text("utf-8").partition("*/")[0]
     (tmp_path / "hitachi_l200_older.h").write_text(f"{head}*/\n", "utf-8")
     manifest = tmp_path / "hitachi_l200.manifest.json"
-    said = json.loads(manifest.read_text("utf-8"))
+    document = json.loads(manifest.read_text("utf-8"))
     for name in ("main.c", "fieldscribe_older.h", "hitachi_l200_older.h"):
-        said["targets"]["c"][name] = sha256((tmp_path / name).read_bytes()).hexdigest()
-    manifest.write_text(json.dumps(said), "utf-8")
+        document["targets"]["c"][name] = sha256((tmp_path / name).read_bytes()).hexdigest()
+    manifest.write_text(json.dumps(document), "utf-8")
     capsys.readouterr()
     assert vendor(*order) == 0
-    told = capsys.readouterr().out
+    printed = capsys.readouterr().out
     assert (tmp_path / "main.c").is_file()
     assert not list(tmp_path.glob("*_older.h"))
-    assert [line.split(": ")[0] for line in told.splitlines()[:3]] == [
+    assert [line.split(": ")[0] for line in printed.splitlines()[:3]] == [
         "removed",
         "removed",
         "left in place, as it was edited by hand or is not ours",
@@ -326,9 +326,9 @@ def test_what_is_in_the_way_gets_advice_that_helps(tmp_path: Path, capsys: pytes
     (out / "hitachi_l200").symlink_to(tmp_path / "elsewhere")
     for words in ((), ("--force",), ("--as", "a" * 250)):
         assert vendor(*order, *words) in (1, 2)
-        told = capsys.readouterr().err
-        assert "--force" not in told
-        assert "hint: " in told
+        printed = capsys.readouterr().err
+        assert "--force" not in printed
+        assert "hint: " in printed
     (out / "hitachi_l200").unlink()
     (out / ".fieldscribe-new").mkdir()
     assert vendor(*order) == 2
@@ -346,7 +346,7 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "shown_text"),
     [
         (("c", "hitachi_l200"), "--out DIR is missing"),
         (("c",), "DEVICE is missing"),
@@ -369,14 +369,14 @@ def test_two_devices_share_the_runtime(tmp_path: Path) -> None:
 )
 def test_wrong_calls(
     words: tuple[str, ...],
-    said: str,
+    shown_text: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert vendor(*words) == 2
-    assert said in capsys.readouterr().err
+    assert shown_text in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
