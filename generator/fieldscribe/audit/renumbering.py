@@ -12,7 +12,7 @@ from fieldscribe.language.keys.shapes import LINES_OF
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.value_checks import compiled_pattern
 from fieldscribe.schema_types import Items, Place
-from fieldscribe.wording.lines import LINES_NAMED
+from fieldscribe.wording import LINES_NAMED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -39,12 +39,12 @@ class Explanation:
     rows: tuple[Row, ...]
 
     def as_data(self) -> dict[str, object]:
-        """The same for JSON."""
+        """Return the same for JSON."""
         return {"heading": self.heading, "rows": [{"label": label, "text": text} for label, text in self.rows]}
 
 
 def explain_point(device: Device, point: Point, *, as_documented: bool = False) -> Explanation:
-    """All facts of a point; with `as_documented` as the manual prints them, without its errata."""
+    """Return all facts of a point; with `as_documented` as the manual prints them, without its errata."""
     errata = [erratum for erratum in device.errata if erratum.id in point.errata]
     printed = errata if as_documented else []
     rows = [row for row in _rows(device, point, errata, printed) if row[1]]
@@ -54,7 +54,7 @@ def explain_point(device: Device, point: Point, *, as_documented: bool = False) 
 
 
 def _rows(device: Device, point: Point, errata: list[Erratum], printed: list[Erratum]) -> Iterator[Row]:
-    """The rows of the facts in the table, some of them as `printed` errata have them; texts may be empty."""
+    """Return the rows of the facts in the table, some as `printed` errata have them; texts may be empty."""
     context = Context(device)
     rows: list[Row] = []
     for fact in POINT:
@@ -123,15 +123,15 @@ def _erratum_text(erratum: Erratum) -> str:
 
 
 def _with_printed_facts(rows: list[Row], errata: list[Erratum]) -> list[Row]:
-    """The rows with the printed facts of errata in place of the corrected ones; facts without a row follow."""
-    shown, further = list(rows), []
+    """Return the rows with the printed facts of errata in place of the corrected ones; facts without a row follow."""
+    replaced, further = list(rows), []
     for erratum in errata:
-        facts = [(_ROWS.get(key, key.replace("_", " ").capitalize()), said) for key, said in erratum.facts]
-        for label, said in facts or [("The manual says", erratum.printed)]:
-            remark = f"{said} (as printed; {erratum.id})"
+        facts = [(_ROWS.get(key, key.replace("_", " ").capitalize()), text) for key, text in erratum.facts]
+        for label, text in facts or [("The manual says", erratum.printed)]:
+            remark = f"{text} (as printed; {erratum.id})"
             at = next((place for place, row in enumerate(rows) if row[0].lower() == label.lower()), None)
             if at is None:
                 further.append((label, remark))
             else:
-                shown[at] = shown[at][0], remark
-    return shown + further
+                replaced[at] = replaced[at][0], remark
+    return replaced + further

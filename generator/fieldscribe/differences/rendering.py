@@ -9,8 +9,8 @@ from fieldscribe.differences.changes import CLASSES, fact_of, is_taken, next_ver
 from fieldscribe.facts.table import DOCS
 from fieldscribe.report import visible
 from fieldscribe.text import markdown
+from fieldscribe.wording import without_lines
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.lines import without_lines
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

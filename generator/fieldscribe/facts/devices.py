@@ -29,7 +29,7 @@ from fieldscribe.facts.schema import (
 )
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, Parts, View
 from fieldscribe.families import families, family
-from fieldscribe.wording.lines import without_lines
+from fieldscribe.wording import without_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

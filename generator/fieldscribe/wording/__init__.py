@@ -6,7 +6,8 @@ The texts are plain; targets escape them (text.py). Another point is written as 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.text import line
@@ -18,6 +19,8 @@ from fieldscribe.wording.rules import condition_text as condition_text
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, ScaleCase, Special, Titles
 
+LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
+"""Lines of a manual that a sentence names: `the replies at lines 246 and 297`."""
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
 
 
@@ -28,12 +31,7 @@ def label(point: Point) -> str:
 
 def address_text(address: int) -> str:
     """Return a wire address in both notations: `1028h (4136)`."""
-    return " ".join(address_parts(address))
-
-
-def address_parts(address: int) -> tuple[str, str]:
-    """Return the two notations of a wire address, between which a line may be broken."""
-    return hex_text(address), f"({address})"
+    return f"{hex_text(address)} ({address})"
 
 
 def words_text(point: Point) -> str:
@@ -94,27 +92,24 @@ def type_text(point: Point) -> str:
         return f"text, {point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
         return f"{point.type}, {point.digits.count} decimal digits"
-    if point.bits is None:
-        return point.type
-    high, low = point.bits
-    return f"{point.type}, bit {low}" if high == low else f"{point.type}, bits {high}..{low}"
+    return point.type if point.bits is None else f"{point.type}, {_bits_text(*point.bits)}"
+
+
+def _bits_text(high: int, low: int) -> str:
+    return f"bit {low}" if high == low else f"bits {high}..{low}"
 
 
 def fixed_text(point: Point) -> str:
     """Return the bits of the word that are always written as a constant: `bit 10 always 1, bits 7..3 always 00000`."""
     if point.fixed is None:
         return ""
-    mask, bits = point.fixed.mask, point.fixed.bits
-    parts = []
-    high = mask.bit_length() - 1
-    while high >= 0:
-        low = high
-        while low and mask >> low - 1 & 1:
-            low -= 1
-        value = f"{bits >> low & (1 << high - low + 1) - 1:0{high - low + 1}b}"
-        parts.append(f"bit {low} always {value}" if high == low else f"bits {high}..{low} always {value}")
-        high = (mask & (1 << low) - 1).bit_length() - 1
-    return ", ".join(parts)
+    width = point.fixed.mask.bit_length()
+    bits = f"{point.fixed.bits:0{width}b}"
+    runs = re.finditer("1+", f"{point.fixed.mask:b}")
+    return ", ".join(
+        f"{_bits_text(width - 1 - run.start(), width - run.end())} always {bits[run.start() : run.end()]}"
+        for run in runs
+    )
 
 
 def shares_word(point: Point) -> bool:
@@ -126,10 +121,9 @@ def shared_text(point: Point) -> str:
     """Return how such a point is written: `shares its word: read it, change bits 11..8, write it back`."""
     if point.bits is None or not shares_word(point):
         return ""
-    high, low = point.bits
-    bits = f"bit {low}" if high == low else f"bits {high}..{low}"
+    bits = _bits_text(*point.bits)
     if not point.readable:
-        be = "is" if high == low else "are"
+        be = "is" if point.width == 1 else "are"
         return f"shares its word, which cannot be read: {bits} {be} written together with all others"
     return f"shares its word: read it, change {bits}, write it back"
 
@@ -137,16 +131,6 @@ def shared_text(point: Point) -> str:
 def access_text(access: str) -> str:
     """Return what the bus may do with a point."""
     return _ACCESS.get(access, access)
-
-
-def value_text(point: Point, raw: int) -> str:
-    """Return the value of a raw number without its unit; empty for a bit pattern, or if it depends on other points."""
-    rule = None if point.info.floating else fixed_rule(point)
-    if rule is None:
-        return ""
-    if point.display is not None:
-        return rounded(raw * rule.factor + rule.add, rule.divisor, point.display)
-    return converted(raw, rule)
 
 
 def display_text(point: Point) -> str:
@@ -162,14 +146,22 @@ def decimals_text(point: Point) -> str:
 
 
 def meaning_text(point: Point, raw: int) -> str:
-    """Return the special code, the entry, or the value and unit of a raw number; empty if the number is the value."""
+    """Return the special code, the entry, or the value and unit of a raw number.
+
+    It is empty if the number is the value or a bit pattern, or if its value depends on other points.
+    """
     special = point.special(raw)
     if special is not None:
         return special.name
     if point.enum is not None:
         return next((entry.name for entry in point.enum.entries if entry.raw == raw), "")
     itself = point.scale is None and not point.unit.symbol and not point.display
-    return "" if itself else with_unit(value_text(point, raw), point)
+    rule = None if itself or point.info.floating else fixed_rule(point)
+    if rule is None:
+        return ""
+    if point.display is None:
+        return with_unit(converted(raw, rule), point)
+    return with_unit(rounded(raw * rule.factor + rule.add, rule.divisor, point.display), point)
 
 
 def resolution_text(point: Point) -> str:
@@ -356,3 +348,10 @@ def keeps_text(device: Device, point: Point) -> str:
     where = f"{command.space} {address_text(command.address)} with function {hex_text(command.function, 2)}"
     wears = f"; the memory stands {command.wears} writes" if command.wears else ""
     return f"only after the command {command.name} (write {value} to {where}){wears}"
+
+
+def without_lines(text: Any) -> Any:
+    """Return a text, or texts by language, without the numbers of the lines that they name."""
+    if isinstance(text, dict):
+        return {language: without_lines(words) for language, words in text.items()}
+    return LINES_NAMED.sub("lines", text) if isinstance(text, str) else text

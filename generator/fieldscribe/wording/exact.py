@@ -37,12 +37,6 @@ def number_text(number: Fraction) -> str:
     return exact(number.numerator, number.denominator)
 
 
-def shortest(count: int, places: int) -> str:
-    """Return a count of 10^-places as a decimal without trailing zeros: `0.5`."""
-    text = _decimal(count, places)
-    return text.rstrip("0").rstrip(".") if places else text
-
-
 def rounded(numerator: int, denominator: int, decimals: int) -> str:
     """Return the number with so many decimals, rounded to nearest, halves away from zero: `50.00`; never `-0`."""
     return _decimal(nearest(numerator * 10**decimals, denominator), decimals)
