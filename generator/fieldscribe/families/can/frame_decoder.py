@@ -13,7 +13,8 @@ from fieldscribe.families.can import remarks
 from fieldscribe.families.can.frames import (
     LENGTH,
     CanFrame,
-    Difference,
+    Head,
+    ParameterWord,
     carried,
     carries,
     differences,
@@ -40,35 +41,6 @@ if TYPE_CHECKING:
 _MOST_HEADS = 2048
 """How many heads of frames are remembered."""
 _KINDS = {"request": "request", "response": "reply"}
-
-
-@dataclass(frozen=True, slots=True)
-class Head:
-    """A frame read as a message, without its words. `foreign`: it answers for a unit that the device cannot have.
-
-    `slot` is the multiplexer (0 without one), `address` the parameter that the message is about, if it is about one.
-    """
-
-    message: Message
-    unit: int | None
-    slot: int
-    address: int | None
-    differences: tuple[Difference, ...]
-    wrong_sum: bool
-    foreign: bool
-
-    @property
-    def flaws(self) -> int:
-        """The number of flaws; a checksum counts once."""
-        return self.foreign + self.wrong_sum + len(self.differences)
-
-
-@dataclass(frozen=True, slots=True)
-class ParameterWord:
-    """The parameter that a request or its answer is about, and the word that it carries."""
-
-    address: int
-    raw: int | None
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,35 @@ class Difference:
     due: int
 
 
+@dataclass(frozen=True, slots=True)
+class Head:
+    """A frame read as a message, without its words. `foreign`: it answers for a unit that the device cannot have.
+
+    `slot` is the multiplexer (0 without one), `address` the parameter that the message is about, if it is about one.
+    """
+
+    message: Message
+    unit: int | None
+    slot: int
+    address: int | None
+    differences: tuple[Difference, ...]
+    wrong_sum: bool
+    foreign: bool
+
+    @property
+    def flaws(self) -> int:
+        """The number of flaws; a checksum counts once."""
+        return self.foreign + self.wrong_sum + len(self.differences)
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterWord:
+    """The parameter that a request or its answer is about, and the word that it carries."""
+
+    address: int
+    raw: int | None
+
+
 def identifier(message: Message, unit: int) -> int:
     """Return the identifier that carries a message to or from a unit."""
     return message.identifier + unit if message.adds_unit else message.identifier

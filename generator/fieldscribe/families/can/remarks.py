@@ -13,7 +13,7 @@ from fieldscribe.wording.frames import hex_words, strange_unit
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from fieldscribe.families.can.frame_decoder import Head, ParameterWord
+    from fieldscribe.families.can.frames import Head, ParameterWord
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.model import Bus, Device, Message, Telegram
 
