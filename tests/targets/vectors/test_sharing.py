@@ -131,12 +131,6 @@ def test_a_forgotten_part_of_an_encoding_is_caught(part: int, monkeypatch: pytes
     assert caught()
 
 
-@pytest.mark.parametrize("part", range(3), ids=["shape", "entries", "closed"])
-def test_a_forgotten_part_of_what_makes_shapes_alike_is_caught(part: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    sharing_more(monkeypatch, PointEncodings, "_alike", part)
-    assert caught()
-
-
 # The key by which the model interns shapes
 
 OTHER_ENUM = Enum("mode", titles("Mode"), (entry(0, "off"), entry(2, "on")), closed=True)

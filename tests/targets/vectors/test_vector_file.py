@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 from fieldscribe.families import family
 from fieldscribe.model import Entry, Enum, Flag, Limit, Special
-from fieldscribe.targets.vectors.kinds import KINDS, table
 from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.vector_kinds import KINDS, table
 from support.models import (
     allowed,
     linear,

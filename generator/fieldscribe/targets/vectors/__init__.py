@@ -1,6 +1,6 @@
 """The conformance vectors of a device: the right answers for every language, computed from the model alone.
 
-It shares no code with the other targets, so that a mistake in one of them cannot be in its own test too.
+This target shares no code with the others, so that a mistake in one of them cannot be in its test too.
 """
 
 from __future__ import annotations

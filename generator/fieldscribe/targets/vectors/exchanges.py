@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
+from fieldscribe.targets.vectors.lines import script_text
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits32, bits64, code_of, outer_bounds
 from fieldscribe.targets.vectors.samples import ascending
 
@@ -138,7 +139,10 @@ class Exchanges:
             return
         is_text, first = typical.encoding.shape.text is not None, (kind, point.space)
         raw, words = (None, sent[1]) if is_text else (sent[0], None)
-        self.lines.add(kind, script, "ok", raw, words, typical.needs or None)
+        if is_text or typical.needs:
+            self.lines.add(kind, script, "ok", raw, words, typical.needs or None)
+        else:  # most exchanges
+            self.lines.add_written(kind, (f"{kind}\t{script_text(script)}\tok\t{raw}",))
         if is_text or typical.encoding.bits is not None or typical.needs or first in self.spoiled:
             return
         self.spoiled.add(first)

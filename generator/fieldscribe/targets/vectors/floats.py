@@ -45,7 +45,7 @@ _GREATEST_64 = 1.7976931348623157e308
 
 
 def floats(lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
-    """Vectors of decoding, encoding and checking; limits are compared after conversion to the type."""
+    """Add vectors of decoding, encoding and checking; limits are compared after conversion to the type."""
     shape, allowed = encoding.shape, encoding.allowed
     wide = shape.width == 64
     limits = _limits(allowed, wide)
@@ -82,7 +82,7 @@ def _decoded(shape: Shape, bits: int) -> tuple[object, ...]:
 
 
 def _limits(allowed: Allowed, wide: bool) -> list[tuple[float, float]]:
-    """The limits, rounded to numbers of the type as values are; without limits, the limits of the type."""
+    """Return the limits, rounded to numbers of the type as values are; without limits, the limits of the type."""
     greatest = _GREATEST_64 if wide else _GREATEST_32
     return [(_typed(float(low), wide), _typed(float(high), wide)) for low, high in allowed.units] or [
         (-greatest, greatest)
@@ -90,7 +90,7 @@ def _limits(allowed: Allowed, wide: bool) -> list[tuple[float, float]]:
 
 
 def _typed(value: float, wide: bool) -> float:
-    """The nearest number of the type."""
+    """Return the nearest number of the type."""
     if wide:
         return value
     pattern = bits32(value)
@@ -110,28 +110,28 @@ def _values(encoding: PointEncoding, limits: list[tuple[float, float]], wide: bo
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
     if not wide:
         if encoding.allowed.units:
-            # For each limit: the middle between it and each neighbour in the type, and the values beside that middle.
+            # for each limit: the middle between it and each neighbour in the type, and the values next to that middle
             for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
-                for beside in _neighbours(limit, wide):
-                    half = (limit + beside) / 2  # exact, because both are binary32 numbers
-                    values += [limit, half, nextafter(half, limit), nextafter(half, beside)]
+                for neighbour in _neighbours(limit, wide):
+                    half = (limit + neighbour) / 2  # exact, because both are binary32 numbers
+                    values += [limit, half, nextafter(half, limit), nextafter(half, neighbour)]
         values += _TIES
         values += [_BEYOND_32, -_BEYOND_32, nextafter(_BEYOND_32, 0), nextafter(-_BEYOND_32, 0)]
     return [*values, nan, inf, -inf, 1e300, -1e300]
 
 
 def _neighbours(value: float, wide: bool) -> list[float]:
-    """The next numbers of the type below and above a number of the type."""
+    """Return the next numbers of the type below and above a number of the type."""
     if wide:
         return [nextafter(value, -inf), nextafter(value, inf)]
     if value == 0:
         return [-(2.0**-149), 2.0**-149]
     bits = bits32(value) or 0  # patterns are ordered by magnitude, whatever the sign
-    return [beside for step in (-1, 1) if isfinite(beside := float_of_bits(bits + step, 32))]
+    return [next_one for step in (-1, 1) if isfinite(next_one := float_of_bits(bits + step, 32))]
 
 
 def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[int]:
-    """The patterns of the limits, their neighbours, both zeros, the infinities and NaN."""
+    """Return the patterns of the limits, their neighbours, both zeros, the infinities and NaN."""
     numbers = [0.0, -0.0, inf, -inf]
     for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
         numbers += [limit, *_neighbours(limit, wide)]
@@ -155,7 +155,7 @@ def _encoded(shape: Shape, value: float, limits: list[tuple[float, float]]) -> t
 
 
 def _admitted(number: float, limits: list[tuple[float, float]]) -> str:
-    """Whether a number of the type may be written within these limits."""
+    """Return whether a number of the type may be written within these limits."""
     if isnan(number):
         return "not_a_number"
     inside = isfinite(number) and any(low <= number <= high for low, high in limits)

@@ -27,10 +27,10 @@ def whole(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) 
                 lines.add("encode_count", raw, limits)
                 lines.add("check", raw, limits)
         else:
-            _sheet(lines, encoding, limits, deep=deep)
+            _convert(lines, encoding, limits, deep=deep)
 
 
-def _sheet(lines: Lines, encoding: PointEncoding, limits: samples.Limits, *, deep: bool) -> None:
+def _convert(lines: Lines, encoding: PointEncoding, limits: samples.Limits, *, deep: bool) -> None:
     shape = encoding.shape
     top = INT64 if shape.width > 16 else 1 << 31
     checked = _raws(encoding, samples.raws_to_check(shape, limits, deep=deep), deep=deep)
@@ -49,7 +49,7 @@ def _sheet(lines: Lines, encoding: PointEncoding, limits: samples.Limits, *, dee
 
 
 def _decoded(shape: Shape, raw: int) -> str:
-    """The line that tells status and count."""
+    """Return the line with status and count."""
     code = code_of(shape, raw) if shape.specials else None
     if code is not None:
         return f"decode_count\t{raw}\tspecial\t-\t{text(code.name)}"
@@ -57,21 +57,21 @@ def _decoded(shape: Shape, raw: int) -> str:
 
 
 def _encoded(encoding: PointEncoding, count: int, limits: samples.Limits) -> str:
-    """The line that tells the status of a count, and its raw number if it may be written."""
+    """Return the line with the status of a count, and its raw number if it may be written."""
     put = count if encoding.shape.fixed is None else with_fixed(encoding, count)
     status = admit(encoding.shape, put, limits, by_value=True)
     return f"encode_count\t{count}\tok\t{put}" if status == "ok" else f"encode_count\t{count}\t{status}"
 
 
 def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
-    """The status of a raw number that is written as it is."""
+    """Return the status of a raw number that is written as it is."""
     shape = encoding.shape
     fits = shape.fixed is None or with_fixed(encoding, raw) == raw or code_of(shape, raw) is not None
     return admit(shape, raw, limits) if fits else "out_of_range"
 
 
 def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """These raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    """Return these raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
     shape = encoding.shape
     raws_to_try = dict.fromkeys(raws)
     if shape.fixed is not None:
@@ -84,7 +84,7 @@ def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, 
 
 
 def with_fixed(encoding: PointEncoding, raw: int) -> int:
-    """A raw number with the constant bits set; unchanged if the type cannot hold it."""
+    """Return a raw number with the constant bits set; unchanged if the type cannot hold it."""
     shape, fixed = encoding.shape, encoding.shape.fixed
     if fixed is None or encoding.bits is not None or not shape.least <= raw <= shape.greatest:
         return raw
@@ -104,13 +104,13 @@ def names(lines: Lines, shape: Shape, *, deep: bool) -> None:
         return
     for raw, name in named.items():
         lines.add("name", raw, name)
-    strange = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
-    for raw in [raw for raw in strange if raw not in named and least <= raw <= greatest]:
+    unnamed = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
+    for raw in [raw for raw in unnamed if raw not in named and least <= raw <= greatest]:
         lines.add("name", raw)
 
 
 def specials(lines: Lines, shape: Shape) -> None:
-    """Add vectors of the special codes, and of raw numbers at their ends and beside them."""
+    """Add vectors of the special codes, and of raw numbers at their ends and next to them."""
     for special in shape.specials:
         lines.add("special", special.name, special.low, special.high)
     for raw in dict.fromkeys(samples.codes(shape)):
@@ -185,9 +185,9 @@ def _wide_patterns(count: int) -> tuple[int, ...]:
 
 
 def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
-    """The words of a raw number as they travel, in ascending order of address: `order` says which is which.
+    """Return the words of a raw number as they travel, in ascending order of address: `order` says which is which.
 
-    A bit group has other bits beside it. Constant bits are as written when they are sent, and different when received.
+    A bit group shares its word with other bits. Constant bits are as written when they are sent, and different when received.
     """
     if encoding.bits is not None:
         return (_shared_word(encoding, encoding.bits[1], raw, received=received),)

@@ -7,12 +7,12 @@ from struct import Struct
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.targets.vectors.kinds import KINDS, SETS, table
+from fieldscribe.targets.vectors.vector_kinds import KINDS, SETS, table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-    from fieldscribe.targets.vectors.kinds import Kind
+    from fieldscribe.targets.vectors.vector_kinds import Kind
 
 FORMAT = 2
 ABSENT = "-"
@@ -52,6 +52,11 @@ def _pairs(value: Mapping[str, object]) -> str:
     return ",".join([f"{text(key)}={text(str(part))}" for key, part in value.items()])
 
 
+def script_text(script: Iterable[tuple[bytes, bytes]]) -> str:
+    """Return requests with their answers."""
+    return ",".join([f"{sent.hex()}={answer.hex()}" for sent, answer in script])
+
+
 _FORMS: dict[str, tuple[tuple[type, ...], Callable[[Any], str]]] = {
     "int": ((int,), str),
     "word": ((str,), word),
@@ -63,13 +68,9 @@ _FORMS: dict[str, tuple[tuple[type, ...], Callable[[Any], str]]] = {
     "names": ((tuple,), lambda names: ",".join(map(text, names))),
     "pairs": ((dict,), _pairs),
     "frames": ((tuple, list), lambda frames: ",".join([f"{number}={data.hex()}" for number, data in frames])),
-    "script": ((tuple, list), lambda script: ",".join([f"{sent.hex()}={answer.hex()}" for sent, answer in script])),
+    "script": ((tuple, list), script_text),
 }
 """Each form of field: the types of its values and their notation; lists have commas, items of two parts have `=`."""
-
-
-def _refuse(value: object, types: tuple[type, ...]) -> str:
-    raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
 
 
 class Row:
@@ -82,10 +83,14 @@ class Row:
 
     def line(self, values: Sequence[object]) -> str:
         """Return the line of one vector; fields without a value are absent, and left out at the end."""
-        words = [
-            ABSENT if value is None else write(value) or ABSENT if type(value) in types else _refuse(value, types)
-            for (types, write), value in zip(self._forms, values, strict=False)
-        ]
+        words = []
+        for (types, write), value in zip(self._forms, values, strict=False):
+            if value is None:
+                words.append(ABSENT)
+            elif type(value) in types:
+                words.append(write(value) or ABSENT)
+            else:
+                raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
         if len(values) > len(self._forms):
             raise ValueError(f"{self.name} has no more than {len(self._forms)} fields")
         while words and words[-1] == ABSENT:

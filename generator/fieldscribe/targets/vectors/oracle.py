@@ -21,14 +21,14 @@ EXACT = 1 << 53
 
 
 def half_away(over: int, under: int) -> int:
-    """Rounds over / under (under > 0) to the nearest integer, halves away from zero."""
+    """Return over / under (under > 0) to the nearest integer, halves away from zero."""
     if over < 0:
         return -((-2 * over + under) // (2 * under))
     return (2 * over + under) // (2 * under)
 
 
 def quotient(over: int, under: int) -> float:
-    """The binary64 nearest to over / under (under not 0); infinity if that is too large."""
+    """Return the binary64 nearest to over / under (under not 0); infinity if that is too large."""
     try:
         return over / under  # division of integers is correctly rounded
     except OverflowError:
@@ -36,25 +36,25 @@ def quotient(over: int, under: int) -> float:
 
 
 def as_raw(shape: Shape, pattern: int) -> int:
-    """The raw number in a pattern of its bits; higher bits are ignored."""
+    """Return the raw number in a pattern of its bits; higher bits are ignored."""
     pattern &= (1 << shape.width) - 1
     return pattern - (1 << shape.width) if shape.info.signed and pattern >> (shape.width - 1) else pattern
 
 
 def bits64(value: float) -> int:
-    """The bits of a binary64 as a number."""
+    """Return the bits of a binary64 as a number."""
     return int.from_bytes(struct.pack(">d", value), "big")
 
 
 def float_of_bits(bits: int, width: int) -> float:
-    """The number in a binary32 or binary64 pattern."""
+    """Return the number in a binary32 or binary64 pattern."""
     form, size = (">f", 4) if width == 32 else (">d", 8)
     number: float = struct.unpack(form, bits.to_bytes(size, "big"))[0]
     return math.nan if math.isnan(number) else number
 
 
 def bits32(value: float) -> int | None:
-    """The pattern of the binary32 nearest to a finite binary64, ties to even; None if that is infinite."""
+    """Return the pattern of the binary32 nearest to a finite binary64, ties to even; None if that is infinite."""
     sign = 0x8000_0000 if math.copysign(1.0, value) < 0 else 0
     over, under = abs(value).as_integer_ratio()
     if over == 0:
@@ -82,7 +82,7 @@ INT64 = 1 << 63
 
 
 def in_binary64(number: int) -> int:
-    """An integer rounded to binary64, as every language does it."""
+    """Return an integer rounded to binary64, as every language does it."""
     return number if -EXACT <= number <= EXACT else int(float(number))
 
 
@@ -96,7 +96,7 @@ class Ratio:
     under: int
 
     def numerator(self, raw: int) -> int:
-        """The numerator of the exact value of `raw`; its denominator is `denominator`."""
+        """Return the numerator of the exact value of `raw`; its denominator is `denominator`."""
         return (raw * self.under - self.over) * (self.den if self.num > 0 else -self.den)
 
     @property
@@ -105,7 +105,7 @@ class Ratio:
         return abs(self.num) * self.under
 
     def raw_of_float(self, value: float) -> int | None:
-        """The raw number of a finite value, computed in rounded binary64 steps; None if a step overflows."""
+        """Return the raw number of a finite value, computed in rounded binary64 steps; None if a step overflows."""
         above, below = value.as_integer_ratio()
         if self.num != 1:
             value = quotient(above * in_binary64(self.num), below)
@@ -123,23 +123,23 @@ class Ratio:
         return half_away(above, below)
 
     def raw_of_count(self, count: int, decimals: int) -> int:
-        """The raw number of a count of 10^-decimals units."""
+        """Return the raw number of a count of 10^-decimals units."""
         under = self.den * 10**decimals * self.under
         over = count * self.num * self.under + self.over * self.den * 10**decimals
         return half_away(over, under) if under > 0 else half_away(-over, -under)
 
     def count_of_raw(self, raw: int, decimals: int) -> int:
-        """The count of 10^-decimals units for a raw number."""
+        """Return the count of 10^-decimals units for a raw number."""
         return half_away(self.numerator(raw) * 10**decimals, self.denominator)
 
     def divides_exactly(self, raw: int) -> bool:
-        """Whether the value is a single binary64 division: both integers are at most 2^53."""
+        """Return True if the value is a single binary64 division: both integers are at most 2^53."""
         return abs(self.numerator(raw)) <= EXACT and self.denominator <= EXACT
 
 
 @lru_cache(maxsize=4096)
 def fixed_ratio(rule: Linear) -> Ratio:
-    """The ratio of a rule that has no factors."""
+    """Return the ratio of a rule that has no factors."""
     return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
 
 
@@ -217,13 +217,13 @@ class Oracle:
         return Fraction(value) if isfinite(value) else 0
 
     def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
-        """Whether the raw number of an exponent lies in the range of its point."""
+        """Return True if the raw number of an exponent lies in the range of its point."""
         source = self.points[factor.point]
         low, high = outer_bounds(source.shape, source.allowed)
         return low <= settings[factor.point] <= high
 
     def limits(self, shape: Shape, allowed: Allowed, settings: Settings) -> list[tuple[int, int]] | str:
-        """The intervals in force, or why a limit cannot be computed: `zero_factor`, `overflow`."""
+        """Return the intervals in force, or why a limit cannot be computed: `zero_factor`, `overflow`."""
         spans: list[tuple[int, int]] = []
         for interval in allowed.intervals:
             if isinstance(interval.low, int) and isinstance(interval.high, int):
@@ -239,7 +239,7 @@ class Oracle:
         return spans or [(shape.least, shape.greatest)]
 
     def _is_unusable(self, factor: Factor, numbers: Numbers) -> bool:
-        """Whether a limit cannot be computed with the factor: a zero divisor, a floating-point zero or NaN."""
+        """Return True if a limit cannot be computed with the factor: a zero divisor, a floating-point zero or NaN."""
         source = self.points.get(factor.point)
         matters = factor.power < 0 or (source is not None and source.shape.info.floating)
         return matters and not factor.ten_to and _number(factor, numbers) == 0
@@ -259,7 +259,7 @@ class Oracle:
 
 
 def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
-    """Whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
+    """Return whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
 
     `by_value` says that it was computed from a value, which never means a special code.
     """
@@ -273,7 +273,7 @@ def admit(shape: Shape, raw: int, limits: Sequence[tuple[int, int]], *, by_value
 
 
 def outer_bounds(shape: Shape, allowed: Allowed) -> tuple[int, int]:
-    """The least and greatest raw number that may ever be written; without limits, those of the bits."""
+    """Return the least and greatest raw number that may ever be written; without limits, those of the bits."""
     if len(allowed.intervals) == 1:
         low, high = allowed.intervals[0].low, allowed.intervals[0].high
         if isinstance(low, int) and isinstance(high, int):
@@ -286,7 +286,7 @@ def outer_bounds(shape: Shape, allowed: Allowed) -> tuple[int, int]:
 
 
 def code_of(shape: Shape, raw: int) -> Special | None:
-    """The special code with that raw number, if there is one."""
+    """Return the special code with that raw number, if there is one."""
     for special in shape.specials:
         if special.low <= raw <= special.high:
             return special
@@ -294,7 +294,7 @@ def code_of(shape: Shape, raw: int) -> Special | None:
 
 
 def quantity_at_most(shape: Shape, raw: int) -> int:
-    """The greatest raw number up to this one that is no special code."""
+    """Return the greatest raw number up to this one that is no special code."""
     while (code := code_of(shape, raw)) is not None:
         raw = code.low - 1
     return raw

@@ -1,12 +1,13 @@
-"""What the raw numbers of a point mean, apart from the point's identity: points that mean the same share a sheet.
+"""The encoding of a point, and the raw numbers and settings with which its vectors are made.
 
-The first of all that are computed alike is tried in depth, the others only with what is their own.
+Points with the same encoding share their vectors. Of all that are computed in the same way, the first is tried in
+depth, the others only with their limits.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
@@ -21,15 +22,15 @@ if TYPE_CHECKING:
 
 
 MANY = 3
-"""So many intervals of a list are tried for every point."""
+"""The number of intervals of a list that are tried for every point."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointEncoding:
-    """All that the vectors of raw numbers follow from. They never see the point, so that nothing else can matter.
+    """How raw numbers and words of a point are encoded: all that its vectors, but for its identity, depend on.
 
-    `bits` are those of a group in its word. `order` names the words in ascending order of address, the high one being
-    0; it is None if nobody knows the address. `symbol` is that of the unit where texts for people have it.
+    `bits` are those of a group in its word. `order` has the words in ascending order of address, 0 for the high one; it
+    is None if the address is unknown. `symbol` is that of the unit where texts for people have it.
     """
 
     shape: Shape
@@ -46,19 +47,17 @@ class PointEncoding:
 
 
 class PointEncodings:
-    """The encodings met so far, each once."""
+    """The encodings of the points so far, each once."""
 
     def __init__(self) -> None:
         self._known: dict[Hashable, PointEncoding] = {}
-        self._first: dict[int, Shape] = {}
-        self._alike: dict[Hashable, Shape] = {}
-        self._computed: set[Hashable] = set()
         self._shapes: dict[int, int] = {}
         self._facts: dict[Hashable, int] = {}
+        self._computed: set[Hashable] = set()
 
     def of(self, point: Point) -> PointEncoding:
-        """The encoding of a point's raw numbers. Its shape and its limits are compared as objects, which is quick."""
-        shape, terms, addresses = self._like(point.shape), point.terms, point.place.addresses
+        """Return the encoding of a point. Its shape and its limits are compared as objects, which is quick."""
+        shape, terms, addresses = point.shape, point.terms, point.place.addresses
         order = ascending(shape, addresses) if addresses else None
         symbol = terms.unit.symbol if shape.display is not None else ""
         key = id(shape), id(point.allowed), terms.bits, order, symbol
@@ -67,31 +66,19 @@ class PointEncodings:
             encoding = self._known[key] = PointEncoding(shape, point.allowed, terms.bits, order, symbol)
         return encoding
 
-    def _like(self, shape: Shape) -> Shape:
-        """The first shape that differs in nothing but the name of its enum, which no vector tells."""
-        first = self._first.get(id(shape))
-        if first is None:
-            facts = replace(shape, enum=None), _entries(shape.enum), shape.enum is not None and shape.enum.closed
-            first = self._alike.get(facts)
-            if first is None:
-                first = self._alike[facts] = shape
-            self._first[id(shape)] = first
-        return first
-
     def is_new(self, encoding: PointEncoding) -> bool:
-        """Whether nothing was computed alike before."""
-        number = self._shapes.get(id(encoding.shape))
-        if number is None:
-            facts = _facts(encoding.shape)
-            number = self._shapes[id(encoding.shape)] = self._facts.setdefault(facts, len(self._facts))
-        computed = number, _limits(encoding.allowed.intervals), len(encoding.allowed.units)
+        """Return True for the first encoding that is computed in this way."""
+        shape = encoding.shape
+        if id(shape) not in self._shapes:
+            self._shapes[id(shape)] = self._facts.setdefault(_facts(shape), len(self._facts))
+        computed = self._shapes[id(shape)], _limits(encoding.allowed.intervals), len(encoding.allowed.units)
         new = computed not in self._computed
         self._computed.add(computed)
         return new
 
 
 def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """The words of a number in ascending order of address; those that share one address have the high one first."""
+    """Return the words of a number in ascending order of address; those that share one address have the high one first."""
     if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
         return _ONE
     count = shape.words if shape.text is None else len(addresses)
@@ -104,7 +91,7 @@ _ONE = (0,)
 
 
 def _facts(shape: Shape) -> Hashable:
-    """The facts that decide how a point is computed, but for its limits: type, scale, special codes."""
+    """Return the facts that decide how a point is computed, but for its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
     enum = _entries(shape.digits.enum if shape.digits is not None else shape.enum)
@@ -116,7 +103,7 @@ def _entries(enum: Enum | None) -> tuple[tuple[int, str], ...] | None:
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:
-    """The forms of the limits; a long list counts with its numbers."""
+    """Return the forms of the limits; of a long list, its numbers too."""
     if len(intervals) > MANY:
         return intervals
     return tuple([(_form(interval.low), _form(interval.high)) for interval in intervals])
@@ -145,7 +132,7 @@ _FACTORS_32 = (
 
 
 def edges(limits: Limits) -> dict[int, None]:
-    """Each limit and the number beyond it, so that every hole of a list is tried."""
+    """Return each limit and the number beyond it, so that every hole of a list is tried."""
     raws: dict[int, None] = {}
     for low, high in limits:
         for raw in (low, high, low - 1, high + 1):
@@ -154,12 +141,12 @@ def edges(limits: Limits) -> dict[int, None]:
 
 
 def limits_to_try(limits: Limits) -> Limits:
-    """The limits that are tried for each point of a shape: all of a few, the ends of a long list."""
+    """Return the limits that are tried for each point of a shape: all of a few, the ends of a long list."""
     return limits if len(limits) <= MANY else (limits[0], limits[-1])
 
 
 def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
+    """Return raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
     if not deep:
         return _held(shape, (limits[0][0], limits[-1][1]))
     raws = {raw: None for interval in limits for raw in interval}
@@ -171,7 +158,7 @@ def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
 
 
 def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Raw numbers to check: limits and one beyond each; if `deep`, also special codes and the ends of the type."""
+    """Return raw numbers to check: limits and one beyond each; if `deep`, also special codes and the ends of the type."""
     raws = edges(limits)
     if not deep:
         return _held(shape, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
@@ -181,7 +168,7 @@ def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
 
 
 def codes(shape: Shape) -> list[int]:
-    """The ends of the special codes and one beyond each, as far as the bits hold them."""
+    """Return the ends of the special codes and one beyond each, as far as the bits hold them."""
     return _held(
         shape,
         [raw for special in shape.specials for raw in (special.low, special.high, special.low - 1, special.high + 1)],
@@ -195,7 +182,7 @@ def _held(shape: Shape, numbers: Iterable[int]) -> list[int]:
 
 @lru_cache(maxsize=4096)
 def _half_step(ratio: Ratio) -> tuple[int, int] | None:
-    """(residue, modulus) of the raw numbers r for which the value of r + 1/2 is a binary fraction; None if none is."""
+    """Return (residue, modulus) of the raw numbers r for which the value of r + 1/2 is a binary fraction; None if none is."""
     # The value is ((2r + 1) * under - 2 * over) * den / (2 * num * under): the odd part of the denominator must vanish.
     odd = abs(ratio.num) * ratio.under
     odd //= odd & -odd
@@ -209,7 +196,7 @@ def _half_step(ratio: Ratio) -> tuple[int, int] | None:
 
 
 def halves(ratio: Ratio, limits: Limits) -> list[float]:
-    """Binary64 values exactly between two raw numbers: the lowest and the highest in the limits, and one below 0."""
+    """Return binary64 values exactly between two raw numbers: the lowest and the highest in the limits, and one below 0."""
     step = _half_step(ratio)
     if step is None:
         return []
@@ -231,14 +218,14 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
 
 @lru_cache(maxsize=4096)
 def raw_telling_division(ratio: Ratio) -> int | None:
-    """The lowest raw number that shows a multiplication by the reciprocal where a division is right."""
+    """Return the lowest raw number that shows a multiplication by the reciprocal where a division is right."""
     under = ratio.denominator
     numerators = ((raw, ratio.numerator(raw)) for raw in range(1, 200))
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
 def settings(oracle: Oracle, encoding: PointEncoding, *, deep: bool = True) -> list[dict[str, int]]:
-    """Settings of all arguments: a typical one, then with each argument in turn at all its interesting raw numbers.
+    """Return settings of all arguments: a typical one, then each argument in turn at all its interesting raw numbers.
 
     Without arguments there is one setting, which is empty. Unless `deep`, each argument has only one other number,
     which shows exchanged arguments, and each case is met once.
@@ -253,7 +240,7 @@ def settings(oracle: Oracle, encoding: PointEncoding, *, deep: bool = True) -> l
         others = dict(last).items()
         return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
     chosen = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, encoding, name))]
-    # Each case with all choices of its own factors, not only those of the first case.
+    # each case with all choices of its factors, not only those of the first case
     for case in encoding.shape.scale or ():
         if case.point is not None and case.raw is not None:
             for factor in case.rule.factors:
@@ -274,7 +261,7 @@ def _typical(oracle: Oracle, encoding: PointEncoding, name: str) -> int:
 
 
 def _choices(oracle: Oracle, encoding: PointEncoding, name: str) -> list[int]:
-    """Raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
+    """Return raw numbers to try for an argument: ends, cases, zeros of factors, codes that lift limits."""
     bands = [
         band
         for limit in limits_of(encoding.allowed)
@@ -306,13 +293,13 @@ def _choices(oracle: Oracle, encoding: PointEncoding, name: str) -> list[int]:
 
 
 def _factors(encoding: PointEncoding) -> list[Factor]:
-    """All factors of the scale and the limits."""
+    """Return all factors of the scale and the limits."""
     rules = [case.rule for case in encoding.shape.scale or ()] + [limit.rule for limit in limits_of(encoding.allowed)]
     return [factor for rule in rules for factor in rule.factors]
 
 
 def limits_of(allowed: Allowed) -> list[Limit]:
-    """The limits that depend on other points."""
+    """Return the limits that depend on other points."""
     return [
         bound for interval in allowed.intervals for bound in (interval.low, interval.high) if isinstance(bound, Limit)
     ]

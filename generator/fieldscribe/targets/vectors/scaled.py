@@ -1,8 +1,4 @@
-"""Raw numbers, values and counts of one shape under one ratio: each is worked out once, however many limits there are.
-
-So are the lines that tell them, as far as they follow from them.
-Nothing here knows limits: what may be written is asked anew for every sheet.
-"""
+"""Vectors of points with a scale: values in binary64, and counts of 10^-decimals units."""
 
 from __future__ import annotations
 
@@ -22,36 +18,30 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
     from fieldscribe.targets.vectors.samples import PointEncoding
 
-
 INT32 = 1 << 31
-
-EncodedLine = tuple[str, int | None, str]
-"""The line of a vector up to its status, the raw number (None if there is none), and the line if it may be written."""
 
 
 class Conversions:
-    """Between the raw numbers of a shape, their values, and their counts of 10^-decimals units."""
+    """Converts between raw numbers, values and counts of one shape under one ratio, each number once.
+
+    It knows no limits: many points with other limits share it.
+    """
 
     def __init__(self, shape: Shape, ratio: Ratio) -> None:
-        self.shape, self.ratio, self._decimals = shape, ratio, shape.decimals or 0
-        telling = samples.raw_telling_division(ratio)
-        self.telling = () if telling is None or not shape.least <= telling <= shape.greatest else (telling,)
-        """The raw number that tells a division from a product with the reciprocal."""
-        self.value, self.decoded, self.encoded = cache(self._value), cache(self._decoded), cache(self.encode_anew)
-        self.count, self.counted = cache(self._count), cache(self._counted)
-        self.encoded_count, self.outside = cache(self._encoded_count), cache(self._outside)
+        self.shape, self.ratio, decimals = shape, ratio, shape.decimals or 0
+        self.value = cache(lambda raw: quotient(ratio.numerator(raw), ratio.denominator))
+        self.count = cache(lambda raw: ratio.count_of_raw(raw, decimals))
+        self.raw_of_value = cache(ratio.raw_of_float)
+        self.raw_of_count = cache(lambda count: ratio.raw_of_count(count, decimals))
+        self.decode, self.decode_count = cache(self._decode), cache(self._decode_count)
 
-    def _value(self, raw: int) -> float:
-        """The binary64 nearest to the value of a raw number."""
-        return quotient(self.ratio.numerator(raw), self.ratio.denominator)
-
-    def _outside(self, raw: int, side: int) -> float:
-        """The value a quarter of a raw step below (side -1) or above it (side 1), which rounds to the number."""
+    def outside(self, raw: int, side: int) -> float:
+        """Return the value a quarter of a raw step below (side -1) or above it (side 1), which rounds to the number."""
         step = self.ratio.numerator(1) - self.ratio.numerator(0)
         return quotient(4 * self.ratio.numerator(raw) + side * step, 4 * self.ratio.denominator)
 
-    def _decoded(self, raw: int) -> str:
-        """The line that tells status and value; empty where languages may differ in the last place."""
+    def _decode(self, raw: int) -> str:
+        """Return the line with status and value; empty where languages may differ in the last place."""
         shape, ratio = self.shape, self.ratio
         if (code := code_of(shape, raw)) is not None:
             return f"decode\t{raw}\tspecial\t-\t{text(code.name)}"
@@ -61,37 +51,17 @@ class Conversions:
             return f"decode\t{raw}\tok\t{real(ratio.numerator(raw) / ratio.denominator)}"
         return ""
 
-    def encode_anew(self, value: float) -> EncodedLine:
-        """The lines of a finite value, without a raw number if a step overflows. To a cache, 0 and -0 are the same."""
-        told, raw = f"encode\t{real(value)}\t", self.ratio.raw_of_float(value)
-        return told, raw, f"{told}ok\t{raw}"
-
-    def _count(self, raw: int) -> int:
-        """The count of a raw number, whether or not it fits an integer."""
-        return self.ratio.count_of_raw(raw, self._decimals)
-
-    def _counted(self, raw: int) -> str:
-        """The line that tells status and count."""
+    def _decode_count(self, raw: int) -> str:
+        """Return the line with status and count."""
         if (code := code_of(self.shape, raw)) is not None:
             return f"decode_count\t{raw}\tspecial\t-\t{text(code.name)}"
         count = self.count(raw)
         fits = -INT64 <= count < INT64 and not self._is_too_large(raw)
         return f"decode_count\t{raw}\tok\t{count}" if fits else f"decode_count\t{raw}\toverflow"
 
-    def _encoded_count(self, count: int) -> EncodedLine:
-        """The lines of a count."""
-        told, raw = f"encode_count\t{count}\t", self.ratio.raw_of_count(count, self._decimals)
-        return told, raw, f"{told}ok\t{raw}"
-
     def _is_too_large(self, raw: int) -> bool:
-        """Whether a raw number is too large to compute with."""
+        """Return True if a raw number is too large to compute with."""
         return self.shape.most_raw is not None and abs(raw) > self.shape.most_raw
-
-    @property
-    def edge(self) -> int:
-        """The first count beyond the integers that hold all counts of the type."""
-        ends = (self.count(self.shape.least), self.count(self.shape.greatest))
-        return INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
 
 
 class Scaled:
@@ -102,7 +72,7 @@ class Scaled:
         self._conversions: dict[tuple[int, Ratio], Conversions] = {}
 
     def add(self, lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
-        """Add the vectors for each setting of the points that it depends on; fewer unless `deep`."""
+        """Add the vectors for each setting of the points that the encoding depends on; fewer unless `deep`."""
         full, oracle, shape = deep, self._oracle, encoding.shape
         for settings in samples.settings(oracle, encoding, deep=deep):
             if settings:
@@ -144,11 +114,10 @@ def _without_limits(lines: Lines, encoding: PointEncoding, ratio: Ratio, status:
     """Add the vectors for a setting under which values can be computed, but not the limits."""
     shape = encoding.shape
     if shape.writable:
-        # Inside the outer bounds of the limit, so that only the limit itself can refuse it.
+        # inside the outer bounds of the limit, so that only the limit itself can refuse it
         raw = quantity_at_most(shape, samples.limits_of(encoding.allowed)[0].greatest)
-        value = quotient(ratio.numerator(raw), ratio.denominator)
         if shape.encodes_values:
-            lines.add("encode", value, status)
+            lines.add("encode", quotient(ratio.numerator(raw), ratio.denominator), status)
         if shape.decimals is not None:
             lines.add("encode_count", ratio.count_of_raw(raw, shape.decimals), status)
         lines.add("check", raw, status)
@@ -156,9 +125,9 @@ def _without_limits(lines: Lines, encoding: PointEncoding, ratio: Ratio, status:
 
 @dataclass(frozen=True, slots=True)
 class _Vectors:
-    """A encoding under one setting with which it can be computed.
+    """The vectors of an encoding under one setting with which it can be computed.
 
-    `deep` for the first of all that are computed alike, and `full` for its first setting; all others get fewer vectors.
+    They are `deep` for the first encoding that is computed in this way, and `full` for its first setting.
     """
 
     lines: Lines
@@ -170,64 +139,62 @@ class _Vectors:
 
     def write(self) -> None:
         """Add the vectors of all kinds, decoding first."""
-        shape = self.encoding.shape
+        shape, by, limits, lines = self.encoding.shape, self.by, self.limits, self.lines
         if shape.readable:
-            self._decode(samples.raws_to_decode(shape, self.limits, deep=self.deep))
+            raws = samples.raws_to_decode(shape, limits, deep=self.deep)
+            dividing = samples.raw_telling_division(by.ratio)
+            more = () if dividing is None or not shape.least <= dividing <= shape.greatest else (dividing,)
+            lines.add_written("decode", [*filter(None, map(by.decode, dict.fromkeys((*raws, *more))))])
+            if shape.decimals is not None:
+                lines.add_written("decode_count", [*map(by.decode_count, raws)])
         if shape.writable:
-            edges = self._edges()
+            edges = samples.edges(limits if self.deep else samples.limits_to_try(limits))
+            if self.deep:
+                edges.update(dict.fromkeys(samples.codes(shape)))
             if shape.encodes_values:
                 self._encode(edges)
             if shape.decimals is not None:
                 self._encode_count(edges, shape.decimals)
             if self.full or not self.deep or self.encoding.allowed.arguments:
-                self._check()
+                raws = samples.raws_to_check(shape, limits, deep=self.deep)
+                lines.add_written("check", [f"check\t{raw}\t{admit(shape, raw, limits)}" for raw in raws])
 
-    def _decode(self, raws: list[int]) -> None:
-        by, told = self.by, dict.fromkeys((*raws, *self.by.telling))
-        self.lines.add_written("decode", [*filter(None, map(by.decoded, told))])
-        if self.encoding.shape.decimals is not None:
-            self.lines.add_written("decode_count", [*map(by.counted, raws)])
+    def _line(self, start: str, raw: int | None) -> str:
+        """Return the line of a value or a count: its status, and its raw number if it may be written."""
+        status = "out_of_range" if raw is None else admit(self.encoding.shape, raw, self.limits, by_value=True)
+        return f"{start}\tok\t{raw}" if status == "ok" else f"{start}\t{status}"
 
-    def _encoded(self, encodings: Iterable[EncodedLine]) -> list[str]:
-        """The lines of values or counts: each with its status, and its raw number if it may be written."""
-        shape, limits, lines = self.encoding.shape, self.limits, []
-        for told, raw, written in encodings:
-            status = "out_of_range" if raw is None else admit(shape, raw, limits, by_value=True)
-            lines.append(written if status == "ok" else told + status)
-        return lines
+    def _encoded(self, values: Iterable[float]) -> list[str]:
+        return [self._line(f"encode\t{real(value)}", self.by.raw_of_value(value)) for value in values]
 
-    def _edges(self) -> dict[int, None]:
-        """The raw numbers whose values and counts are encoded: limits, special codes, and their neighbours."""
-        if not self.deep:
-            return samples.edges(samples.limits_to_try(self.limits))
-        return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.encoding.shape))}
-
-    def _encode(self, edges: dict[int, None]) -> None:
+    def _encode(self, edges: Iterable[int]) -> None:
         by = self.by
         values = dict.fromkeys(map(by.value, edges))
         values[by.outside(self.limits[0][0], -1)] = None
         values[by.outside(self.limits[-1][1], 1)] = None
         for half in samples.halves(by.ratio, self.limits) if self.deep else ():
             values.update({half: None, nextafter(half, 0.0): None})
-        self.lines.add_written("encode", self._encoded(map(by.encoded, values)))
+        self.lines.add_written("encode", self._encoded(values))
         if self.full:
-            zero, large = self._encoded(map(by.encode_anew, (-0.0, 1e300)))
-            self.lines.add_written("encode", [zero])
+            self.lines.add_written("encode", self._encoded((-0.0,)))
             self.lines.add_all("encode", ((nan, "not_a_number"), (inf, "out_of_range"), (-inf, "out_of_range")))
-            self.lines.add_written("encode", [large])
+            self.lines.add_written("encode", self._encoded((1e300,)))
 
-    def _encode_count(self, edges: dict[int, None], decimals: int) -> None:
-        by, edge = self.by, self.by.edge
+    def _encode_count(self, edges: Iterable[int], decimals: int) -> None:
+        by, shape = self.by, self.encoding.shape
+        narrow = all(-INT32 <= by.count(raw) < INT32 for raw in (shape.least, shape.greatest))
+        edge = INT32 if narrow else INT64  # the first count beyond the integers that hold all counts of the type
         counts = dict.fromkeys(map(by.count, edges))
         if self.deep:
             counts.update(dict.fromkeys(self._halves(10**decimals)))
         if self.full:
             counts.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
         fitting = [count for count in counts if -edge <= count < edge]
-        self.lines.add_written("encode_count", self._encoded(map(by.encoded_count, fitting)))
+        lines = [self._line(f"encode_count\t{count}", by.raw_of_count(count)) for count in fitting]
+        self.lines.add_written("encode_count", lines)
 
     def _halves(self, power: int) -> Iterator[int]:
-        """The counts around the halves beside the outer limits; none where each count is a raw number."""
+        """Yield the counts around the halves at the outer limits; none where each count is a raw number."""
         ratio = self.by.ratio
         if ratio.denominator == power * abs(ratio.den) * ratio.under:
             return
@@ -236,8 +203,3 @@ class _Vectors:
             over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
             below, rest = divmod(over, 2 * ratio.denominator)
             yield from (below, below + 1) if rest else (below - 1, below + 1, below)
-
-    def _check(self) -> None:
-        shape, limits = self.encoding.shape, self.limits
-        raws = samples.raws_to_check(shape, limits, deep=self.deep)
-        self.lines.add_written("check", [f"check\t{raw}\t{admit(shape, raw, limits)}" for raw in raws])

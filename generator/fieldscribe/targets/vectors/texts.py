@@ -1,4 +1,4 @@
-"""Vectors of texts, and of words whose decimal digits each mean something."""
+"""Vectors of texts, of words whose decimal digits each have a meaning, and of values as people see them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range
 
 
 def text(lines: Lines, shape: Shape) -> None:
-    """Vectors of a text: full, shorter, empty, too long, ending in blanks, and with bytes that are no characters."""
+    """Add vectors of a text: full, shorter, empty, too long, ending in blanks, with bytes that are no characters."""
     if shape.text is None:
         return
     size = shape.text.characters
@@ -58,7 +58,7 @@ def _words(data: bytes) -> list[int]:
 
 
 def digits(lines: Lines, shape: Shape) -> None:
-    """Vectors of words of digits: each digit with all its numbers and some that it cannot have."""
+    """Add vectors of words of digits: each digit with all its numbers and some that it cannot have."""
     layout = shape.digits
     if layout is None:
         return
@@ -93,13 +93,13 @@ def digits(lines: Lines, shape: Shape) -> None:
 
 
 def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
-    """Digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
+    """Return digits to try: each place with all its numbers and two that it cannot have, all others at their least."""
     known = sorted(allowed)
-    strange = [next(digit for digit in range(256) if digit not in known), 10]
+    impossible = [next(digit for digit in range(256) if digit not in known), 10]
     base = (known[0],) * layout.count
     samples = [base, (known[-1],) * layout.count, tuple(known[place % len(known)] for place in range(layout.count))]
     samples += [
-        (*base[:place], digit, *base[place + 1 :]) for place in range(layout.count) for digit in (*known, *strange)
+        (*base[:place], digit, *base[place + 1 :]) for place in range(layout.count) for digit in (*known, *impossible)
     ]
     return list(dict.fromkeys(samples))
 
@@ -120,24 +120,24 @@ def displayed(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bo
         if settings:
             lines.set("with", settings)
         if shape.info.floating:
-            _told(lines, encoding, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
+            _add_texts(lines, encoding, ((raw, *_of_float(shape, raw)) for raw in _patterns(shape)))
             continue
         ratio = oracle.ratio(shape, settings) if shape.scale else Ratio(1, 1, 0, 1)
         raws = [0, 1] if isinstance(ratio, str) else _raws(encoding, ratio, deep=deep)
-        _told(lines, encoding, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
+        _add_texts(lines, encoding, ((raw, *_of_number(shape, ratio, raw)) for raw in raws))
 
 
-def _told(lines: Lines, encoding: PointEncoding, rows: Iterable[tuple[int, str, str]]) -> None:
-    """A line for each raw number, its status and its text; a special code is told by its name."""
+def _add_texts(lines: Lines, encoding: PointEncoding, rows: Iterable[tuple[int, str, str]]) -> None:
+    """Add a line for each raw number, its status and its text; a special code has its name."""
     unit = f" {encoding.symbol}" if encoding.symbol else ""
     for raw, status, text in rows:
         code = code_of(encoding.shape, raw)
-        told = f"{text}{unit}" if code is None else code.name
-        lines.add("told", raw, "ok" if code is not None else status, told if code is not None or text else None)
+        seen = f"{text}{unit}" if code is None else code.name
+        lines.add("told", raw, "ok" if code is not None else status, seen if code is not None or text else None)
 
 
 def _raws(encoding: PointEncoding, ratio: Ratio, *, deep: bool) -> list[int]:
-    """The limits of what may be written; in depth the ends of the type, small numbers, halves and special codes too."""
+    """Return limits; in depth the ends of the type, small numbers, halves and special codes too."""
     shape = encoding.shape
     found = [*outer_bounds(shape, encoding.allowed), 1]
     if deep:
@@ -147,7 +147,7 @@ def _raws(encoding: PointEncoding, ratio: Ratio, *, deep: bool) -> list[int]:
 
 
 def _halves(shape: Shape, ratio: Ratio) -> Iterator[int]:
-    """The raw numbers next to zero whose value lies in the middle of two texts, above and below zero."""
+    """Yield the raw numbers next to zero whose value lies in the middle of two texts, above and below zero."""
     power, under = 10 ** (shape.display or 0), ratio.denominator
     middle = [raw for raw in _NEAR if 2 * ratio.numerator(raw) * power % (2 * under) == under]
     yield from [raw for raw in middle if ratio.numerator(raw) > 0][:2]
@@ -155,7 +155,7 @@ def _halves(shape: Shape, ratio: Ratio) -> Iterator[int]:
 
 
 def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
-    """The status of a raw number, and its text if there is one."""
+    """Return the status of a raw number, and its text if there is one."""
     if isinstance(ratio, str):
         return ratio, ""
     count = half_away(ratio.numerator(raw) * 10 ** (shape.display or 0), ratio.denominator)
@@ -164,7 +164,7 @@ def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
 
 
 def _patterns(shape: Shape) -> Iterator[int]:
-    """Patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
+    """Yield patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
     half = 0.5 ** ((shape.display or 0) + 1)
     numbers = (0.0, -0.0, 1.0, 0.1, half, -half, 3 * half, half / 2, -half / 2, 1.5e9, -12345678.0, 3e38)
     for number in numbers:
@@ -184,7 +184,7 @@ def _of_float(shape: Shape, raw: int) -> tuple[str, str]:
 
 
 def _decimal(count: int, decimals: int) -> str:
-    """A count of 10^-decimals units, digit by digit; one that is zero has no sign."""
+    """Return a count of 10^-decimals units, digit by digit; one that is zero has no sign."""
     whole, part = divmod(abs(count), 10**decimals)
     point = f".{part:0{decimals}d}" if decimals else ""
     return f"{'-' if count < 0 else ''}{whole}{point}"

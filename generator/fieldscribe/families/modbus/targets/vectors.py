@@ -40,6 +40,7 @@ class ModbusWire:
     def __init__(self, device: Device, framing: str) -> None:
         self.profile, self.bus, self.framing = profile_of(device.bus), device.bus, framing
         self.unit = _good_unit(self.profile)
+        self._at_zero: dict[tuple[int, tuple[int, ...]], tuple[bytes, bytes] | None] = {}
 
     def opens(self, lines: Lines) -> None:
         """Set the unit and the framing."""
@@ -55,14 +56,34 @@ class ModbusWire:
         return None if function is None else self.script(function, writing_addresses(point), words)
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
-        """Return one request for consecutive addresses and its reply; None if the device does not allow it."""
-        if max(addresses) - min(addresses) + 1 != len(words):
+        """Return one request for consecutive addresses and its reply; None if the device does not allow it.
+
+        Frames are built once for address 0, and moved: many points have the same words.
+        """
+        first, last = min(addresses), max(addresses)
+        if last - first + 1 != len(words) or last > 0xFFFF:
             return None
+        if (function, words) not in self._at_zero:
+            self._at_zero[function, words] = self._exchange(function, words)
+        exchange = self._at_zero[function, words]
+        if exchange is None:
+            return None
+        sent, received = exchange
+        return [(self._moved(sent, first), received if function in READS else self._moved(received, first))]
+
+    def _exchange(self, function: int, words: tuple[int, ...]) -> tuple[bytes, bytes] | None:
         values = () if function in READS else words
         transaction = 1 if self.framing == "tcp" else 0  # every device object counts from 1
-        request = Request(self.unit, function, min(addresses), len(words), values, transaction)
+        request = Request(self.unit, function, 0, len(words), values, transaction)
         status, sent = build(self.profile, self.framing, request)
-        return [(sent, _reply_frame(self.framing, request, words))] if status == "ok" else None
+        return (sent, _reply_frame(self.framing, request, words)) if status == "ok" else None
+
+    def _moved(self, data: bytes, address: int) -> bytes:
+        """Return the same frame for another address, which stands behind the function."""
+        if self.framing == "tcp":
+            return data[:8] + address.to_bytes(2, "big") + data[10:]
+        body = data[:2] + address.to_bytes(2, "big") + data[4:-2]
+        return body + crc16(body).to_bytes(2, "little")
 
     def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
         """Yield the exchange with a refusal, a wrong checksum or protocol, another unit, and another function."""

@@ -35,7 +35,7 @@ def _kind(row: str) -> Kind:
 
 
 def table(rows: Mapping[str, str]) -> dict[str, Kind]:
-    """Kinds by name, from the fields of their lines."""
+    """Return kinds by name, from the fields of their lines."""
     return {name: _kind(row) for name, row in rows.items()}
 
 
@@ -78,7 +78,7 @@ KINDS = table(
         "text_encode": "text:bytes? status:word words:ints?",
         "digits": "raw:int status:word digits:ints? special:word?",
         "digits_encode": "digits:ints status:word raw:int?",
-        # facts of a point beside its conversions
+        # facts of a point apart from its conversions
         "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
         "references:pairs?",
         "place": "addresses:ints index:int? telegram:word?",
