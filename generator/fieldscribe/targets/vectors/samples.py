@@ -196,7 +196,7 @@ def _half_step(ratio: Ratio) -> tuple[int, int] | None:
 
 
 def halves(ratio: Ratio, limits: Limits) -> list[float]:
-    """Return binary64 values exactly between two raw numbers: the lowest and the highest in the limits, and one below 0."""
+    """Return binary64 values exactly between two raw numbers: the lowest and highest in the limits, and one below 0."""
     step = _half_step(ratio)
     if step is None:
         return []
