@@ -95,7 +95,9 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         code = None if point.code is None else line(point.code)
         decimals = shape.decimals if shape.form == "scaled" else None
         references = {key: line(str(number)) for key, number in place.references.items()}
-        lines.add("address", terms.space, min(place.addresses), shape.words, code, low, high, decimals, references)
+        lines.add(
+            "address", terms.space, min(place.addresses), shape.words, code, low, high, decimals, references or None
+        )
         if elsewhere is not None:
             lines.add("write_address", min(elsewhere))
         if point.index is not None or terms.telegram is not None or shape.text is not None:
@@ -112,7 +114,7 @@ def identity(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]
         terms.unit.symbol or None,
         None if point.default is None else float(point.default),
         None if terms.changes == "always" else terms.changes,
-        terms.changes_with,
+        terms.changes_with or None,
         None if point.variant is None else str(point.variant),
         None if terms.when is None else _only_for(terms.when, variants),
         *(() if elsewhere is None else (terms.space, elsewhere)),

@@ -78,21 +78,24 @@ class Row:
 
     def __init__(self, name: str, kind: Kind) -> None:
         self.name, self.kind = name, kind
-        self._forms = [_FORMS[form] for _, form in kind.fields]
+        self._forms = tuple(_FORMS[form] for _, form in kind.fields)
         self._needed = [(place, key) for place, (key, _) in enumerate(kind.fields) if key not in kind.optional]
 
     def line(self, values: Sequence[object]) -> str:
         """Return the line of one vector; fields without a value are absent, and left out at the end."""
-        words = []
-        for (types, write), value in zip(self._forms, values, strict=False):
-            if value is None:
-                words.append(ABSENT)
-            elif type(value) in types:
-                words.append(write(value) or ABSENT)
-            else:
-                raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
         if len(values) > len(self._forms):
             raise ValueError(f"{self.name} has no more than {len(self._forms)} fields")
+        end = len(values)
+        while end and values[end - 1] is None:
+            end -= 1
+        words = []
+        for (types, write), value in zip(self._forms, values[:end], strict=False):
+            if type(value) in types:
+                words.append(write(value) or ABSENT)
+            elif value is None:
+                words.append(ABSENT)
+            else:
+                raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
         while words and words[-1] == ABSENT:
             words.pop()
         for place, key in self._needed:

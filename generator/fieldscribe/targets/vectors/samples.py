@@ -78,7 +78,7 @@ class PointEncodings:
 
 
 def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the words of a number in ascending order of address; those that share one address have the high one first."""
+    """Return the words of a number in ascending order of address; those that share an address have the high one first."""
     if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
         return _ONE
     count = shape.words if shape.text is None else len(addresses)
@@ -146,7 +146,7 @@ def limits_to_try(limits: Limits) -> Limits:
 
 
 def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Return raw numbers to decode: limits; if `deep`, also special codes and the ends of the type and around the sign."""
+    """Return raw numbers to decode: limits; if `deep`, also special codes, the ends of the type and around the sign."""
     if not deep:
         return _held(shape, (limits[0][0], limits[-1][1]))
     raws = {raw: None for interval in limits for raw in interval}
@@ -158,7 +158,7 @@ def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
 
 
 def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
-    """Return raw numbers to check: limits and one beyond each; if `deep`, also special codes and the ends of the type."""
+    """Return raw numbers to check: limits and one beyond; if `deep`, also special codes and the ends of the type."""
     raws = edges(limits)
     if not deep:
         return _held(shape, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
@@ -182,7 +182,7 @@ def _held(shape: Shape, numbers: Iterable[int]) -> list[int]:
 
 @lru_cache(maxsize=4096)
 def _half_step(ratio: Ratio) -> tuple[int, int] | None:
-    """Return (residue, modulus) of the raw numbers r for which the value of r + 1/2 is a binary fraction; None if none is."""
+    """Return (residue, modulus) of the raw numbers r whose r + 1/2 has a binary fraction as value; None if none has."""
     # The value is ((2r + 1) * under - 2 * over) * den / (2 * num * under): the odd part of the denominator must vanish.
     odd = abs(ratio.num) * ratio.under
     odd //= odd & -odd
