@@ -71,7 +71,7 @@ def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
 
 
 def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, None]:
-    """Return these raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
+    """Return raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
     shape = encoding.shape
     raws_to_try = dict.fromkeys(raws)
     if shape.fixed is not None:
@@ -187,7 +187,7 @@ def _wide_patterns(count: int) -> tuple[int, ...]:
 def words_of(encoding: PointEncoding, order: tuple[int, ...], raw: int, *, received: bool = False) -> tuple[int, ...]:
     """Return the words of a raw number as they travel, in ascending order of address: `order` says which is which.
 
-    A bit group shares its word with other bits. Constant bits are as written when they are sent, and different when received.
+    A bit group shares its word with other bits. Constant bits are as written when sent, and different when received.
     """
     if encoding.bits is not None:
         return (_shared_word(encoding, encoding.bits[1], raw, received=received),)

@@ -78,7 +78,7 @@ class PointEncodings:
 
 
 def ascending(shape: Shape, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the words of a number in ascending order of address; those that share an address have the high one first."""
+    """Return the words of a number in ascending order of address; of those at one address, the high one first."""
     if len(addresses) == 1 and (shape.text is not None or shape.words == 1):
         return _ONE
     count = shape.words if shape.text is None else len(addresses)
