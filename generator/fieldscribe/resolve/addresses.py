@@ -14,7 +14,7 @@ from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import NOWHERE, TYPES, Place
 from fieldscribe.resolve.point_facts import ALONE
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
-from fieldscribe.resolve.values import formula_finding, formula_value, integer
+from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ WIRE = "wire"
 """The name of the address on the wire in formulas of `numbering`."""
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
-_MOST_WORDS = 125
 _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
 _VERBS = {"w": "written", "r": "read"}
 _LAST_INDEX = 255
@@ -117,15 +116,18 @@ class Places:
 
     def _place(self, facts: PointFacts, encoding: Encoding, key: str) -> Place:
         """Return the place that `key` gives: the word with the highest bits or the first characters comes first."""
-        last = self._last(facts, encoding.space)
-        text = encoding.type == "text"
-        words = self._text_words(facts, last, key) if text else self._words(facts, encoding, key)
-        if words is None or last is None:
+        last, raw = self._last(facts, encoding.space), self._written_address(facts, key)
+        if last is None or raw is None:
             return NOWHERE
-        for address in (words[0], words[-1]):
-            if not 0 <= address <= last:
-                self._report_outside(facts, key, address, last, single=address == words[0])
-                return NOWHERE
+        text = encoding.type == "text"
+        try:
+            words = self._text_words(facts, raw, last, key) if text else self._words(facts, encoding, raw, key)
+            for address in (words[0], words[-1]):
+                if not 0 <= address <= last:
+                    raise _outside(facts, key, address, last, single=address == words[0])
+        except FactError as error:
+            error.report(self.report)
+            return NOWHERE
         if not text:
             self._check_parted(facts, words)
         printed = words[0] if text else min(words)  # of a text the word with the first characters, else the lowest
@@ -146,9 +148,18 @@ class Places:
         telegram = telegram_of(self.scope, self.telegrams, facts)
         return None if telegram is None else telegram[0].words - 1
 
-    def _words(self, facts: PointFacts, encoding: Encoding, key: str) -> tuple[int, ...] | None:
-        first = self._address(facts, key)
-        return None if first is None else tuple(range(first, first + self._count(facts, encoding)))
+    def _words(self, facts: PointFacts, encoding: Encoding, raw: object, key: str) -> tuple[int, ...]:
+        """Return the words of a number in ascending order. Raises FactError."""
+        first = self._address(facts, raw, key)
+        return tuple(range(first, first + self._count(facts, encoding)))
+
+    def _check_parted(self, facts: PointFacts, words: tuple[int, ...]) -> None:
+        """Report a number of more than two words that comes in several frames: old and new words could mix."""
+        carried = self._words_per_frame(facts)
+        if carried and len(words) > _MOST_PARTED_WORDS and words[0] // carried != words[-1] // carried:
+            message = f"the {len(words)} words of `{facts.name}` come in several frames"
+            hint = "a number that is parted has two words at most: describe the parts as points of their own"
+            self.report.error("parted-number", message, facts.span("at"), hint)
 
     def _count(self, facts: PointFacts, encoding: Encoding) -> int:
         """Return how many addresses a number takes."""
@@ -161,34 +172,29 @@ class Places:
         order = self._order.get(type_name) if isinstance(self._order, Map) else self._order
         return bool((facts.get("words") or order) == "low first")
 
-    def _text_words(self, facts: PointFacts, last: int | None, key: str) -> tuple[int, ...] | None:
-        """Return the words of a text in reading order; `at` has both ends, which may run down, or the first word."""
-        raw = self._written_address(facts, key)
+    def _text_words(self, facts: PointFacts, raw: object, last: int, key: str) -> tuple[int, ...]:
+        """Return the words of a text in reading order: from its first word, or from one end to the other.
+
+        Raises FactError.
+        """
         characters: int | None = facts.get("characters")
-        if raw is None or characters is None or "characters" in facts.failed:
-            return None
+        if characters is None or "characters" in facts.failed:
+            raise FactError
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
-        first = self._text_end(facts, first_text, key) if dots else self._address(facts, key)
-        final = self._text_end(facts, last_text, key) if dots else None
-        if first is None or (dots and final is None):
-            return None
-        if final is None:
-            return tuple(range(first, first + characters // 2))
-        step = 1 if first <= final else -1
-        if abs(final - first) >= (_MOST_WORDS if last is None else last + 1):
-            self._report_outside(facts, key, max(first, final), last or _MOST_WORDS, single=True)
-            return None
-        words = tuple(range(first, final + step, step))
+        if dots:
+            first, final = (self._address(facts, end.strip(), key) for end in (first_text, last_text))
+            step = 1 if first <= final else -1
+            if abs(final - first) > last:
+                raise _outside(facts, key, max(first, final), last, single=True)
+            words = tuple(range(first, final + step, step))
+        else:
+            first = self._address(facts, raw, key)
+            words = tuple(range(first, first + characters // 2))
         if 2 * len(words) != characters:
             message = f"{len(words)} words hold {2 * len(words)} characters, not {characters}"
             hint = f"two characters stand in a word: correct `{key}` or `characters`"
-            self.report.error("text-length", message, facts.span(key), hint)
-            return None
+            raise FactError("text-length", message, facts.span(key), hint)
         return words
-
-    def _text_end(self, facts: PointFacts, text: str, key: str) -> int | None:
-        number = self._number(facts, text.strip(), key)
-        return None if number is None else self._address_of(facts, number)
 
     def _written_address(self, facts: PointFacts, key: str) -> object:
         """Return the YAML value of `key`; None if the manual prints no address, or after a finding."""
@@ -199,103 +205,60 @@ class Places:
             return None
         return None if facts.use is not None and facts.use.get("at", 0) is None else layer[key]
 
-    def _address(self, facts: PointFacts, key: str) -> int | None:
-        """Return the point's first address on the wire; None if the manual prints none, or after a finding."""
-        raw = self._written_address(facts, key)
-        if raw is None:
-            return None
-        number = raw if isinstance(raw, int) else self._number(facts, str(raw), key)
-        return None if number is None else self._address_of(facts, number)
+    def _address(self, facts: PointFacts, raw: object, key: str) -> int:
+        """Return the address on the wire that a YAML value means. Raises FactError."""
+        return self._address_of(facts, raw if isinstance(raw, int) else self._number(facts, str(raw), key))
 
-    def _number(self, facts: PointFacts, text: str, key: str) -> int | None:
-        """Return the number that a text under `key` gives, which may be a formula with `base`; None after a finding."""
+    def _number(self, facts: PointFacts, text: str, key: str) -> int:
+        """Return the number that a text under `key` gives, which may be a formula with `base`. Raises FactError."""
         span = facts.span(key)
         several = _first_of_several(text)
         if several is not None:
             hint = f"it stands once, at its first word: write `{key}: {several}`; the `type` says how many words it has"
-            self.report.error("bad-number", f"`{text[:60]}` are several addresses", span, hint)
-            return None
+            raise FactError("bad-number", f"`{text[:60]}` are several addresses", span, hint)
         if _FORMULA.search(text) is None:
-            return integer(text, span, self.report)
-        base = self._base(facts)
-        if base is None:
-            return None
+            return whole(text, span)
+        base = _base(facts)
         unknown = "" if base else "`base` is where a record is used: it is known in the points of a record only"
-        exact = formula_value(text, base, span, self.report, unknown)
-        if exact is not None and exact.denominator != 1:
+        exact = formula_value(text, base, span, unknown)
+        if exact.denominator != 1:
             message = f"the address {number_text(exact)} is not a whole number"
-            self.report.error("bad-number", message, span, "`at` is the number on the wire")
-            return None
-        return None if exact is None else exact.numerator
+            raise FactError("bad-number", message, span, "`at` is the number on the wire")
+        return exact.numerator
 
-    def _address_of(self, facts: PointFacts, number: int) -> int | None:
-        """Return the address that the group's `addressing` makes of a number; without a rule, the number itself."""
+    def _address_of(self, facts: PointFacts, number: int) -> int:
+        """Return the address that the group's `addressing` makes of a number, or the number. Raises FactError."""
         group, element = facts.group, facts.element
         rule: str | None = group.get("addressing")
         if rule is not None:
             return self._by_rule(facts, rule, (element or ALONE).values(number))
-        if element is None or "addressing" in group.broken:
-            return None if "addressing" in group.broken else number
+        if "addressing" in group.broken:
+            raise FactError
         indexed = facts.get("space") in self.scope.family.indexed
-        if indexed and element.index is not None and element.index > _LAST_INDEX:
+        if element is not None and indexed and element.index is not None and element.index > _LAST_INDEX:
             message = f"the index {element.index} does not fit beside the address"
             span = facts.span("indices" if "indices" in element.counted else "index")
-            self.report.error("address-outside-space", message, span, f"indices are 0..{_LAST_INDEX}")
-            return None
-        if element.set_number is not None or (element.index is not None and not indexed):
-            message = "nothing says how the address follows from the number, the set and the index"
-            hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
-            rows = "; sets that follow no rule have rows: `sets: {2: {at: …}}`" if "sets" in element.counted else ""
-            self.report.error("missing-key", message, facts.span("at"), hint + rows)
-            return None
-        return number
+            raise FactError("address-outside-space", message, span, f"indices are 0..{_LAST_INDEX}")
+        if element is None or (element.set_number is None and (element.index is None or indexed)):
+            return number
+        message = "nothing says how the address follows from the number, the set and the index"
+        hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
+        rows = "; sets that follow no rule have rows: `sets: {2: {at: …}}`" if "sets" in element.counted else ""
+        raise FactError("missing-key", message, facts.span("at"), hint + rows)
 
-    def _by_rule(self, facts: PointFacts, rule: str, values: Mapping[str, Fraction]) -> int | None:
-        """Return the result of the group's `addressing`; a wrong rule is reported once, not once for each element."""
+    def _by_rule(self, facts: PointFacts, rule: str, values: Mapping[str, Fraction]) -> int:
+        """Return the result of the group's `addressing`. Raises FactError; a wrong rule is reported only once."""
         span = facts.group.span("addressing")
         if id(facts.group) in self._wrong_rules:
-            return None
-        exact = formula_value(rule, values, span, self.report, _RULE_KNOWS)
-        if exact is not None and exact.denominator == 1:
-            return exact.numerator
+            raise FactError
         self._wrong_rules.add(id(facts.group))
-        if exact is not None:
+        exact = formula_value(rule, values, span, _RULE_KNOWS)
+        if exact.denominator != 1:
             message = f"the address of `{facts.name}` would be {number_text(exact)}, which is no whole number"
-            self.report.error("bad-number", message, span, "correct the rule, or the number, set or index of the row")
-        return None
-
-    def _base(self, facts: PointFacts) -> Mapping[str, Fraction] | None:
-        """Return the names that a formula under `at` may use: `base` in a record, else none. None after a finding."""
-        use = facts.use
-        if use is None:
-            return {}
-        if "at" not in use:
-            if "at" not in use.broken:
-                self.report.error("missing-key", "the record stands at no address", use.span("name"), _NO_ADDRESS)
-            return None
-        base = integer(use["at"], use.span("at"), self.report)
-        return None if base is None else {"base": Fraction(base)}
-
-    def _check_parted(self, facts: PointFacts, words: tuple[int, ...]) -> None:
-        """Report a number of more than two words that comes in several frames: old and new words could mix."""
-        carried = self._words_per_frame(facts)
-        if carried and len(words) > _MOST_PARTED_WORDS and words[0] // carried != words[-1] // carried:
-            message = f"the {len(words)} words of `{facts.name}` come in several frames"
-            hint = "a number that is parted has two words at most: describe the parts as points of their own"
-            self.report.error("parted-number", message, facts.span("at"), hint)
-
-    def _report_outside(self, facts: PointFacts, key: str, address: int, last: int, *, single: bool) -> None:
-        """Report an address that the space does not have, or a word that the telegram does not have."""
-        if facts.get("space") == SPACE:
-            message = f"word {address} lies outside the telegram, whose words are 0..{last}"
-            hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
-        elif single:
-            message = f"the address {address} lies outside 0..{last}"
-            hint = f"`{key}` is the number on the wire; the numbers for people (40001) go under `printed`"
-        else:
-            message = f"the last word of `{facts.name}` lies outside 0..{last}"
-            hint = "check the address and the type"
-        self.report.error("address-outside-space", message, facts.span(key), hint)
+            hint = "correct the rule, or the number, set or index of the row"
+            raise FactError("bad-number", message, span, hint)
+        self._wrong_rules.remove(id(facts.group))
+        return exact.numerator
 
     def _numbers(self, facts: PointFacts, address: int) -> Mapping[str, int]:
         """Return the number of an address in each readable numbering of the point's group."""
@@ -347,3 +310,29 @@ def _first_of_several(text: str) -> str | None:
     """Return the first address of a text that gives several (`1..2`, `1 - 2`); None for a number or a formula."""
     first, _, last = ("" if ":" in text else interval_meant(text) or "").partition("..")
     return first if first and parse_number(first) < parse_number(last) else None
+
+
+def _base(facts: PointFacts) -> Mapping[str, Fraction]:
+    """Return the names that a formula under `at` may use: `base` in a record, else none. Raises FactError."""
+    use = facts.use
+    if use is None:
+        return {}
+    if "at" in use:
+        return {"base": Fraction(whole(use["at"], use.span("at")))}
+    if "at" in use.broken:
+        raise FactError
+    raise FactError("missing-key", "the record stands at no address", use.span("name"), _NO_ADDRESS)
+
+
+def _outside(facts: PointFacts, key: str, address: int, last: int, *, single: bool) -> FactError:
+    """Return the error for an address that the space does not have, or a word that the telegram does not have."""
+    if facts.get("space") == SPACE:
+        message = f"word {address} lies outside the telegram, whose words are 0..{last}"
+        hint = "`at` counts the words of the whole telegram from 0; correct it, or `length` of the telegram"
+    elif single:
+        message = f"the address {address} lies outside 0..{last}"
+        hint = f"`{key}` is the number on the wire; the numbers for people (40001) go under `printed`"
+    else:
+        message = f"the last word of `{facts.name}` lies outside 0..{last}"
+        hint = "check the address and the type"
+    return FactError("address-outside-space", message, facts.span(key), hint)

@@ -17,6 +17,15 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
 
 
+class FactError(Exception):
+    """A fact cannot be used. The arguments are those of `Report.error`; none if the finding is reported already."""
+
+    def report(self, report: Report) -> None:
+        """Report the finding, if it is not reported already."""
+        if self.args:
+            report.error(*self.args)
+
+
 class Written(NamedTuple):
     """A formula with its place in a file."""
 
@@ -42,13 +51,21 @@ def number(value: Any, span: Span, report: Report) -> Fraction | None:
 
 def integer(value: Any, span: Span, report: Report) -> int | None:
     """Return the whole number of a YAML scalar; None after a finding."""
+    try:
+        return whole(value, span)
+    except FactError as error:
+        error.report(report)
+        return None
+
+
+def whole(value: Any, span: Span) -> int:
+    """Return the whole number of a YAML scalar. Raises FactError."""
     if isinstance(value, int):
         return value
     try:
         return parse_integer(str(value))
     except NumberError as error:
-        report.error("bad-number", error.message, span, error.hint)
-        return None
+        raise FactError("bad-number", error.message, span, error.hint) from error
 
 
 def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
@@ -83,20 +100,25 @@ def bit_range(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     return high, low
 
 
-def formula_value(
-    text: str, names: Mapping[str, Fraction], span: Span, report: Report, unknown: str = ""
-) -> Fraction | None:
-    """Return the result of a formula of known numbers (`base + 6`); `unknown` is the hint if it names another."""
+def formula_value(text: str, names: Mapping[str, Fraction], span: Span, unknown: str = "") -> Fraction:
+    """Return the result of a formula of known numbers (`base + 6`). Raises FactError.
+
+    `unknown` is the hint if the formula names another number.
+    """
     try:
         return evaluate(parse_expression(text), names)
     except FormulaError as error:
         if unknown and "is not known" in error.message:
             error.hint = unknown
-        formula_finding(error, span, report)
-        return None
+        raise formula_fault(error, span) from error
 
 
 def formula_finding(error: FormulaError, span: Span, report: Report) -> None:
     """Report a finding at the column of the formula that is wrong."""
+    formula_fault(error, span).report(report)
+
+
+def formula_fault(error: FormulaError, span: Span) -> FactError:
+    """Return the finding at the column of the formula that is wrong."""
     hint = error.hint or "formulas are made of numbers, points, + - * /, 10 ** n and parentheses"
-    report.error("bad-formula", error.message, span.moved(error.column), hint)
+    return FactError("bad-formula", error.message, span.moved(error.column), hint)
