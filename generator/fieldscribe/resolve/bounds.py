@@ -12,8 +12,7 @@ from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear
-from fieldscribe.resolve.scales import Scales, UnknownError
-from fieldscribe.resolve.values import Written
+from fieldscribe.resolve.values import FactError, Written
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from fieldscribe.language.formula import Affine, Part
     from fieldscribe.resolve.encodings import Encoding
     from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.scales import Scales
 
 _DEEPEST = 30
 
@@ -131,7 +131,7 @@ class Bounds:
     def with_exponents(self, rule: Linear, span: Span) -> Linear:
         """Return the rule with the raw numbers that each exponent of ten may be.
 
-        Raises UnknownError after a finding for an exponent that can exceed MOST_EXPONENT.
+        Raises FactError for an exponent that can exceed MOST_EXPONENT.
         """
         return replace(rule, factors=tuple([self._with_exponents(factor, span) for factor in rule.factors]))
 
@@ -143,8 +143,7 @@ class Bounds:
             name = self.scales.symbols.by_item(factor.point).name
             message = f"`{name}` is an exponent and can be {low}..{high}"
             hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
-            self.scales.scope.report.error("exponent-range", message, span, hint)
-            raise UnknownError
+            raise FactError("exponent-range", message, span, hint)
         return replace(factor, exponents=self._without_codes(factor.point))
 
     def _without_codes(self, item: str) -> tuple[int, int]:
@@ -158,9 +157,9 @@ class Bounds:
         return low, high
 
     def encoded(self, facts: PointFacts, limit: Linear, span: Span) -> Linear:
-        """Return a limit in units as a limit in raw numbers. Raises UnknownError after a finding."""
+        """Return a limit in units as a limit in raw numbers. Raises FactError."""
         if "scale" in facts.failed:
-            raise UnknownError
+            raise FactError
         cases = self.scales.cases(facts)
         if cases is None:
             return limit
@@ -168,13 +167,11 @@ class Bounds:
         if self.scales.floats(scale):
             message = "limits in units cannot be computed from a floating-point number"
             hint = "give the limits as raw numbers under `range`"
-            self.scales.scope.report.error("bad-formula", message, span, hint)
-            raise UnknownError
+            raise FactError("bad-formula", message, span, hint)
         if len(cases) > 1 or (limit.factors and limit.offset):
             message = "limits in units need one rule, and no sum of points and numbers"
             hint = "give the limits as raw numbers under `range`"
-            self.scales.scope.report.error("bad-formula", message, span, hint)
-            raise UnknownError
+            raise FactError("bad-formula", message, span, hint)
         if not limit.factors:
             return Linear((limit.ratio + limit.offset) * scale.ratio, scale.offset, scale.factors)
         return Linear(limit.ratio * scale.ratio, scale.offset, (*limit.factors, *scale.factors))
@@ -186,7 +183,7 @@ class Bounds:
         if not in_units:
             return constant_range(text)
         if "scale" in facts.failed:
-            raise UnknownError
+            raise FactError
         cases = self.scales.cases(facts)
         if cases is None:
             return encoded_range(text, (1, 1), (0, 1))
@@ -197,18 +194,17 @@ class Bounds:
         return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
 
     def limit(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
-        """Return one end of a range as a rule that gives it for the value 1. Raises FormulaError or UnknownError."""
+        """Return one end of a range as a rule that gives it for the value 1. Raises FormulaError or FactError."""
         rule = limit_rule(end, lambda name, part: self._of_another(facts, name, part, Written(text, span)))
         return self.encoded(facts, rule, span) if in_units else rule
 
     def _of_another(self, facts: PointFacts, name: str, part: Part, formula: Written) -> Affine:
-        """Return a point's number in a limit of another point. Raises UnknownError after a finding."""
+        """Return a point's number in a limit of another point. Raises FactError."""
         used = self.scales.symbols.find(name, facts.variant)
         if used is not None and used.name == facts.name:
             message = f"`{name}` cannot limit itself"
             hint = "name another point, or write the fixed end that the manual prints"
-            self.scales.scope.report.error("bad-formula", message, formula.of(name), hint)
-            raise UnknownError
+            raise FactError("bad-formula", message, formula.of(name), hint)
         return self.scales.affine(facts, name, part, formula)
 
     def falls(self, facts: PointFacts) -> bool:
@@ -234,6 +230,6 @@ class Bounds:
                     self.limit(facts, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
                 ]
                 candidates = [corner for rule in rules for corner in self.corners(rule)]
-        except (FormulaError, UnknownError):
+        except (FormulaError, FactError):
             return self.encodings[facts].holds[end]
         return max(least, min(greatest, half_away(pick(candidates))))

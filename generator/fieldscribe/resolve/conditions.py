@@ -11,12 +11,12 @@ from fieldscribe.conditions import Condition
 from fieldscribe.language.formula import Comparison, FormulaError, clauses_of, parse_condition, wrong_number
 from fieldscribe.language.suggestions import condition_meant
 from fieldscribe.resolve.enums import enum_of
-from fieldscribe.resolve.scales import Scales, UnknownError
-from fieldscribe.resolve.values import Written, formula_finding
+from fieldscribe.resolve.values import FactError, Written, formula_finding
 
 if TYPE_CHECKING:
     from fieldscribe.language.formula import Affine, Constant
     from fieldscribe.resolve.point_facts import PointFacts
+    from fieldscribe.resolve.scales import Scales
     from fieldscribe.resolve.scope import Scope
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
@@ -56,15 +56,15 @@ def _resolved(
         return _comparison(scope, facts, scales, comparison, written)
     except FormulaError as error:
         formula_finding(error, written.span, scope.report)
-    except UnknownError:
-        pass
+    except FactError as error:
+        error.report(scope.report)
     return None
 
 
 def _comparison(
     scope: Scope, facts: PointFacts, scales: Scales, comparison: Comparison, written: Written
 ) -> conditions.Comparison:
-    """Return a comparison of whole raw numbers or of a variant. Raises UnknownError (reported) or FormulaError."""
+    """Return a comparison of whole raw numbers or of a variant. Raises FactError or FormulaError."""
     name = comparison.name.name
     if name in scope.axes:
         values = [_value(scope, name, constant, written) for constant in comparison.constants]
@@ -72,7 +72,7 @@ def _comparison(
     used = scales.symbols.find(name, facts.variant)
     if used is None:
         scales.symbols.unknown(name, written.of(name), scope.axes)
-        raise UnknownError
+        raise FactError
     if used.floating:
         message = f"`{name}` is a floating-point number"
         raise FormulaError(message, comparison.name.column, "a condition compares whole numbers and names")
@@ -92,7 +92,7 @@ def _value(scope: Scope, axis: str, constant: Constant, written: Written) -> str
     if constant.text not in values:
         place = written.span.moved(constant.column)
         scope.unknown("variant", constant.text, place, [*values])
-        raise UnknownError
+        raise FactError
     return constant.text
 
 
@@ -109,7 +109,7 @@ def _raw(scope: Scope, used: PointFacts, rule: Affine, constant: Constant, writt
     place = written.span.moved(constant.column)
     hint = None if entries else f"`{used.name}` has no names: compare it with numbers"
     scope.unknown("entry", constant.value, place, entries, hint)
-    raise UnknownError
+    raise FactError
 
 
 def _with_whole_numbers(point: str, test: str, raws: list[Fraction], comparison: Comparison) -> conditions.Comparison:

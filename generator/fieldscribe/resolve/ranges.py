@@ -13,8 +13,7 @@ from fieldscribe.language.nodes import Seq
 from fieldscribe.language.suggestions import interval_meant
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
-from fieldscribe.resolve.scales import UnknownError
-from fieldscribe.resolve.values import formula_finding
+from fieldscribe.resolve.values import FactError, formula_finding
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -92,7 +91,8 @@ class Ranges:
                 )
             formula_finding(error, span, self.report)
             return None
-        except UnknownError:
+        except FactError as error:
+            error.report(self.report)
             return None
         checked = [printed or self._checked(facts, low, high, span) for low, high in pairs]
         if not all(checked):
@@ -120,13 +120,12 @@ class Ranges:
         return [(self._whole(low, span), self._whole(high, span)) for low, high in pairs]
 
     def _whole(self, exact: int | Fraction, span: Span) -> int:
-        """Return a limit as a whole raw number. Raises UnknownError after a finding."""
+        """Return a limit as a whole raw number. Raises FactError."""
         if exact.denominator == 1:
             return exact.numerator
         hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
         message = f"the limit {number_text(Fraction(exact))} is not a whole raw number"
-        self.report.error("bad-number", message, span, hint)
-        raise UnknownError
+        raise FactError("bad-number", message, span, hint)
 
     def _bound(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
         """Return one end of a range: a raw number, or a limit that other points set."""
@@ -164,8 +163,7 @@ class Ranges:
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
             message = f"the limit can only be {min(corners)}..{max(corners)}, outside the type"
-            self.report.error("range-outside-type", message, span, "check the factor in the formula")
-            raise UnknownError
+            raise FactError("range-outside-type", message, span, "check the factor in the formula")
         names = dict.fromkeys(factor.point for factor in rule.factors)
         unless = ((name, self._codes(name)) for name in names)
         return Limit(rule, tuple((name, codes) for name, codes in unless if codes), least, greatest)

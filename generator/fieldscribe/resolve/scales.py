@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import Affine, FormulaError, Part, cut_off, parse_case, parse_scale, scale_rule
 from fieldscribe.language.suggestions import scale_meant
 from fieldscribe.model import Linear, ScaleCase
-from fieldscribe.resolve.values import Written, formula_finding
+from fieldscribe.resolve.values import FactError, Written, formula_finding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,10 +27,6 @@ _LONGEST_CHAIN = 100
 """The most points that the search for a circle visits. Longer circles are refused for another reason."""
 
 
-class UnknownError(Exception):
-    """A formula cannot be used; the finding is already reported."""
-
-
 class Scales:
     """Resolves the scale of every point when it is first asked for; reports scales that need themselves."""
 
@@ -46,12 +42,9 @@ class Scales:
         return self._known[facts]
 
     def affine(self, facts: PointFacts, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
-        """Return a point's number in a formula as raw * slope + intercept. Raises UnknownError after a finding."""
-        used = self.symbols.find(name, facts.variant)
+        """Return a point's number in a formula as raw * slope + intercept. Raises FactError."""
         place = formula.of(name)
-        if used is None:
-            self.symbols.unknown(name, place)
-            raise UnknownError
+        used = self._find(facts, name, place)
         self._check_settled(used, name, part, place)
         if used.floating:
             self._check_floating(used, name, part, place, in_scale=in_scale)
@@ -61,25 +54,24 @@ class Scales:
         if in_scale and (chain := self._circle(facts, used)):
             message = f"a scale that needs itself: {' needs '.join(f'`{needed}`' for needed in chain)}"
             hint = f"use `{name}.raw`, or break the circle"
-            self.scope.report.error("scale-cycle", message, place, hint)
-            raise UnknownError
+            raise FactError("scale-cycle", message, place, hint)
         rule = self._rule_of_its_own(used, name, place)
         if len({self.cases(sibling) for sibling in self.symbols.siblings(used)}) > 1 and used.variant != facts.variant:
-            self._refuse(
+            raise bad_formula(
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
         return Affine(self._model_name(facts, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
 
     def _check_settled(self, used: PointFacts, name: str, part: Part, place: Span) -> None:
-        """Report a point that is no number, or whose type or scale is not settled. Raises UnknownError."""
+        """Report a point that is no number, or whose type or scale is not settled. Raises FactError."""
         if used.text:
-            self._refuse(place, f"`{name}` is a text", "name a number")
+            raise bad_formula(place, f"`{name}` is a text", "name a number")
         if used.untyped:
-            self._refuse(place, f"no type says what `{name}` is", "a formula needs a number: say its `type`")
+            raise bad_formula(place, f"no type says what `{name}` is", "a formula needs a number: say its `type`")
         for key in ("type",) if part == "raw" else ("type", "scale"):
             if used.layer(key) is not None and used.get(key) is None and key not in used.failed:
                 hint = "a formula needs what is settled: write `scale: ~` here too, or settle it"
-                self._refuse(place, f"the {key} of `{name}` is not settled", hint)
+                raise bad_formula(place, f"the {key} of `{name}` is not settled", hint)
 
     def _model_name(self, facts: PointFacts, used: PointFacts, place: Span) -> str:
         """Return the model's name of a point that `facts` uses: its item in the same variant, else its plain name."""
@@ -87,19 +79,21 @@ class Scales:
             return used.item
         if len({sibling.get("type") or "" for sibling in self.symbols.siblings(used)}) > 1:
             hint = "give `variants` here too"
-            self._refuse(place, f"the type of `{used.name}` differs by variant", hint)
+            raise bad_formula(place, f"the type of `{used.name}` differs by variant", hint)
         return used.name
 
     def _check_floating(self, used: PointFacts, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
         """Report a floating-point number that cannot stand here; a scale may have an f32's value as a factor."""
         if not in_scale:
             message = f"`{name}` is a floating-point number and cannot stand in a limit"
-            self._refuse(place, message, "write the widest range")
+            raise bad_formula(place, message, "write the widest range")
         if part == "raw":
             message = f"the raw number of `{name}` is a floating-point pattern"
-            self._refuse(place, message, f"use its value: {name}")
+            raise bad_formula(place, message, f"use its value: {name}")
         if used.get("type") != "f32":
-            self._refuse(place, f"`{name}` is wider than 32 bits and cannot be a factor", "factors are f32 or whole")
+            raise bad_formula(
+                place, f"`{name}` is wider than 32 bits and cannot be a factor", "factors are f32 or whole"
+            )
 
     def floats(self, rule: Linear) -> list[Factor]:
         """Return the factors of a rule that are floating-point numbers."""
@@ -119,30 +113,22 @@ class Scales:
         return cases or None
 
     def _case(self, facts: PointFacts, entry: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
-        rule = self._rule(facts, entry["rule"], entry.span("rule"))
-        place = entry.span("when")
+        rule, place = self._rule(facts, entry["rule"], entry.span("rule")), entry.span("when")
         try:
             name, constant = parse_case(entry["when"])
+            chosen = self._model_name(facts, self._find(facts, name.name, place.moved(name.column)), place)
         except FormulaError as error:
             formula_finding(error, place, self.scope.report)
-            facts.failed.add("scale")
-            return None
-        chosen = self.symbols.find(name.name, facts.variant)
-        if chosen is None:
-            self.symbols.unknown(name.name, place.moved(name.column))
-            facts.failed.add("scale")
-            return None
-        try:
-            chosen_name = self._model_name(facts, chosen, place)
-        except UnknownError:
-            facts.failed.add("scale")
-            return None
-        key = (chosen_name, constant)
-        if key in seen:
-            first = [(seen[key], "first given here")]
-            self.scope.report.error("duplicate-case", "two rules hold in this case", place, "remove one of them", first)
-        seen.setdefault(key, place)
-        return None if rule is None else ScaleCase(chosen_name, constant, rule, written(entry["rule"]))
+        except FactError as error:
+            error.report(self.scope.report)
+        else:
+            first = seen.setdefault((chosen, constant), place)
+            if first is not place:
+                message, related = "two rules hold in this case", [(first, "first given here")]
+                self.scope.report.error("duplicate-case", message, place, "remove one of them", related)
+            return None if rule is None else ScaleCase(chosen, constant, rule, written(entry["rule"]))
+        facts.failed.add("scale")
+        return None
 
     def _rule(self, facts: PointFacts, text: str, span: Span) -> Linear | None:
         formula = Written(text, span)
@@ -154,12 +140,12 @@ class Scales:
                 self._warn_of_cut_decimal(text, span)
                 return rule
             message = "a floating-point number can be a factor, but no exponent and no part of a sum"
-            self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
+            raise bad_formula(span, message, "multiply with it, or divide by it")
         except FormulaError as error:
             _suggest_scale(error, text, "rule" if isinstance(facts.get("scale"), list) else "scale")
             formula_finding(error, span, self.scope.report)
-        except UnknownError:
-            pass
+        except FactError as error:
+            error.report(self.scope.report)
         facts.failed.add("scale")
         return None
 
@@ -176,9 +162,9 @@ class Scales:
         cases = None if moves else self.cases(used)
         if moves or (cases is not None and cases[0].rule.factors):
             hint = f"use `{name}.raw`, or write its rule out here"
-            self._refuse(place, f"the value of `{name}` itself depends on another point", hint)
+            raise bad_formula(place, f"the value of `{name}` itself depends on another point", hint)
         if "scale" in used.failed:
-            raise UnknownError
+            raise FactError
         return IDENTITY if cases is None else cases[0].rule
 
     def _circle(self, facts: PointFacts, used: PointFacts) -> list[str]:
@@ -213,9 +199,18 @@ class Scales:
                 if needed is not None:
                     yield needed
 
-    def _refuse(self, place: Span, message: str, hint: str) -> NoReturn:
-        self.scope.report.error("bad-formula", message, place, hint)
-        raise UnknownError
+    def _find(self, facts: PointFacts, name: str, place: Span) -> PointFacts:
+        """Return the point that a formula of `facts` names. Raises FactError."""
+        used = self.symbols.find(name, facts.variant)
+        if used is None:
+            self.symbols.unknown(name, place)
+            raise FactError
+        return used
+
+
+def bad_formula(place: Span, message: str, hint: str) -> FactError:
+    """Return the error for a formula that cannot be used."""
+    return FactError("bad-formula", message, place, hint)
 
 
 def written(text: str) -> str:

@@ -14,9 +14,9 @@ from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
-from fieldscribe.resolve.scales import UnknownError
 from fieldscribe.resolve.scope import humanised
 from fieldscribe.resolve.special_codes import quantities
+from fieldscribe.resolve.values import FactError
 from fieldscribe.resolve.word_contents import allowed_digits, digits_of, fixed_of, flags_of, text_of
 
 if TYPE_CHECKING:
@@ -148,7 +148,8 @@ def _cases(facts: PointFacts, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
         return cases
     try:
         return tuple([replace(case, rule=bounds.with_exponents(case.rule, facts.span("scale"))) for case in cases])
-    except UnknownError:
+    except FactError as error:
+        error.report(bounds.scales.scope.report)
         facts.failed.add("scale")
         return None
 
