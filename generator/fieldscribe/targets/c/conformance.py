@@ -10,6 +10,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
 from fieldscribe.targets.c.frames import frames_of
+from fieldscribe.targets.c.header import STATUSES
 from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.point_templates import TemplateTexts
@@ -60,9 +61,6 @@ class SuiteView:
     telegrams: tuple[str, ...]
 
 
-_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special")
-
-
 def conformance_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> SuiteView:
     """Return the view of `<device>_conformance.c`."""
     named = frames_of(device).NAMED_CODES
@@ -71,7 +69,7 @@ def conformance_view(device: Device, points: Sequence[GeneratedPoint], scope: He
     return SuiteView(
         structs=tuple(struct for point in dependent for struct in structs_of(point, scope)),
         items=tuple([each.point.item for each in points]),
-        statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
+        statuses=tuple((f"{scope.upper}_{status}", status.lower()) for status in STATUSES),
         family=device.family,
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),

@@ -6,14 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.layout import Function, called, function
 from fieldscribe.targets.c.limits import check, known, refused
-from fieldscribe.targets.c.literals import (
-    VALUE_BOUNDS,
-    bare,
-    float_order,
-    raw_kind,
-    sign_and_size,
-    unsigned,
-)
+from fieldscribe.targets.c.literals import VALUE_BOUNDS, bare, float_order, raw_kind, sign_and_size, unsigned
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 

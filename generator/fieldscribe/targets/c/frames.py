@@ -9,7 +9,7 @@ from fieldscribe.families import family
 from fieldscribe.names import upper
 from fieldscribe.targets.c.header import old_items
 from fieldscribe.targets.c.layout import folded
-from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.literals import hexadecimal, raw_kind
 from fieldscribe.targets.c.point_templates import TemplateTexts
 from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.identifiers import Owner
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 _LINE = 120
-_WIDTHS = (8, 16, 32, 64)
-_KINDS = {"bool": "bit", **{f"{sign}int{bits}_t": f"{sign or 's'}{bits}" for sign in ("u", "") for bits in _WIDTHS}}
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +117,8 @@ def frames_of(device: Device) -> CFamily:
 
 def kind_of(point: Point) -> str:
     """Return the type of a point's raw number, as in the names of the runtime's functions: `u16`."""
-    return _KINDS[raw_type(point)]
+    kind = raw_kind(point)
+    return "bit" if kind == "bool" else kind
 
 
 def lies(point: Point) -> str:

@@ -14,7 +14,7 @@ from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, signed
 from fieldscribe.targets.c.point_views import Brings, named_numbers, point_view
-from fieldscribe.targets.c.scales import scaled
+from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
 
@@ -160,7 +159,7 @@ def _fields_of(point: Point, item: str, limits: LimitFields, comment: PointComme
 
 def _limits_of(point: Point) -> LimitFields:
     allowed, (low, high) = point.allowed, (0, 0) if point.info.floating else point.outer
-    scale = scaled(point, *encoded_limits(point)) if point.form == "scaled" and not point.scale_arguments else None
+    scale = Scaled(point, *encoded_limits(point)) if point.form == "scaled" and not point.scale_arguments else None
     first, last = (0, 0) if scale is None else scale.counts
     form = (
         (low, high) == point.held if point.type != "u64" and not point.specials else allowed.fixed,

@@ -16,103 +16,84 @@ from fieldscribe.targets.c.literals import bare, cast, raw_type, real, sign_and_
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.exact import Line
     from fieldscribe.lowered import Plan
-    from fieldscribe.model import Linear, Point
+    from fieldscribe.model import Point
 
 _EXACT = 1 << 53
 
 
 class Scaled:
-    """The expressions of a scale: `raw_of_count` of `count`, `whole` of `value`, the others of `raw`.
+    """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits of the point.
 
-    `inside` is the test whether the raw number of a count may be written; it is empty if that is always so, as is
-    `count_fits`, the test whether a raw number has a count. `direct` says that a count equals its raw number. `wide`
-    says that values are always double.
+    `inside` is the test that the raw number of a count may be written, empty if that is always so. `counts` are the
+    counts inside. `direct` says that a count equals its raw number. `wide` says that values are always double.
     """
 
-    def __init__(self, point: Point, plan: Plan) -> None:
-        self._point, self._plan, self._rule = point, plan, plan.rule
-        self.count_type = "int64_t" if plan.count_wide else "int32_t"
-        self.counts = plan.counts
-        self.direct = plan.direct
-        self.wide = not plan.fits_float
-        open_ended = plan.counts == (INT64 if plan.count_wide else INT32)
-        self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if plan.count_wide else ''}"
+    def __init__(self, point: Point, low: int, high: int) -> None:
+        self._point, self._plan = point, plan_of(point, low, high)
+        self.count_type = "int64_t" if self._plan.count_wide else "int32_t"
+        self.counts, self.direct, self.wide = self._plan.counts, self._plan.direct, not self._plan.fits_float
+        open_ended = self.counts == (INT64 if self._plan.count_wide else INT32)
+        self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if self._plan.count_wide else ''}"
 
     @cached_property
     def count_fits(self) -> str:
-        """The test whether a raw number has a count; empty if each has one."""
-        return count_fits(self._plan)
+        """The test that the count of a raw number fits 64 bits; empty if each does."""
+        if self._plan.beyond is None:
+            return ""
+        low, high = self._plan.beyond
+        if max(self._plan.raws) > INT64[1]:
+            return f"fieldscribe_within_u64(raw, {unsigned(low)}, {unsigned(high)})"
+        return f"fieldscribe_within_wide(raw, {bare(low)}, {bare(high)})"
 
     @cached_property
     def raw_of_count(self) -> str:
-        """The raw number of a count that is inside."""
-        return cast(raw_type(self._point), raw_of_count(self._plan))
+        """The raw number of a `count` that is inside."""
+        return cast(raw_type(self._point), _raw_of_count(self._plan))
 
     @property
     def count_of_raw(self) -> str:
-        """The count of a raw number, cast to its type where C needs that."""
-        number, wide = count_of_raw(self._plan)
+        """The count of `raw`, cast to its type where C needs that."""
+        number, wide = _count_of_raw(self._plan)
         becomes = self._plan.raws[1] <= INT64[1] and (self._plan.count_wide or not wide)
         return number if becomes else cast(self.count_type, number)
 
     @property
     def factor(self) -> str:
         """The factor of a rule that only multiplies, else empty."""
-        rule = self._rule
+        rule = self._plan.rule
         return bare(rule.ratio.numerator) if rule.ratio.denominator == 1 and not rule.offset else ""
 
     @property
     def steps(self) -> str:
-        """The unrounded raw number of a value: times, divided by, plus; each step is rounded to floating point."""
-        return _steps(self._rule, wide=self.wide)
+        """The unrounded raw number of `value`: times, divided by, plus; each step is rounded to floating point."""
+        ratio, offset = self._plan.rule.ratio, self._plan.rule.offset
+        kind, tail = ("double", "_wide") if self.wide else ("fieldscribe_real", "")
+        text = "value" if ratio.numerator == 1 else f"fieldscribe_times{tail}(value, {_constant(ratio.numerator)})"
+        if ratio.denominator != 1:
+            text = f"{text} / ({kind}){_constant(ratio.denominator)}"
+        if offset:
+            number = real(abs(offset)) if offset.denominator != 1 else str(abs(offset))
+            text = f"({text})" if " / " in text else text
+            text += f" {'-' if offset < 0 else '+'} ({kind}){number}"
+        return text
 
     @property
     def value_of_raw(self) -> str:
-        """The value of a raw number."""
-        return _value_of_raw(self._plan, self._point, wide=self.wide)
-
-
-def scaled(point: Point, low: int, high: int) -> Scaled:
-    """Return the expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    return Scaled(point, plan_of(point, low, high))
-
-
-def _steps(rule: Linear, *, wide: bool) -> str:
-    kind, tail = ("double", "_wide") if wide else ("fieldscribe_real", "")
-    text = "value"
-    if rule.ratio.numerator != 1:
-        text = f"fieldscribe_times{tail}(value, {_constant(rule.ratio.numerator)})"
-    if rule.ratio.denominator != 1:
-        text = f"{text} / ({kind}){_constant(rule.ratio.denominator)}"
-    if rule.offset:
-        offset = abs(rule.offset)
-        number = real(offset) if offset.denominator != 1 else str(offset.numerator)
-        text = f"({text})" if " / " in text else text
-        text += f" {'-' if rule.offset < 0 else '+'} ({kind}){number}"
-    return text
+        """The value of `raw`; where numerators exceed 53 bits, (raw * factor + add) / divisor rounded once."""
+        plan, (factor, add, divisor) = self._plan, self._plan.to_value
+        if max(plan.numerator, divisor) > _EXACT:
+            below, size = sign_and_size(self._point)
+            above = "raw >= 0" if self._point.info.signed else "true"
+            numbers = [unsigned(abs(factor)), "true" if add < 0 else "false", unsigned(abs(add)), unsigned(divisor)]
+            return f"fieldscribe_quotient({above if factor < 0 else below}, {size}, {', '.join(numbers)})"
+        line = linear("raw", factor, add, "int64_t" if plan.numerator > INT32[1] else "int32_t")
+        number = "raw" if factor == 1 and add == 0 else line
+        return f"fieldscribe_ratio{'_wide' if self.wide else ''}({number}, {divisor})"
 
 
 def _constant(number: int) -> str:
     """Return an integer as a constant; beyond 2^53 as the nearest double."""
     return bare(number) if abs(number) <= _EXACT else f"{number}.0"
-
-
-def _value_of_raw(plan: Plan, point: Point, *, wide: bool) -> str:
-    factor, add, divisor = plan.to_value
-    if max(plan.numerator, divisor) > _EXACT:
-        return _long_quotient(plan, point)
-    line = linear("raw", factor, add, "int64_t" if plan.numerator > INT32[1] else "int32_t")
-    number = "raw" if factor == 1 and add == 0 else line
-    return f"fieldscribe_ratio{'_wide' if wide else ''}({number}, {divisor})"
-
-
-def _long_quotient(plan: Plan, point: Point) -> str:
-    """Return (raw * factor + add) / divisor rounded to the nearest double, for numerators that exceed 53 bits."""
-    factor, add, divisor = plan.to_value
-    below, size = sign_and_size(point)
-    above = "raw >= 0" if point.info.signed else "true"
-    numbers = [unsigned(abs(factor)), "true" if add < 0 else "false", unsigned(abs(add)), unsigned(divisor)]
-    return f"fieldscribe_quotient({above if factor < 0 else below}, {size}, {', '.join(numbers)})"
 
 
 def linear(name: str, factor: int, add: int, cast: str) -> str:
@@ -128,7 +109,7 @@ def linear(name: str, factor: int, add: int, cast: str) -> str:
     return f"{start} {'-' if add < 0 else '+'} {abs(add)}"
 
 
-def raw_of_count(plan: Plan) -> str:
+def _raw_of_count(plan: Plan) -> str:
     """Return the raw number of a count that lies in the limits."""
     factor, add, divisor = plan.to_raw
     wider = "int64_t" if plan.encode_wide and not plan.count_wide else ""
@@ -170,17 +151,7 @@ def _quotient(number: str, numbers: Numbers, *, wide: bool) -> str:
     return f"fieldscribe_nearly{tail}({number}, {much}, {little}, {fine}U, {shift}U)"
 
 
-def count_fits(plan: Plan) -> str:
-    """Return a test whether the count of a raw number fits 64 bits; empty if all do. Numbers in the range always do."""
-    if plan.beyond is None:
-        return ""
-    low, high = plan.beyond
-    if max(plan.raws) > INT64[1]:
-        return f"fieldscribe_within_u64(raw, {unsigned(low)}, {unsigned(high)})"
-    return f"fieldscribe_within_wide(raw, {bare(low)}, {bare(high)})"
-
-
-def count_of_raw(plan: Plan) -> tuple[str, bool]:
+def _count_of_raw(plan: Plan) -> tuple[str, bool]:
     """Return the expression for the count of a raw number, and whether its type has 64 bits."""
     wide = plan.decode_wide
     if plan.direct:

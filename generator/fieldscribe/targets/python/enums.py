@@ -18,10 +18,7 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
     from fieldscribe.targets.python.identifiers import Identifiers
 
-_WORD_DOC = (
-    "",
-    "Members are bits as they are on the wire; the names in small letters say what is true.",
-)
+_WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,24 +25,8 @@ _RESERVED = frozenset(
 """The reserved words, and built-in names that generated code must not hide."""
 
 DEVICE_MEMBERS = frozenset(
-    {
-        "broadcast",
-        "drop_process_data",
-        "forget",
-        "layouts",
-        "fresh_for",
-        "link",
-        "patience",
-        "point",
-        "read_at",
-        "read_many",
-        "repeats",
-        "take",
-        "transport",
-        "unit",
-        "variants",
-        "write_at",
-    }
+    {"broadcast", "drop_process_data", "forget", "layouts", "fresh_for", "link", "patience", "point"}
+    | {"read_at", "read_many", "repeats", "take", "transport", "unit", "variants", "write_at"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 
@@ -50,24 +34,8 @@ HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "
 """Lower-case names that the body of the generated class uses."""
 
 WORD_MEMBERS = frozenset(
-    {
-        "as_integer_ratio",
-        "bit_count",
-        "bit_length",
-        "cls",
-        "conjugate",
-        "denominator",
-        "from_bytes",
-        "imag",
-        "is_integer",
-        "mro",
-        "name",
-        "numerator",
-        "of",
-        "real",
-        "to_bytes",
-        "value",
-    }
+    {"as_integer_ratio", "bit_count", "bit_length", "cls", "conjugate", "denominator", "from_bytes", "imag"}
+    | {"is_integer", "mro", "name", "numerator", "of", "real", "to_bytes", "value"}
 )
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 

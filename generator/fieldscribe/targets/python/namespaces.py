@@ -9,13 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import pascal, upper
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.python.device import device_view
-from fieldscribe.targets.python.identifiers import (
-    Identifiers,
-    attribute,
-    command_attributes,
-    parameter,
-    word_attribute,
-)
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

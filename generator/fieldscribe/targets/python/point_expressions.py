@@ -107,11 +107,7 @@ def _named_facts(point: Point) -> Iterator[str]:
 
 
 _NAMED = {"flags": "Flags", "enum": "Named", "digits": "Digits"}
-_FORMS = {
-    "integer": _integer,
-    "float": _floating,
-    "scaled": _scaled,
-}
+_FORMS = {"integer": _integer, "float": _floating, "scaled": _scaled}
 
 
 def _text(point: Point, scope: PackageScope) -> Node:

@@ -123,23 +123,8 @@ def _is_long(enum: EnumItem) -> bool:
 
 
 _OF_TRAITS = frozenset(
-    {
-        "clone",
-        "cmp",
-        "default",
-        "deref",
-        "drop",
-        "eq",
-        "fmt",
-        "from",
-        "hash",
-        "index",
-        "into",
-        "ne",
-        "neg",
-        "next",
-        "not",
-    }
+    {"clone", "cmp", "default", "deref", "drop", "eq", "fmt", "from", "hash", "index", "into", "ne", "neg"}
+    | {"next", "not"}
 )
 """Methods of traits, with which a flag's function could be confused."""
 
