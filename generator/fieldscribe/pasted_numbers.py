@@ -1,4 +1,4 @@
-"""Bytes and numbers as people paste them: with blanks, commas, colons, dashes, `0x`, or none of these."""
+"""Reads bytes and numbers as users paste them: with blanks, commas, colons, dashes, `0x`, or none of these."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldscribe.user_errors import UnclearError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-_BETWEEN = re.compile(r"[\s,;:|\-]+")
+_SEPARATORS = re.compile(r"[\s,;:|\-]+")
 _MARK = re.compile(r"0[xX]|\\x|[hH]'")
 _DIGITS = re.compile(r"[0-9A-Fa-f]+")
 
@@ -21,32 +21,40 @@ _LONGEST = 64
 
 
 class HexError(ValueError):
-    """The text does not stand for bytes."""
+    """A text does not stand for bytes."""
 
 
 def parse_hex(text: str) -> bytes:
-    """The bytes that a text means. Raises HexError with what is wrong and where."""
-    if data := _pairs(text):
-        return data
-    spaced = _BETWEEN.sub(" ", _MARK.sub(" 0x", text)).strip()
-    if data := _pairs(spaced):
-        return data
-    pieces = spaced.split()
-    if not pieces:
+    """Return the bytes that a text stands for. Raises HexError with what is wrong and where."""
+    spaced = _SEPARATORS.sub(" ", _MARK.sub(" 0x", text)).strip()
+    for plain in (text, spaced):
+        try:
+            if data := bytes.fromhex(plain):
+                return data
+        except ValueError:
+            continue
+    if not spaced:
         raise HexError("there are no bytes")
-    return b"".join(_piece(piece, place) for place, piece in enumerate(pieces, 1))
+    return b"".join(_bytes_of(piece, place) for place, piece in enumerate(spaced.split(), 1))
 
 
-def _pairs(text: str) -> bytes:
-    """The bytes of pairs of digits with or without blanks, which Python reads by itself; none where there is more."""
-    try:
-        return bytes.fromhex(text)
-    except ValueError:
-        return b""
+def _bytes_of(piece: str, place: int) -> bytes:
+    """Return the bytes of the `place`-th piece between separators. Raises HexError."""
+    digits = piece.removeprefix("0x")
+    if digits != piece and len(digits) == 1:
+        digits = "0" + digits
+    elif digits == piece and len(piece) == 3 and piece[2] in "hH":
+        digits = piece[:2]
+    if not _DIGITS.fullmatch(digits):
+        raise HexError(f"`{line(piece[:24])}` (piece {place}) is not hexadecimal: only 0 to 9 and A to F count")
+    if len(digits) % 2:
+        count = f"{len(digits)} digit{'s' if len(digits) > 1 else ''}"
+        raise HexError(f"`{line(piece[:24])}` (piece {place}) has {count}; two make a byte")
+    return bytes.fromhex(digits)
 
 
 def number_of(text: str) -> int | None:
-    """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
+    """Return a number in a notation of manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
     if len(text) > _LONGEST or not text.isascii():
         return None
     if match := _HEX.fullmatch(text):
@@ -55,7 +63,7 @@ def number_of(text: str) -> int | None:
 
 
 def typed_bytes(text: str, what: str, example: str) -> bytes:
-    """The bytes of a frame, called what its family calls it. Raises UnclearError."""
+    """Return the bytes of a frame; messages call it `what` and show the example. Raises UnclearError."""
     try:
         return parse_hex(text)
     except HexError as error:
@@ -63,24 +71,7 @@ def typed_bytes(text: str, what: str, example: str) -> bytes:
 
 
 def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
-    """The frames that arguments mean; arguments of a byte or word each are one frame whose quotes were forgotten."""
-    if len(words) > 2 and len({len(word.strip()) for word in words} - set(sizes)) == 0:
+    """Return the arguments as one frame if each has one of these sizes: its quotes were forgotten."""
+    if len(words) > 2 and {len(word.strip()) for word in words} <= set(sizes):
         return [" ".join(words)]
     return list(words)
-
-
-def _piece(piece: str, place: int) -> bytes:
-    """The bytes of one piece between blanks or commas, which is the `place`-th. Raises HexError."""
-    digits = piece.removeprefix("0x")
-    if digits != piece and len(digits) == 1:
-        digits = "0" + digits
-    elif digits == piece and len(piece) == 3 and piece[2] in "hH":
-        digits = piece[:2]
-    shown = line(piece[:24])
-    if not _DIGITS.fullmatch(digits):
-        raise HexError(f"`{shown}` (piece {place}) is not hexadecimal: only 0 to 9 and A to F count")
-    if len(digits) % 2:
-        raise HexError(
-            f"`{shown}` (piece {place}) has {len(digits)} digit{'s' if len(digits) > 1 else ''}; two make a byte"
-        )
-    return bytes.fromhex(digits)

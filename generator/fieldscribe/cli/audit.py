@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Document
     from fieldscribe.resolve.analysis import Analysis
 
-HELP = "hold what a description cites against the text of its manual, or compare two editions of it"
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
   fieldscribe audit hitachi_l200 --manual new.txt --report html > audit.html

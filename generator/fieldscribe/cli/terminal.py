@@ -68,8 +68,8 @@ def _wrapped(label: str, text: str, width: int) -> Iterable[str]:
     style = _LABEL_STYLES.get(label, "")
     space = max(20, terminal_width() - _MARGIN - width - _GAP)
     for place, line in enumerate(wrap(text, space, break_on_hyphens=False) or [""]):
-        shown = _styled(style or "36", f"{label:<{width}}") if place == 0 else " " * width
-        yield f"{' ' * _MARGIN}{shown}{' ' * _GAP}{_styled(style, line)}"
+        head = _styled(style or "36", f"{label:<{width}}") if place == 0 else " " * width
+        yield f"{' ' * _MARGIN}{head}{' ' * _GAP}{_styled(style, line)}"
 
 
 def _styled(code: str, text: str) -> str:

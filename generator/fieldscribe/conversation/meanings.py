@@ -141,9 +141,9 @@ def _flag_bits(flag: Flag, lowest: int, number: int) -> Bits:
     text = "" if entry is None else line(_entry_text(entry))
     inverted = " (true when 0)" if flag.width == 1 and not flag.active else ""
     repeats_name = text.casefold().replace(" ", "_") in ("", flag.name)
-    shown = f"{number}  {flag.name}{inverted}" + ("" if repeats_name else f": {text}")
+    row = f"{number}  {flag.name}{inverted}" + ("" if repeats_name else f": {text}")
     true = number == flag.active if flag.width == 1 else None
-    return Bits(high, low, flag.name, number, true, text, (bits_label(high, low), visible(shown)))
+    return Bits(high, low, flag.name, number, true, text, (bits_label(high, low), visible(row)))
 
 
 def _nameless_bit(bit: int) -> Bits:

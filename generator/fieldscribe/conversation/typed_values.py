@@ -243,8 +243,8 @@ def _pattern_of_text(point: Point, typed: str) -> int:
     spans = _CHARACTERS.get(layout.encoding, _CHARACTERS["ascii"])
     strange = next((char for char in typed if not any(low <= ord(char) <= high for low, high in spans)), None)
     if strange is not None:
-        shown = line(strange) or f"U+{ord(strange):04X}"
-        message = f"{label(point)} cannot hold `{shown}`: its characters are {layout.encoding}"
+        name = line(strange) or f"U+{ord(strange):04X}"
+        message = f"{label(point)} cannot hold `{name}`: its characters are {layout.encoding}"
         raise RefusedError("out_of_range", message)
     if len(typed) > layout.characters:
         message = f"{label(point)} has {layout.characters} characters, here are {len(typed)}"

@@ -77,8 +77,8 @@ def span_text(low: int, high: int) -> str:
 
 def element_text(parameter: int, index: int, *, alone: bool) -> str:
     """Return `parameter 1082`, or `parameter 2010, index 1`. `alone`: no point there is one of several elements."""
-    beside = f", all elements (index {index})" if index == ALL_ELEMENTS else f", index {index}"
-    return f"parameter {parameter}" + ("" if index == 0 and alone else beside)
+    element = f", all elements (index {index})" if index == ALL_ELEMENTS else f", index {index}"
+    return f"parameter {parameter}" + ("" if index == 0 and alone else element)
 
 
 def numbered(codes: Sequence[Code], number: int) -> Code | None:
