@@ -120,7 +120,7 @@ class _RowReader:
             if named is None:
                 _ask_about(point, "space", cells)
         self._read_address(point, row)
-        _read_access(point, cells)
+        _set(point, "access", read.access_in(cells.get("access", "")), cells)
         if read.is_reserved(point.title):
             point.facts["reserved"] = "yes"
             return point
@@ -170,6 +170,14 @@ def _of_reference(address: Address) -> tuple[Address, str, int] | None:
     return address, _MODICON_SPACES[match[1]], int(match[2]) - 1
 
 
+def _set(point: DraftPoint, role: str, value: str | None, cells: Mapping[str, str]) -> None:
+    """Set a fact to what its cell means; ask if the meaning is unknown."""
+    if value:
+        point.facts[role] = value
+    elif role in cells:
+        _ask_about(point, role, cells)
+
+
 def _ask_about(point: DraftPoint, role: str, cells: Mapping[str, str]) -> None:
     point.questions.append(f"which {role} is `{one_line(cells[role])}`?")
 
@@ -190,15 +198,6 @@ def _read_type(point: DraftPoint, cells: Mapping[str, str]) -> None:
         point.questions.append(f"the value has {length[0]} words: of which type, and which word comes first?")
     elif length and length[0] != _WORDS_OF_TYPES.get(kind or "", length[0]):
         _ask_about(point, "length", cells)
-
-
-def _read_access(point: DraftPoint, cells: Mapping[str, str]) -> None:
-    if "access" in cells:
-        access = read.access_in(cells["access"])
-        if access:
-            point.facts["access"] = access
-        else:
-            _ask_about(point, "access", cells)
 
 
 def _read_scale(point: DraftPoint, cells: Mapping[str, str]) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import errno
 import os
 import signal
+import threading
 import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
@@ -83,15 +84,13 @@ def _acquire(place: Path, waiting: Callable[[], None], patience: float) -> int:
 
 def _try_lock(place: Path) -> int | None:
     """Return the handle of the lock file; None if another run holds the lock or has just removed the file."""
-    handle = _open(place)
+    handle, is_ours = _open(place), False
     try:
-        if _flock(handle) and _is_at(place, handle):
-            return handle
-    except BaseException:
-        os.close(handle)
-        raise
-    os.close(handle)
-    return None
+        is_ours = _flock(handle) and _is_at(place, handle)
+    finally:
+        if not is_ours:
+            os.close(handle)
+    return handle if is_ours else None
 
 
 def _open(place: Path) -> int:
@@ -133,18 +132,15 @@ def _is_at(place: Path, handle: int) -> bool:
 @contextmanager
 def _exit_on_sigterm() -> Iterator[None]:
     """Turn SIGTERM into SystemExit, so that files are cleaned up; a handler that is set already stays."""
-    if signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
-        yield
-        return
-    try:
+    is_default = signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+    sets_handler = is_default and threading.current_thread() is threading.main_thread()
+    if sets_handler:
         signal.signal(signal.SIGTERM, _exit)
-    except ValueError:  # not in the main thread
-        yield
-        return
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        if sets_handler:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def _exit(number: int, _frame: FrameType | None) -> NoReturn:
