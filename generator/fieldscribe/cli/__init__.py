@@ -126,7 +126,8 @@ def show_traceback(error: BaseException) -> None:
 def _run(argv: list[str]) -> int:
     if not argv or argv[0] not in COMMANDS:
         return _overview(argv)
-    from fieldscribe.cli.common import StopError  # `--help` and `--version` start without it
+    from fieldscribe.cli.common import StopError  # `--help` and `--version` start without these
+    from fieldscribe.user_errors import UnclearError
 
     command = command_module(argv[0])
     parser = _parser(f"fieldscribe {argv[0]}", COMMANDS[argv[0]], command.EXAMPLE)
@@ -143,6 +144,8 @@ def _run(argv: list[str]) -> int:
         return command.run(arguments)
     except StopError as stop:
         return stop.tell()
+    except UnclearError as error:
+        return StopError(error.message, error.hint).tell()
 
 
 def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:

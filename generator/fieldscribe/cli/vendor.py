@@ -94,19 +94,16 @@ def run(arguments: Namespace) -> int:
 def deliver_all(
     orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool
 ) -> list[Delivery]:
-    """Deliver or compare the files of all orders. Raises StopError.
+    """Deliver or compare the files of all orders. Raises StopError and UnclearError.
 
     `missing` is the message for a missing library of an extra.
     """
     deliveries: list[Delivery] = []
-    try:
-        refuse_duplicates(orders)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
+    refuse_duplicates(orders)
     for order in orders:
         try:
             deliveries.append(_deliver(order, missing, check=check, force=force))
-        except StopError:
+        except (StopError, UnclearError):
             if deliveries:
                 print_deliveries(deliveries, form, check=check)  # report what is done already
             raise
@@ -116,8 +113,6 @@ def deliver_all(
 def _deliver(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
     try:
         return compare(order) if check else deliver(order, print_waiting, force=force)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
     except ModuleNotFoundError as error:
         raise StopError(*missing) from error
     except OSError as error:
@@ -164,7 +159,7 @@ def _orders_of_project(
     for wanted in project:
         try:
             orders.append(_order(arguments, wanted.request, wanted.device, wanted.out, inputs))
-        except StopError as error:
+        except (StopError, UnclearError) as error:
             if not error.message:
                 raise  # the findings of the description are printed already
             report.error("bad-project", error.message, wanted.place, error.hint or None)
@@ -172,7 +167,7 @@ def _orders_of_project(
 
 
 def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | None, inputs: Inputs) -> Order:
-    """Return an order, with its device loaded and its points checked. Raises StopError."""
+    """Return an order, with its device loaded and its points checked. Raises StopError and UnclearError."""
     if device is None or out is None:
         raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
     if request.name is not None:
@@ -182,10 +177,7 @@ def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | 
             raise StopError(f"`{request.name}` {taken}")
     named = Namespace(device=device, descriptions=arguments.descriptions, format=arguments.format)
     opened = open_device(named, inputs)
-    try:
-        select(opened, request.points)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
+    select(opened, request.points)
     for message in address_only_messages(opened, request.points):
         usage_error(message)
     return Order(opened, request, out)
