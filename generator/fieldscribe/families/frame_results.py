@@ -87,14 +87,9 @@ class Item:
 
     def as_data(self) -> dict[str, object]:
         """Return the same for JSON."""
+        plain = ("space", "address", "count", "point", "code", "raw", "value")
         return {
-            "space": self.space,
-            "address": self.address,
-            "count": self.count,
-            "point": self.point,
-            "code": self.code,
-            "raw": self.raw,
-            "value": self.value,
+            **{key: getattr(self, key) for key in plain},
             "flags": [bits.as_data() for bits in self.flags],
             "missing": list(self.missing),
             "findings": list(self.findings),

@@ -1,4 +1,4 @@
-"""The keys that only this family has."""
+"""The keys that only this family has, and what a new description of a device starts with."""
 
 from __future__ import annotations
 
