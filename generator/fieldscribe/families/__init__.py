@@ -14,7 +14,7 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
 
 To add a function of a bus (Modbus function 17h, a USS task): its number, space and limits go into the tables of
-`__init__.py` (USS: of `parts.py`), its bytes into `frames.py` and the parsers beside it, its name for people into
+`__init__.py` (USS: of `parts.py`), its bytes into `frames.py` and the parsers next to it, its name for people into
 `remarks.py`, and its examples into `targets/vectors.py`. The generated code follows from the tables; the runtimes in
 `templates/<target>/runtime` need the bytes once more in their language, and the vectors show when they differ.
 A part that a family does not have is left out; whoever asks for a part says what it must offer.

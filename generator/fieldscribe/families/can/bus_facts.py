@@ -23,7 +23,7 @@ LIMITS = (
     _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
     _limit("identifier_bits", "CAN: how many bits the identifiers have.", null_or(INTEGER)),
 )
-"""The family's own facts of a bus; they are empty on a bus of another family."""
+"""The facts of a bus that only this family has; they are empty on a bus of another family."""
 
 FRAME = (
     Fact(
@@ -39,11 +39,11 @@ FRAME = (
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     """Yield label and text of each fact about the line."""
-    own = of_bus(bus)
-    if own.bitrate is not None:
-        yield "Bit rate", f"{own.bitrate} bit/s"
-    if own.identifier_bits is not None:
-        yield "Identifier", f"{own.identifier_bits} bits"
+    details = of_bus(bus)
+    if details.bitrate is not None:
+        yield "Bit rate", f"{details.bitrate} bit/s"
+    if details.identifier_bits is not None:
+        yield "Identifier", f"{details.identifier_bits} bits"
     yield "Unit numbers", "{}..{}".format(*bus.units)
 
 

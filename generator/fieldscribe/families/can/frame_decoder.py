@@ -169,9 +169,9 @@ class CanFrameDecoder:
             result = replace(result, findings=(strange,) if strange else ())
             return DecodedFrame(result, (word,), head.unit, message.name, request=about, frame=own_bytes)
         exchange = message.answers or ""
-        asked: ParameterWord | None = requests.request(head.unit, exchange)
-        findings = () if asked is None else tuple(remarks.answer_findings(asked, about))
-        answers = asked is not None and asked.address == about.address
+        open_request: ParameterWord | None = requests.request(head.unit, exchange)
+        findings = () if open_request is None else tuple(remarks.answer_findings(open_request, about))
+        answers = open_request is not None and open_request.address == about.address
         result = replace(result, findings=findings) if findings else result
         return DecodedFrame(result, (word,), head.unit, exchange, answers=answers, frame=own_bytes)
 

@@ -64,12 +64,12 @@ def multiplexer_finding(message: Message, telegram: Telegram) -> str:
     return f"the manual knows multiplexers 0 to {last} only"
 
 
-def answer_findings(asked: ParameterWord, answered: ParameterWord) -> Iterator[str]:
+def answer_findings(request: ParameterWord, answer: ParameterWord) -> Iterator[str]:
     """Yield how an answer contradicts the request before it."""
-    if asked.address != answered.address:
-        yield f"the request before asked for parameter {asked.address}, this answers {answered.address}"
-    elif asked.raw is not None and asked.raw != answered.raw:
-        was, came = (hex_words((word or 0,)) for word in (asked.raw, answered.raw))
+    if request.address != answer.address:
+        yield f"the request before asked for parameter {request.address}, this answers {answer.address}"
+    elif request.raw is not None and request.raw != answer.raw:
+        was, came = (hex_words((word or 0,)) for word in (request.raw, answer.raw))
         yield f"it does not repeat what was written: {was} was, {came} came back"
 
 

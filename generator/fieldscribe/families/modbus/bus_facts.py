@@ -24,7 +24,7 @@ LIMITS = (
         weight=WIRE,
     ),
 )
-"""The family's own facts of a bus; they are empty on a bus of another family."""
+"""The facts of a bus that only this family has; they are empty on a bus of another family."""
 
 _DIGITS = {"discrete": 1, "input": 3, "holding": 4}
 """The first digit of traditional references; that of coils is 0, which leaves the number as it is."""

@@ -153,11 +153,11 @@ def _request(subject: Analysis, open_frame: LocatedFrame) -> Seen:
 
 def _reply(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     frame = open_frame.frame
-    asked = seen.get(frame.answers or "")
+    answered = seen.get(frame.answers or "")
     frames_agree.report_no_request(subject, open_frame)
-    if asked is None or asked.request is None:
+    if answered is None or answered.request is None:
         return Seen(replace(frame, valid=False))
-    request = asked.request
+    request = answered.request
     reply = parse_reply(frame.framing, request, frame.corrected)
     if reply.status not in ("ok", "exception"):
         return frames_agree.report_refused(subject, open_frame, reply.status)

@@ -188,8 +188,8 @@ def _unmatched_read(unwrapped: Unwrapped, request: Request | None, faults: tuple
         return DecodedFrame(replace(_result(unwrapped, "reply", text), faults=faults, notes=(remarks.NO_REQUEST,)))
     values, due = values_in(request.function, data), data_size(request.function, request.count)
     if len(data) != due:
-        asked = f"the request asks for {due} ({counted(request.count, 'item')})"
-        faults = (f"it brings {counted(len(data), 'byte')}, {asked}",)
+        due_text = f"the request asks for {due} ({counted(request.count, 'item')})"
+        faults = (f"it brings {counted(len(data), 'byte')}, {due_text}",)
     came = replace(request, count=min(request.count, len(values)))
     return replace(_reply(unwrapped, came, (_span(came, values[: came.count]),), faults), answers=True)
 

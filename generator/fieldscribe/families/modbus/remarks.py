@@ -117,9 +117,9 @@ def unreadable_text(pdu: bytes, flaw: Flaw) -> str:
 
 def exception_text(device: Device, code: int) -> str:
     """Return the meaning of an exception, from the manual, else from the protocol."""
-    own = numbered(device.bus.exceptions, code)
-    if own is not None:
-        return line(f"{hex_text(code, 2)} {own.name}: {own.title['en']}")
+    known = numbered(device.bus.exceptions, code)
+    if known is not None:
+        return line(f"{hex_text(code, 2)} {known.name}: {known.title['en']}")
     common = _EXCEPTIONS.get(code)
     meaning = (
         f"{common} (the protocol's meaning; the manual does not list it)" if common else "the manual does not list it"

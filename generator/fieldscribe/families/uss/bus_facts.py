@@ -33,7 +33,7 @@ LIMITS = (
     ),
     _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
 )
-"""The family's own facts of a bus; they are empty on a bus of another family."""
+"""The facts of a bus that only this family has; they are empty on a bus of another family."""
 
 FRAME = (
     Fact(
@@ -62,13 +62,13 @@ def tasks(bus: Bus, point: Point) -> tuple[tuple[str, int], ...]:
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     """Yield label and text of each fact about the line."""
-    own = of_bus(bus)
+    details = of_bus(bus)
     yield "Unit numbers", "{}..{}".format(*bus.units)
     if bus.broadcast is not None:
         yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
-    lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in own.pkw)
+    lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in details.pkw)
     yield "Words of the parameter part (PKW)", (", ".join(lengths))
-    yield "Words of process data (PZD)", "{}..{}".format(*own.pzd)
+    yield "Words of process data (PZD)", "{}..{}".format(*details.pzd)
 
 
 def numbers(space: str, address: int) -> Mapping[str, int]:
@@ -78,6 +78,6 @@ def numbers(space: str, address: int) -> Mapping[str, int]:
 
 
 def goes_to_all(function: Code) -> bool:
-    """Return False: broadcasts are telegrams of their own."""
+    """Return False: broadcasts are telegrams of their details."""
     del function
     return False

@@ -85,14 +85,14 @@ class UssFrameDecoder:
         directory: Directory,
         direction: str | None,
     ) -> DecodedFrame:
-        asked: Request | None = requests.request(base.unit)
+        open_request: Request | None = requests.request(base.unit)
         status = ""
-        if asked is not None and direction != "request":
-            status = answer_in(self._device.bus, self._link, asked, words).status
+        if open_request is not None and direction != "request":
+            status = answer_in(self._device.bus, self._link, open_request, words).status
         if direction == "response" or (direction is None and status in _ANSWERS):
             # the user fixed a request, but this unit has none open: that request went to another unit
-            status = "wrong_unit" if requests.fixed and asked is None else status
-            return self._response(base, words, asked, status, directory)
+            status = "wrong_unit" if requests.fixed and open_request is None else status
+            return self._response(base, words, open_request, status, directory)
         decoded = self._request(base, words, directory)
         if direction is None and not requests.addressed(base.unit) and self._could_answer(words):
             return replace(decoded, result=replace(decoded.result, notes=(*decoded.result.notes, remarks.NO_REQUEST)))
@@ -130,7 +130,7 @@ class UssFrameDecoder:
         return DecodedFrame(result, (element, data) if part.code else (data,), base.unit, request=request)
 
     def _response(
-        self, base: FrameResult, words: tuple[int, ...], asked: Request | None, status: str, directory: Directory
+        self, base: FrameResult, words: tuple[int, ...], open_request: Request | None, status: str, directory: Directory
     ) -> DecodedFrame:
         divided = split(words, self._link, request=False)
         if not divided.fits:
@@ -146,7 +146,7 @@ class UssFrameDecoder:
         text, details = _element_and_details(part, "response", directory)
         result = replace(base, kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
         if part.code in (REFUSED, NO_RIGHTS):
-            result = self._refusal(result, part, None if asked is None else asked.task)
+            result = self._refusal(result, part, None if open_request is None else open_request.task)
         width = RESPONSE_WIDTHS.get(part.code, 0)
         element = Element(
             part.parameter,

@@ -138,10 +138,12 @@ def _telegram(telegram: Telegram, message: Message) -> TelegramView:
 
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """Yield the table of points that come in frames of a telegram."""
-    heard = [subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None]
-    if heard:
+    received = [
+        subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None
+    ]
+    if received:
         yield Table(
-            "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in heard)
+            "can_telegram", "can_telegram", tuple(row_text(row_of(subject, ("(frames)",))) for subject in received)
         )
 
 
@@ -170,9 +172,11 @@ def heard(scope: CrateScope) -> tuple[str, Snippet]:
 def tables_of_frames(device: Device) -> Iterator[Table]:
     """Yield the tables of telegrams that come in frames."""
     carriers = {message.name for message in device.messages if message.words}
-    heard = [telegram for telegram in device.telegrams if telegram.message in carriers]
-    if heard:
-        rows = tuple(item_row(telegram.name, "telegrams", "telegram", type_name(telegram.name)) for telegram in heard)
+    received = [telegram for telegram in device.telegrams if telegram.message in carriers]
+    if received:
+        rows = tuple(
+            item_row(telegram.name, "telegrams", "telegram", type_name(telegram.name)) for telegram in received
+        )
         yield Table("can_taken", "can_taken", rows)
         yield Table("can_carrier", "can_carrier", rows)
 

@@ -197,8 +197,8 @@ class _Dialogue:
 
     def _add(self, what: str, request: Request, printed: str | None, *values: object) -> None:
         self._set_link()
-        asked = request.unit, request.task, request.parameter, request.index
-        self.lines.set("task", *asked, request.width, request.value, request.words)
+        element = request.unit, request.task, request.parameter, request.index
+        self.lines.set("task", *element, request.width, request.value, request.words)
         kind, name = (f"uss_{what}", ()) if printed is None else (f"uss_printed_{what}", (printed,))
         self.lines.add(kind, *name, *values)
 
@@ -269,7 +269,7 @@ class _Dialogue:
 
 def _printed(lines: Lines, device: Device) -> None:
     """Add the manual's examples, each in a whole telegram: parameter parts, process data, masks for all units."""
-    asked: dict[str, tuple[_Dialogue, Request]] = {}
+    requests: dict[str, tuple[_Dialogue, Request]] = {}
     bus, unit = device.bus, device.bus.units[0]
     longest, (least, _) = of_bus(bus).pkw[-1] if of_bus(bus).pkw else 0, of_bus(bus).pzd
     for frame in device.frames:
@@ -278,10 +278,10 @@ def _printed(lines: Lines, device: Device) -> None:
             dialogue = _Dialogue(lines, bus, Link(of_frame(frame).pkw or VARIABLE, least))
             part = part_of(words)
             if part is not None:
-                asked[frame.name] = dialogue, request_in(unit, part, dialogue.link, dialogue.words)
-                dialogue.built(asked[frame.name][1], frame.name)
-        elif frame.framing == "pkw" and frame.answers in asked:
-            dialogue, request = asked[frame.answers]
+                requests[frame.name] = dialogue, request_in(unit, part, dialogue.link, dialogue.words)
+                dialogue.built(requests[frame.name][1], frame.name)
+        elif frame.framing == "pkw" and frame.answers in requests:
+            dialogue, request = requests[frame.answers]
             dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), frame.name)
         elif frame.framing == "pzd":
             dialogue, request = _Dialogue(lines, bus, Link(longest, len(words))), Request(unit, 0, words=words)
