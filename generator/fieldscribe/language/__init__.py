@@ -1,1 +1,1 @@
-"""The source language: text, YAML with places, the schema, numbers and formulas."""
+"""The description language: YAML text to checked mappings that know their places; numbers, units and formulas."""

@@ -1,7 +1,8 @@
-"""The canonical form of a description: the same pieces in the same lines, with the blanks, indents and quotes of all.
+"""Writes the canonical form of a description: uniform blanks, indentation and quotes.
 
-Which pieces share a line is the author's choice, as is their order. Mappings go in by two, the dashes of a list stand
-below the key that it belongs to, lines in brackets go on below what the bracket opens, and texts in double quotes.
+The order of the pieces, and which of them share a line, stay as the author wrote them. Mappings are indented by two.
+The dashes of a list stand below its key, further lines in brackets below the first piece inside. Texts get double
+quotes.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ _BEFORE_A_VALUE = frozenset(":-")
 
 
 def canonical(text: str) -> str:
-    """The canonical form of a sound text, whose line breaks are of one kind. Raises OddError."""
+    """Return the canonical form of a text without errors, with one kind of line break. Raises OddError."""
     layout = _Layout()
     for piece in _without_last_commas(pieces(text)):
         layout.place(piece)
@@ -31,7 +32,7 @@ def canonical(text: str) -> str:
 
 
 def _without_last_commas(all_pieces: Iterator[Piece]) -> Iterator[Piece]:
-    """The pieces without commas that stand before the bracket that closes."""
+    """Yield the pieces without commas before a closing bracket."""
     comma: Piece | None = None
     for piece in all_pieces:
         closes = piece.kind in _CLOSING
@@ -50,7 +51,7 @@ def _both(first: Gap, second: Gap) -> Gap:
 
 @dataclass(slots=True)
 class _Frame:
-    """A mapping or list that the current piece stands in: its column as it was, and as it will be."""
+    """A mapping or list that the current piece stands in: its column in the text, and in the canonical form."""
 
     kind: str
     was: int
@@ -64,22 +65,22 @@ class _Layout:
     """The line that is being written."""
     within: list[_Frame] = field(default_factory=list)
     last: str = ""
-    """The kind of the piece before; empty at the start of a document."""
+    """The kind of the previous piece; empty at the start of a document."""
     opened: bool = False
-    """Whether a mapping or list has opened since."""
+    """True if a mapping or list has opened since the previous piece."""
     at_key: bool = False
-    """Whether a key is next."""
+    """True if a key comes next."""
     anchored: bool = False
-    """Whether the piece before is an anchor or a tag."""
+    """True if the previous piece is an anchor or a tag."""
     left: dict[int, int] = field(default_factory=dict)
-    """Columns of what the piece before stands in, as they were and as they are now."""
+    """The columns of what the previous piece stands in: in the text, and in the canonical form."""
 
     def text(self) -> str:
-        """What was placed."""
+        """Return the canonical text."""
         return "\n".join([*self.lines, self.line.rstrip()]).strip("\n") + "\n"
 
     def place(self, piece: Piece) -> None:
-        """Write a piece behind the last one, or on a line of its own."""
+        """Write a piece behind the previous one, or on a new line."""
         if not piece.text and piece.kind != "end":
             self._note(piece)
             return
@@ -97,7 +98,7 @@ class _Layout:
         self.opened = self.at_key = False
 
     def _note(self, piece: Piece) -> None:
-        """What has no text: a mapping or list told by indentation opens or ends, or a key comes."""
+        """Note a piece without text: a block mapping or list opens or ends, or a key comes."""
         if piece.kind == "key":
             self.at_key = True
         elif piece.kind == "close":
@@ -112,7 +113,7 @@ class _Layout:
         self.opened = True
 
     def _column(self, piece: Piece) -> int:
-        """Where a piece stands that starts a line."""
+        """Return the column of a piece that starts a line."""
         if not self.within or piece.kind in ("document", "end"):
             return 0
         frame = self.within[-1]
@@ -120,13 +121,13 @@ class _Layout:
         return frame.column + (0 if starts or self.last not in _BEFORE_A_VALUE else _INDENT)
 
     def _breaks_before(self, piece: Piece) -> bool:
-        """Whether a piece starts a line: the first one does, others where the author broke the line with reason."""
+        """Return True if a piece starts a line: the first one, or where the author broke the line and may."""
         if not (self.line or self.lines):
             return True
         return piece.gap.breaks and (piece.gap.has_comment or not self._joins(piece))
 
     def _joins(self, piece: Piece) -> bool:
-        """Whether a piece stands behind the last one wherever the author put it."""
+        """Return True if a piece always stands on the line of the previous one."""
         if self.last in _OPENING or piece.kind in _CLOSING or piece.kind == ",":
             return True
         empty = self.at_key or piece.kind in ("-", "document", "end")
@@ -161,7 +162,7 @@ class _Layout:
             raise OddError(piece.line, piece.column + 1, message, "write the key in quotes")
 
     def _write_lines(self, text: str, indent: str, *, exactly: bool = False) -> None:
-        """Write a scalar whose further lines are indented so; only some of them say something by their blanks."""
+        """Write a scalar with its further lines indented; `exactly` keeps the blanks of a block scalar."""
         first, *rest = text.split("\n")
         self.line += first
         for below in rest:
@@ -170,7 +171,7 @@ class _Layout:
             self.line = f"{indent}{said}" if said else ""
 
     def _finish(self, gap: Gap) -> None:
-        """End the line, with the comment behind it, and write the empty lines and comments below."""
+        """End the line with the comment behind it, and write the empty lines and comments below."""
         if self.line or self.lines:
             self.lines.append(_with_comment(self.line.rstrip(), gap))
         columns = self.left | self._columns()
@@ -183,7 +184,7 @@ class _Layout:
                 self.lines.append("")
 
     def _comment_column(self, comment: Comment, gap: Gap, columns: dict[int, int]) -> int:
-        """Where a comment goes that has a line of its own: with what stood at its column, or left of it."""
+        """Return the column of a comment that has its line: that of the mapping or list at its column or left of it."""
         goes_on = gap.behind is not None and gap.behind.column == comment.column
         if self.within and self.within[-1].kind == "flow" and not goes_on:
             return self.within[-1].column
@@ -194,7 +195,7 @@ class _Layout:
 
 
 def _with_comment(line: str, gap: Gap) -> str:
-    """A line with the comment behind it: where it was if there is room, else two blanks away."""
+    """Return a line with the comment behind it: at its old column if there is room, else after two blanks."""
     if gap.behind is None:
         return line
     kept = gap.behind.column if gap.blanks > _INDENT else 0
@@ -202,21 +203,21 @@ def _with_comment(line: str, gap: Gap) -> str:
 
 
 def _ended(line: str) -> str:
-    """A line without the blanks at its end, but for one behind a backslash: that one is said."""
+    """Return a line without blanks at its end; one blank behind a backslash is escaped, and stays."""
     ended = line.rstrip()
     escapes = len(ended) - len(ended.rstrip("\\"))
     return f"{ended} " if escapes % 2 and len(line) > len(ended) else ended
 
 
 def _quoted(text: str) -> str:
-    """A scalar in double quotes if it stands in single ones and needs no escape in the others."""
+    """Return a scalar in double quotes if it has single ones and needs no escape in double ones."""
     if text[0] != "'" or '"' in text or "\\" in text:
         return text
     return '"' + text[1:-1].replace("''", "'") + '"'
 
 
 def _outdented(text: str) -> str:
-    """A scalar of several lines, without the indentation that all of them have."""
+    """Return a scalar of several lines without their common indentation."""
     first, *rest = text.split("\n")
     said = next((line for line in rest if line.strip()), "")
     indent = len(said) - len(said.lstrip(" "))

@@ -1,4 +1,4 @@
-"""Reads and checks all documents of a description: those of device.yaml, then those of its parts."""
+"""Reads the files of a description and checks their shape: device.yaml, then its parts."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ _NEEDED = ("device", "family", "documents")
 
 @dataclass(frozen=True, slots=True)
 class Files:
-    """The mappings of a description, the head first. Not `complete` if a part is missing or could not be read."""
+    """The mappings of a description, the head first; not `complete` if a part is missing or could not be read."""
 
     maps: tuple[Map, ...]
     complete: bool
 
 
 def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) -> Files | None:
-    """All files of a description; None if device.yaml lacks too much to continue. Findings go to the report.
+    """Return all files of a description; None if device.yaml lacks too much to go on. Findings go to the report.
 
-    Nothing else of the folder is read: whatever an editor or a stranger leaves there.
+    Other files in the folder are never read.
     """
     header, *below = _documents(device_file, report, inputs)
     if header is None or _is_part(header, device_file, report):
@@ -51,7 +51,7 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
 
 
 def parts_of(device_file: Path) -> list[Path]:
-    """The parts that a device.yaml lists and that are there, as far as it can be read."""
+    """Return the parts that a device.yaml lists and that exist, as far as it can be read."""
     report = Report()
     header, *_ = _documents(device_file, report, None)
     if header is None:
@@ -61,13 +61,13 @@ def parts_of(device_file: Path) -> list[Path]:
 
 
 def _documents(path: Path, report: Report, inputs: Inputs | None) -> list[Map | None]:
-    """The documents of a file, at least one; None stands for a document that could not be read."""
+    """Return the documents of a file, at least one; None for a document that could not be read."""
     source = read_source(path, report, inputs)
     return [None] if source is None else load(source, report)
 
 
 def _is_part(header: Map, file: Path, report: Report) -> bool:
-    """Whether a file given as device.yaml is a part; this is one finding in place of one for each key."""
+    """Report a part that was given as device.yaml, with one finding in place of one for each key."""
     if any(key in header for key in ("device", "family", "vendor", "model")) or not _PART_KEYS & set(header):
         return False
     whole = file.parent / "device.yaml"
@@ -101,6 +101,6 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
 
 
 def _leads_beside(link: Path, device_file: Path) -> bool:
-    """Whether a link ends in the folder of the description, or in the folder that device.yaml itself links to."""
+    """Return True if a link leads into the folder of the description, or of the file that device.yaml links to."""
     folder = os.path.dirname(os.path.realpath(link))
     return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))

@@ -1,4 +1,4 @@
-"""Texts for findings about the shape of a file: what stands there, and what may have been meant."""
+"""Texts for findings about the shape of a file: how a value is named, and what to write instead."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ _GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, bel
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
 _TYPING_SLIP = 0.7
-"""How similar keys must be; with less, `precision` would be taken for `section`."""
+"""How similar keys must be; at 0.6 `precision` would be taken for `section`."""
 _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 def quoted(text: str) -> str:
-    """A text from a description, shortened for messages."""
+    """Return a text from a description in backquotes, shortened."""
     return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
 
 
 def shown(value: Any) -> str:
-    """A value from a description, in words."""
+    """Return a value from a description in words."""
     if isinstance(value, Map | Seq):
         return "a mapping" if isinstance(value, Map) else "a list"
     if value is None:
@@ -43,7 +43,7 @@ def shown(value: Any) -> str:
 
 
 def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form | None) -> str:
-    """The hint for a value of the wrong type."""
+    """Return the hint for a value of the wrong type."""
     if value is None:
         return "fill it in, or leave the key out"
     said = None
@@ -59,7 +59,7 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form |
 
 
 def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, form: Form | None) -> str | None:
-    """The hint for a number, true or false where something else belongs."""
+    """Return the hint for a number, true or false where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
     typed = str(value).lower() if isinstance(value, bool) else str(value)
@@ -98,7 +98,7 @@ def _example(example: Any) -> str:
 
 
 def form_hint(value: str, form: Form) -> str:
-    """How a text of this form is written."""
+    """Return how a text of this form is written."""
     if form is not forms.NAME:
         return form.hint
     import unicodedata
@@ -111,7 +111,7 @@ def form_hint(value: str, form: Form) -> str:
     return f"write `{suggestion}`" if re.fullmatch(form.pattern, suggestion) else form.hint
 
 
-def named_otherwise(key: str, known: Collection[Form]) -> str | None:
+def key_in_our_notation(key: str, known: Collection[Form]) -> str | None:
     """Return a key that names bits or a language in our notation; None if it does not."""
     if forms.BITS in known:
         return bits_meant(key)
@@ -119,7 +119,7 @@ def named_otherwise(key: str, known: Collection[Form]) -> str | None:
 
 
 def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
-    """The hint for an unknown key with this value."""
+    """Return the hint for an unknown key with this value."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
     if "parts" in known and (key == "groups" or key in keys_of(GROUP)):
@@ -133,7 +133,7 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
 def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) -> str:
     """Return the hint for a key that is misspelled, or that nothing is known of."""
     written = [form for form in written if form is not forms.PRIVATE]
-    named = named_otherwise(key, written)
+    named = key_in_our_notation(key, written)
     if named is not None:
         return f"write `{named}`"
     near = nearest(key, tuple(known), _TYPING_SLIP)
@@ -147,7 +147,7 @@ def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) ->
 
 @lru_cache(maxsize=4096)
 def nearest(word: str, known: tuple[str, ...], likeness: float = 0.6) -> str | None:
-    """The known word most similar to this one, or None."""
+    """Return the known word that is most similar to this one, or None."""
     import difflib
 
     if len(word) > _LONGEST_COMPARED:

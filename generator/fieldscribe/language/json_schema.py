@@ -1,4 +1,4 @@
-"""The table of keys as JSON Schema (draft 7), for editors: what `fieldscribe schema` prints."""
+"""Writes the table of keys as JSON Schema (draft 7) for editors: the output of `fieldscribe schema`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _REFERENCE = "#/definitions/"
 
 
 def json_schema() -> dict[str, Any]:
-    """The schema of a file: of device.yaml, or of a part."""
+    """Return the schema of a file: of device.yaml, or of a part."""
     definitions = _Definitions()
     device, part = (definitions.shape(place.shape) for place in (DEVICE, PART))
     return {
@@ -38,7 +38,7 @@ def json_schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """The schema as text, with one line for each key, so that a diff shows what changed."""
+    """Return the schema as text with a line for each key, so that a diff shows what changed."""
     schema = json_schema()
     definitions = ",\n".join(
         f"  {_dumped(name)}: {_lines(definition)}" for name, definition in schema.pop("definitions").items()
@@ -48,7 +48,7 @@ def schema_text() -> str:
 
 
 def _lines(definition: dict[str, Any]) -> str:
-    """A definition on one line; if it has keys, with one line for each of them."""
+    """Return a definition on one line; if it has keys, with a line for each of them."""
     if "properties" not in definition:
         return _dumped(definition)
     keys = ",\n".join(f"    {_dumped(key)}: {_dumped(schema)}" for key, schema in definition["properties"].items())
@@ -61,20 +61,20 @@ def _dumped(value: Any) -> str:
 
 
 class _Definitions:
-    """The shared definitions of the schema: named places, and the values of keys that stand in several places."""
+    """Builds schemas and the definitions that they share: named places, and values of keys with several places."""
 
     def __init__(self) -> None:
         self.by_name: dict[str, Any] = {}
 
     def key(self, key: Key) -> dict[str, Any]:
-        """The schema of the value of a key, or a reference to it."""
+        """Return the schema of the value of a key, or a reference to it."""
         place = _place(key.shape)
         if len(key.places) == 1 or (place is not None and place.name):
             return self.shape(key.shape)
         return self._named(f"at_{key.name}", key.shape)
 
     def shape(self, shape: Shape) -> dict[str, Any]:
-        """The schema of a shape, or a reference to it if the shape is a named place."""
+        """Return the schema of a shape, or a reference to it if the shape is a named place."""
         place = _place(shape)
         if place is None or not place.name:
             return self._written(shape)
@@ -100,7 +100,7 @@ class _Definitions:
         if "integer" in types and "string" not in types:
             types.append("string")
             said = _in_every_notation(said)
-        return {**_told(shape), "type": types[0] if len(types) == 1 else types, **said}
+        return {**_documentation(shape), "type": types[0] if len(types) == 1 else types, **said}
 
     def _kind(self, kind: Kind) -> dict[str, Any]:
         if isinstance(kind, Place):
@@ -109,10 +109,12 @@ class _Definitions:
             return {"items": self.shape(kind.item), **({"minItems": kind.least} if kind.least else {})}
         if isinstance(kind, Text):
             form = {} if kind.form is None else {"pattern": kind.form.pattern}
-            return _said(maxLength=kind.longest, enum=list(kind.choices)) | form
+            return _not_empty(maxLength=kind.longest, enum=list(kind.choices)) | form
         if isinstance(kind, Whole):
             bounds = {"minimum": kind.least, "maximum": kind.greatest}
-            return _said(enum=list(kind.choices)) | {word: bound for word, bound in bounds.items() if bound is not None}
+            return _not_empty(enum=list(kind.choices)) | {
+                word: bound for word, bound in bounds.items() if bound is not None
+            }
         return {}
 
     def _mapping(self, place: Place) -> dict[str, Any]:
@@ -120,23 +122,23 @@ class _Definitions:
         by_pattern = {form.pattern: self.shape(shape) for form, shape in place.by_form.items() if form is not forms.ANY}
         other = place.by_form.get(forms.ANY)
         return {
-            **_said(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=by_pattern),
+            **_not_empty(properties={name: self.key(key) for name, key in keys.items()}, patternProperties=by_pattern),
             "additionalProperties": False if other is None else self.shape(other),
-            **_said(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
+            **_not_empty(required=list(required(place)), minProperties=place.least, dependencies=needs(place)),
         }
 
 
-def _told(shape: Shape) -> dict[str, Any]:
-    """What editors show: the meaning, and examples.
+def _documentation(shape: Shape) -> dict[str, Any]:
+    """Return what editors show: the meaning, and examples.
 
-    Editors offer `examples` as values, too, each under its own text: what holds keys has no such text, so it is shown
-    below the meaning, as it stands in YAML.
+    Editors also offer `examples` as values, but only those without keys. The others are shown below the meaning, as
+    YAML.
     """
     examples = [example for example in shape.examples if not _holds_keys(example)]
     blocks = [_block(example) for example in shape.examples if _holds_keys(example)]
     marked = bool(blocks) or "`" in shape.meaning
     markdown = "\n\n".join([_markdown(shape.meaning), *(f"```yaml\n{block}\n```" for block in blocks)])
-    return _said(description=shape.meaning, markdownDescription=markdown if marked else "", examples=examples)
+    return _not_empty(description=shape.meaning, markdownDescription=markdown if marked else "", examples=examples)
 
 
 def _holds_keys(example: Any) -> bool:
@@ -150,14 +152,14 @@ def _block(example: Any) -> str:
 
 
 def _markdown(text: str) -> str:
-    """The text with code as it stands, and nothing else that Markdown would take for markup."""
+    """Return the text for Markdown: code stays, other markup is escaped."""
     parts = text.split("`")
     parts[::2] = [_MARKUP.sub(r"\\\g<0>", part) for part in parts[::2]]
     return "`".join(parts)
 
 
 def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
-    """The schema of a whole number; YAML takes notations such as 1028h for text."""
+    """Return the schema of a whole number with its notations that YAML takes for text, such as 1028h."""
     if "enum" not in said:
         return said | {"pattern": forms.WHOLE.pattern}
     choices = said.pop("enum")
@@ -167,11 +169,11 @@ def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
 _TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", Place: "object"}
 
 
-def _said(**words: Any) -> dict[str, Any]:
-    """The keywords whose values are not empty."""
+def _not_empty(**words: Any) -> dict[str, Any]:
+    """Return the keywords whose values are not empty."""
     return {word: value for word, value in words.items() if value}
 
 
 def _place(shape: Shape) -> Place | None:
-    """The place whose own shape this is; None for any other shape."""
+    """Return the place that this shape belongs to; None for any other shape."""
     return next((kind for kind in shape.kinds if isinstance(kind, Place) and kind.shape is shape), None)

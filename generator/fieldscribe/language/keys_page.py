@@ -1,4 +1,4 @@
-"""The table of keys as Markdown: what descriptions/KEYS.md holds."""
+"""Writes the table of keys as Markdown: descriptions/KEYS.md."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _PLAIN: dict[Kind, str] = {NUMBER: "number", BOOLEAN: "`true`, `false`", NOTHING
 
 
 def keys_markdown() -> str:
-    """The page: one table for each kind of mapping."""
+    """Return the page, with a table for each kind of mapping."""
     lines = ["# All keys of the description language", ""]
     lines += ["Made by `make keys` from the table of keys; `README.md` beside this page shows them at work.", ""]
     lines += ["Whole numbers are written as manuals write them: `4136`, `0x1028`, `1028h`, `H'33F`, `0b0101`.", ""]
@@ -34,7 +34,7 @@ def keys_markdown() -> str:
 
 
 def _rows(place: Place, prefix: str = "") -> Iterator[tuple[str, ...]]:
-    """The rows for the keys of a place, and for the keys inside of places without their own table."""
+    """Yield the rows of the keys of a place, and of the keys inside of places that have no table."""
     for name, key in keys_of(place).items():
         if place not in key.places:
             continue  # the key of a place with its own table
@@ -54,7 +54,7 @@ def _inside(shape: Shape, prefix: str) -> Iterator[tuple[str, ...]]:
 
 
 def _leads_to_a_table(shape: Shape) -> bool:
-    """Whether what is inside has a table of its own, so that a key of many places need not repeat what it is."""
+    """Return True if the values inside have a table, so that their keys need not be repeated."""
     inner = [
         kind
         for outer in shape.kinds
@@ -85,7 +85,7 @@ def _example(shape: Shape) -> str:
 
 
 def shown(value: Any) -> str:
-    """An example as it stands in YAML."""
+    """Return an example as YAML."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key}: {shown(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):

@@ -1,7 +1,7 @@
-"""Reads YAML 1.2 text with libyaml: values that know where they stand, one mapping for each document.
+"""Reads YAML 1.2 text with libyaml, and returns a mapping for each document; values know where they stand.
 
-Mappings and lists become `Map` and `Seq`, plain scalars what `scalars.py` makes of them. Nothing is constructed from
-tags, and what aliases and nesting may cost is bounded.
+Mappings and lists become `Map` and `Seq`, plain scalars what the core rules of YAML 1.2 say. Tags are refused; depth,
+number of values and expansion of aliases are limited.
 """
 
 from __future__ import annotations
@@ -34,13 +34,16 @@ WORDS: dict[str, bool | None] = {
 }
 _PLAIN = re.compile(r"[^\W_][\w .+*/=()°%;<>!'-]*(?<! )")
 _OTHERWISE = frozenset({"on", "off", "yes", "no", "y", "n"})
-"""Words that readers of YAML 1.1 do not take for text."""
+"""Words that readers of YAML 1.1 take for true or false."""
 _NUMBER_STARTS = frozenset("-+.0123456789")
 _NUMBER_ENDS = frozenset(".0123456789abcdefABCDEF")
 
 
 def scalar(text: str) -> int | Decimal | bool | str | None:
-    """A plain scalar by the rules of the YAML 1.2 core schema; infinities and overlong numbers stay text."""
+    """Return the value of a plain scalar: `on`, `NO` and `12:30` are text, `010` is ten, decimals are exact.
+
+    These are the rules of the core schema of YAML 1.2, but infinities and overlong numbers stay text.
+    """
     if text[:1] not in _NUMBER_STARTS:
         return WORDS.get(text, text)
     if text[-1] not in _NUMBER_ENDS:
@@ -54,7 +57,7 @@ def scalar(text: str) -> int | Decimal | bool | str | None:
 
 
 def as_yaml(text: str) -> str:
-    """A text as a scalar that stands for it everywhere, in quotes where it needs them."""
+    """Return a text as a YAML scalar, in quotes where a reader of YAML 1.1 or 1.2 needs them."""
     if _PLAIN.fullmatch(text) and scalar(text) == text and text.lower() not in _OTHERWISE:
         return text
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')

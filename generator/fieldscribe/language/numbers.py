@@ -1,7 +1,7 @@
-"""Numbers as manuals write them: decimal, hexadecimal with a marker, binary with `0b`; exact, as fractions.
+"""Reads numbers as manuals write them: decimal, hexadecimal with a marker, binary with `0b`; exact, as fractions.
 
-`4136`, `0.1`, `-5`, `1e3`, `0x1028`, `1028h`, `H'33F`, `0b0101`. A leading zero does not change the base. What a reader
-could take in two ways (`4E20`, `1,5`, `1FF`) is refused with a hint.
+`4136`, `0.1`, `-5`, `1e3`, `0x1028`, `1028h`, `H'33F`, `0b0101`. A leading zero does not change the base. Numbers that
+could be read in two ways (`4E20`, `1,5`, `1FF`) are refused with a hint.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
 
 
 class NumberError(ValueError):
-    """A text that is no number. `message` says what is wrong, `hint` how to write it (may be empty)."""
+    """A text is no number. `message` says what is wrong, `hint` how to write it (may be empty)."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -40,7 +40,7 @@ class NumberError(ValueError):
 
 @lru_cache(maxsize=65536)
 def parse_number(text: str) -> Fraction:
-    """The exact number that a text means; blanks around it are ignored. Raises NumberError."""
+    """Return the exact number of a text; blanks around it are ignored. Raises NumberError."""
     text = text.strip(" \t")
     if len(text) > LONGEST:
         raise NumberError(f"a number has at most {LONGEST} characters", "write it with an exponent, as in 1e30")
@@ -57,7 +57,7 @@ def parse_number(text: str) -> Fraction:
 
 @lru_cache(maxsize=65536)
 def parse_integer(text: str) -> int:
-    """The whole number that a text means. A decimal point is refused, even before zeros. Raises NumberError."""
+    """Return the whole number of a text; a decimal point is refused, even before zeros. Raises NumberError."""
     number = parse_number(text)
     if number.denominator != 1 or "." in text:
         raise NumberError(f"`{shown(text)}` is not a whole number", "write a whole number, without a decimal point")
@@ -65,14 +65,14 @@ def parse_integer(text: str) -> int:
 
 
 def plain_number(value: object) -> int | None:
-    """The whole number that a number or a text such as `1028h` plainly is; None for all that needs a closer look."""
+    """Return the whole number of a number or of a text such as `1028h`; None for any other notation."""
     if not isinstance(value, str):
         return value if isinstance(value, int) else None
     return int(value[:-1], 16) if _HEX_DIGITS.fullmatch(value) else None
 
 
 def is_whole_number(text: str) -> bool:
-    """Whether a text is a whole number in some notation."""
+    """Return True if a text is a whole number in some notation."""
     try:
         parse_integer(text)
     except NumberError:
@@ -81,13 +81,13 @@ def is_whole_number(text: str) -> bool:
 
 
 def shown(text: str) -> str:
-    """A text from a description for messages: clean, short, and on one line."""
+    """Return a text from a description for messages: clean, short, and on one line."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
 
 
 def _decimal(text: str, match: re.Match[str]) -> Fraction:
-    """The number of a decimal, from its digits, fraction and exponent."""
+    """Return the number of a decimal, from its digits, fraction and exponent."""
     whole, fraction, mark, exponent = match.groups()
     if fraction is None and mark is None:
         return Fraction(int(whole))
@@ -128,19 +128,19 @@ def _modicon_hint(match: re.Match[str]) -> str:
     return f"on the wire it is {number}, in the space `{space}`; the printed number goes under `printed`"
 
 
-def _said(hint: str) -> Callable[[re.Match[str]], str]:
+def _always(hint: str) -> Callable[[re.Match[str]], str]:
     return lambda _: hint
 
 
 _REFUSED: tuple[tuple[str, str, Callable[[re.Match[str]], str]], ...] = (
-    (r"", "a number is missing", _said("write a number, for example 4136, 0.1, 1028h or 0b0101")),
-    (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _said("write -")),
+    (r"", "a number is missing", _always("write a number, for example 4136, 0.1, 1028h or 0b0101")),
+    (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _always("write -")),
     (r"[+-]?[0-9]{1,3}(?:,[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
     (r"[+-]?[0-9]+,[0-9]+", "a decimal comma, or a separator of thousands", _comma_hint),
     (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
     (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
-    (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _said("as in 0b0101; hexadecimal ends in h")),
-    (r"[+-]?0B[01]*", "binary is marked with a small b", _said("write 0b0101 for binary, 0B01h for hexadecimal")),
+    (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _always("as in 0b0101; hexadecimal ends in h")),
+    (r"[+-]?0B[01]*", "binary is marked with a small b", _always("write 0b0101 for binary, 0B01h for hexadecimal")),
     (r"([134])[xX]([0-9]{4,5})", "a number for people, counted from 1", _modicon_hint),
     (
         r"(?:\$|#|&[hH]|16#|[xX]')\s*([0-9A-Fa-f]+)'?|([0-9A-Fa-f]+)\s*(?:hex|HEX|Hex)",
@@ -150,27 +150,27 @@ _REFUSED: tuple[tuple[str, str, Callable[[re.Match[str]], str]], ...] = (
     (
         r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
         "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",
-        _said("write 1028h, 0x1028 or H'1028"),
+        _always("write 1028h, 0x1028 or H'1028"),
     ),
     (r"([+-]?)([0-9A-Fa-f]+)", "hexadecimal digits without a marker", _hex_hint),
-    (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _said("write 0.5")),
-    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _said("write 5 or 5.0")),
-    (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _said("write the sign directly before it")),
+    (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _always("write 0.5")),
+    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _always("write 5 or 5.0")),
+    (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _always("write the sign directly before it")),
     (
         r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",
         "a blank stands inside the number",
-        _said("write it without blanks; a unit is not part of a number"),
+        _always("write it without blanks; a unit is not part of a number"),
     ),
     (
         r"[+-]?[0-9]+(?:\.[0-9]+)?\s*(?:[^\W\d_][^\d]*|[%\u00b0\u2030\u00b5\u2126].*)",
         "a unit is not part of a number",
-        _said("write the number alone; the unit has its own key"),
+        _always("write the number alone; the unit has its own key"),
     ),
 )
 
 
 def _diagnosis(text: str) -> NumberError:
-    """The error for a text that is no number, from the first known mistake that fits."""
+    """Return the error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
         if match := re.fullmatch(pattern, text, re.DOTALL):
             return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(match)))

@@ -1,4 +1,4 @@
-"""A YAML text as its pieces: every sign, scalar and mark, each with the blanks, line breaks and comments before it."""
+"""Splits a YAML text into pieces for `canonical.py`: signs, scalars and marks, each with the comments before it."""
 
 from __future__ import annotations
 
@@ -48,23 +48,23 @@ class Comment(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """What stands before a piece: a comment behind the last one, then lines (None: an empty one), if there are any."""
+    """What stands before a piece: a comment behind the previous one, then lines (None for an empty one)."""
 
     behind: Comment | None
     blanks: int
     """The blanks before that comment."""
     lines: tuple[Comment | None, ...]
     breaks: bool
-    """Whether there is a line break at all."""
+    """True if there is a line break."""
 
     @property
     def has_comment(self) -> bool:
-        """Whether it holds any comment."""
+        """True if it has a comment."""
         return self.behind is not None or any(self.lines)
 
 
 class OddError(Exception):
-    """A way of writing that has no canonical form here: line and column (from 1), what it is, and what to do."""
+    """The text has something without a canonical form: line and column (from 1), what it is, and what to do."""
 
     def __init__(self, line: int, column: int, message: str, hint: str) -> None:
         super().__init__(message)
@@ -74,9 +74,9 @@ class OddError(Exception):
 class Piece(NamedTuple):
     """A piece: its sign or kind, its text, its line (from 1) and column (from 0), and what stands before it.
 
-    The kinds are the signs `- : , { } [ ]`, and document, property, alias, scalar, block (a scalar with its lines),
-    end; those without a text of their own (mapping, sequence, close) open and close what is told by indentation, and
-    `key` stands before a key.
+    The kinds are the signs `- : , { } [ ]`, and document, property, alias, scalar, block (a block scalar with its
+    lines) and end. Pieces without text open and close block mappings and lists (mapping, sequence, close); `key` comes
+    before each key.
     """
 
     kind: str
@@ -90,12 +90,12 @@ _NO_GAP = Gap(None, 0, (), breaks=False)
 
 
 def unbroken(text: str) -> str:
-    """The text with line breaks of one kind."""
+    """Return the text with one kind of line break."""
     return _BREAK.sub("\n", text)
 
 
 def comments(text: str) -> list[str]:
-    """The comments of a sound text, in their order. Raises OddError."""
+    """Return the comments of a text without errors, in order. Raises OddError."""
     said: list[str] = []
     for piece in pieces(text):
         gap = piece.gap
@@ -104,7 +104,7 @@ def comments(text: str) -> list[str]:
 
 
 def pieces(text: str) -> Iterator[Piece]:
-    """The pieces of a sound text, whose line breaks are of one kind. Raises OddError."""
+    """Yield the pieces of a text without errors, with one kind of line break. Raises OddError."""
     _refuse_strange_breaks(text)
     end = 0
     for token in _tokens(text):
@@ -127,7 +127,7 @@ def _tokens(text: str) -> Iterator[Any]:
 
 
 def _kind(token: Any) -> str:
-    """The kind of a piece; empty for what has no place in the text."""
+    """Return the kind of a token; empty for one without a place in the text."""
     if type(token) is yaml.ScalarToken:
         return "block" if token.style in ("|", ">") else "scalar"
     if type(token) is yaml.KeyToken:

@@ -22,13 +22,13 @@ _STEPPED = r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)"
 """A resolution, such as `0.1 Hz`."""
 _NO_UNIT = frozenset({"", "-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
 _SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})
-"""Micro and ohm have two characters each that look alike."""
+"""Micro and ohm each have two characters that look the same."""
 _PREFIX_LETTERS = frozenset("yzafpnµmcdhkMGTPEZY")
 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """A unit that needs no declaration; 1 of it is `factor` times `base`, the unit without prefix."""
+    """A shipped unit; 1 of it is `factor` times `base`, the unit without a prefix."""
 
     unit: Unit
     base: str
@@ -40,7 +40,7 @@ class Known:
 
 @cache
 def shipped() -> Mapping[str, Known]:
-    """All units that need no declaration, by symbol; each is followed by its forms with prefixes."""
+    """Return all shipped units by symbol; each is followed by its forms with prefixes."""
     table = _table()
     units: dict[str, Known] = {}
     for symbol, entry in table["units"].items():
@@ -52,13 +52,13 @@ def shipped() -> Mapping[str, Known]:
 
 
 def shipped_unit(symbol: str) -> Unit | None:
-    """The shipped unit of that symbol; micro may be written with either of its characters."""
+    """Return the shipped unit of a symbol, or None; micro may be written with either of its characters."""
     known = shipped().get(symbol.translate(_SAME))
     return None if known is None else known.unit
 
 
 def factor_between(typed: str, unit: Unit) -> Fraction | None:
-    """The factor from the `typed` unit to the other; None unless they differ only in the prefix."""
+    """Return the factor from the `typed` unit to the other; None unless they differ only in the prefix."""
     mine, other = shipped().get(typed.translate(_SAME)), shipped().get(unit.symbol)
     if mine is None or other is None or other.unit != unit or mine.base != other.base:
         return None
@@ -66,7 +66,7 @@ def factor_between(typed: str, unit: Unit) -> Fraction | None:
 
 
 def unit_hint(typed: str, declared: Iterable[str]) -> str:
-    """The hint for an unknown unit. A unit of another size or quantity is never the only suggestion."""
+    """Return the hint for an unknown unit; a unit of another size or quantity is never the only suggestion."""
     if typed.casefold() in _NO_UNIT:
         return "a plain number has no unit: leave `unit` out"
     stepped = re.fullmatch(_STEPPED, typed)
@@ -80,18 +80,18 @@ def unit_hint(typed: str, declared: Iterable[str]) -> str:
 
 
 def _symbol_with_name(symbol: str, *, alone: bool) -> str:
-    """A symbol; with its name if there are several to choose from."""
+    """Return a symbol, with its name if there are several to choose from."""
     known = shipped().get(symbol)
     return f"`{symbol}`" if alone or known is None else f"`{symbol}` ({known.unit.name})"
 
 
 def _as_key(typed: str) -> str:
-    """A symbol as a YAML key in braces, quoted if necessary."""
+    """Return a symbol as a YAML key in braces, quoted if necessary."""
     return typed if typed.replace("/", "").isalnum() else f'"{typed}"'
 
 
 def _symbols_meant(typed: str, declared: Iterable[str]) -> list[str]:
-    """The symbols that the text probably means; those with another prefix come last."""
+    """Return the symbols that a text probably means; those with another prefix come last."""
     folded = _folded(typed)
     symbols = [symbol for symbol in declared if _folded(symbol) == folded]
     spelled = [known for known in shipped().values() if folded in _spelled(known)]
@@ -106,7 +106,7 @@ def _symbols_meant(typed: str, declared: Iterable[str]) -> list[str]:
 
 
 def _same_prefix(typed: str, known: Known) -> bool:
-    """Whether the unit has the typed prefix: `MV` is not `mV`, but `KW` can only be `kW`. Whole names always fit."""
+    """Return True if the unit has the typed prefix: `MV` is not `mV`, but `KW` can only be `kW`; names always fit."""
     first = typed.translate(_SAME)[:1].replace("u", "µ")
     if not known.prefix or first == known.prefix or first not in _PREFIX_LETTERS:
         return True
@@ -114,7 +114,7 @@ def _same_prefix(typed: str, known: Known) -> bool:
 
 
 def _other_letter(typed: str, known: Known) -> bool:
-    """Whether the case of the last letter makes it another unit: `M` is no metre, `mh` no henry."""
+    """Return True if the case of the last letter makes it another unit: `M` is no metre, `mh` no henry."""
     letter = typed[-1:]
     if len(known.base) != 1 or letter == known.base or letter.casefold() != known.base.casefold():
         return False
@@ -133,12 +133,12 @@ def _spelled(known: Known) -> frozenset[str]:
 
 
 def _folded(text: str) -> str:
-    """The text in lower case and with one character for micro, for comparing."""
+    """Return the text in lower case and with one character for micro, for comparing."""
     return _with_micro(text.translate(_SAME).casefold())
 
 
 def _with_micro(text: str) -> str:
-    """The text with the proper character for micro; keyboards have `u`."""
+    """Return the text with the proper character for micro; keyboards have `u`."""
     text = text.translate(_SAME)
     return f"µ{text[1:]}" if text[:1] == "u" else text
 

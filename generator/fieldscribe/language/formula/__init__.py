@@ -1,4 +1,4 @@
-"""The formula language: exact rationals, points by name, linear rules. Text in, trees and rules out."""
+"""The formula language: parses formulas and conditions into trees, and turns trees into exact linear rules."""
 
 from fieldscribe.language.formula.conditions import (
     AllOf,

@@ -1,4 +1,4 @@
-"""Conditions: comparisons of one name with constants, joined by and, or, not. No arithmetic."""
+"""Parses conditions: comparisons of a name with constants, joined by and, or, not; without arithmetic."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MOST_CLAUSES = 64
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A number, or a word that names one (an entry of an enum); `text` is how it is written (`550`, `400V`)."""
+    """A number, or a word that names one (an entry of an enum); `text` is as written (`550`, `400V`)."""
 
     value: Fraction | str
     column: int = field(compare=False)
@@ -44,21 +44,21 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Not:
-    """True when the operand is not."""
+    """True if the operand is false."""
 
     operand: Condition
 
 
 @dataclass(frozen=True, slots=True)
 class AllOf:
-    """True when all parts are."""
+    """True if all parts are true."""
 
     parts: tuple[Condition, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class AnyOf:
-    """True when one of the parts is."""
+    """True if one of the parts is true."""
 
     parts: tuple[Condition, ...]
 
@@ -77,7 +77,7 @@ def parse_condition(text: str) -> Condition:
 
 @lru_cache(maxsize=4096)
 def parse_case(text: str) -> tuple[Name, int]:
-    """The case of a scale, `NAME == constant`, as name and raw number. Raises FormulaError."""
+    """Parse the case of a scale, `NAME == constant`; return the name and the raw number. Raises FormulaError."""
     how = "a case is written NAME == constant, on the raw number"
     parser = Parser(text)
     if parser.token.part == "value":
@@ -93,7 +93,7 @@ def parse_case(text: str) -> tuple[Name, int]:
 
 
 def condition_names(condition: Condition) -> tuple[Name, ...]:
-    """All names that a condition compares, in the order of the text, each time they occur."""
+    """Return all names that a condition compares, in the order of the text, with repetitions."""
     return tuple(comparison.name for comparison in _comparisons(condition))
 
 
@@ -195,7 +195,7 @@ def _constant(parser: Parser) -> Constant:
 
 
 def wrong_number(text: str, column: int) -> FormulaError:
-    """The error for a word that begins with a digit, where it can be no name."""
+    """Return the error for a word that starts with a digit, where it can be no name."""
     try:
         number(Token("number", text, "", column))
     except FormulaError as error:
@@ -204,12 +204,12 @@ def wrong_number(text: str, column: int) -> FormulaError:
 
 
 def clauses_of(condition: Condition) -> tuple[tuple[Comparison, ...], ...]:
-    """The condition as an `or` of clauses; each clause is an `and` of comparisons. Raises FormulaError for too many."""
+    """Return the condition as an `or` of clauses, each an `and` of comparisons. Raises FormulaError for too many."""
     return _clauses(condition, turned=False)
 
 
 def _clauses(condition: Condition, *, turned: bool) -> tuple[tuple[Comparison, ...], ...]:
-    """The clauses of the condition, or of its opposite if `turned`."""
+    """Return the clauses of a condition, or of its opposite if `turned`."""
     match condition:
         case Comparison():
             return _turned(condition) if turned else ((condition,),)
@@ -233,7 +233,7 @@ def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comp
 
 
 def _turned(comparison: Comparison) -> tuple[tuple[Comparison, ...], ...]:
-    """The opposite of a comparison; the opposite of `in` is that no constant is equal."""
+    """Return the opposite of a comparison; the opposite of `in` is that no constant is equal."""
     if comparison.op == "in":
         return (tuple(replace(comparison, op="!=", constants=(each,)) for each in comparison.constants),)
     return ((replace(comparison, op=_OPPOSITES[comparison.op]),),)

@@ -1,4 +1,4 @@
-"""Works out formulas whose numbers are all known."""
+"""Evaluates expressions whose names all have known numbers."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MOST_BITS = 4096
-"""The most bits of a numerator or denominator: larger results mean nothing to a device and cannot be printed."""
+"""The most bits of a numerator or denominator; larger results make no sense and cannot be printed."""
 
 
 def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction:
-    """The result of an expression; `values` maps names to numbers (key `name.raw` for `.raw`). Raises FormulaError."""
+    """Return the result of an expression; `values` has numbers by name (`name.raw` for `.raw`). Raises FormulaError."""
     return bounded(_evaluate(expression, values), start(expression))
 
 
 def start(expression: Expression) -> int:
-    """The column of the leftmost part of an expression (parentheses aside)."""
+    """Return the column of the leftmost operand of an expression."""
     while isinstance(expression, Binary):
         expression = expression.left
     return expression.column
 
 
 def bounded(result: Fraction, column: int) -> Fraction:
-    """The result unchanged. Raises FormulaError if it is too large to make sense."""
+    """Return the result unchanged. Raises FormulaError if it is too large."""
     if result.numerator.bit_length() > MOST_BITS or result.denominator.bit_length() > MOST_BITS:
         raise FormulaError("the numbers of this formula are too large", column)
     return result

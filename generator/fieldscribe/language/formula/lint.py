@@ -1,4 +1,4 @@
-"""Warns about decimals that were cut off, and finds the fraction that was meant."""
+"""Finds decimals that were cut off, and the fractions that they stand for."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LONGEST_TEXT = 2000
 
 
 class CutOff(NamedTuple):
-    """A decimal that is almost a simple fraction; `line` is the formula with the fraction in its place."""
+    """A decimal that is almost a simple fraction; `line` is the formula with that fraction."""
 
     typed: str
     exact: str
@@ -33,7 +33,7 @@ class CutOff(NamedTuple):
 
 @lru_cache(maxsize=16384)
 def cut_off(text: str) -> CutOff | None:
-    """The first decimal of a formula that is almost n / 2^k * 10^m, or a repeating fraction such as 2 / 3.
+    """Return the first decimal of a formula that is almost n / 2^k * 10^m, or a repeating fraction such as 2 / 3.
 
     "Almost" is within half a unit of the last digit; decimals with fewer than five digits are left alone.
     """
@@ -45,7 +45,7 @@ def cut_off(text: str) -> CutOff | None:
 
 
 def exact_scale(text: str) -> str:
-    """The formula with fractions in place of its decimals that were cut off."""
+    """Return the formula with fractions in place of the decimals that were cut off."""
     for decimal, exact in reversed(list(_cut(text[:_LONGEST_TEXT]))):
         text = _replaced(text, decimal, exact)
     return text
@@ -61,7 +61,7 @@ def _cut(text: str) -> Iterator[tuple[re.Match[str], str]]:
 
 
 def _replaced(text: str, decimal: re.Match[str], exact: str) -> str:
-    """The text with the fraction in the place of the decimal: `raw * 0.33333` becomes `raw / 3`."""
+    """Return the text with the fraction in place of the decimal: `raw * 0.33333` becomes `raw / 3`."""
     before, behind = text[: decimal.start()].rstrip(), text[decimal.end() :]
     top, _, bottom = exact.partition(" / ")
     if before.endswith("/"):
@@ -73,7 +73,7 @@ def _replaced(text: str, decimal: re.Match[str], exact: str) -> str:
 
 
 def _almost(typed: str) -> str | None:
-    """The fraction that a decimal is almost equal to, as text; None if there is none or the decimal is exact."""
+    """Return the fraction that a decimal almost equals, as text; None if there is none, or if the decimal is exact."""
     whole, _, decimals = typed.partition(".")
     number = Fraction(int(whole + decimals), 10 ** len(decimals))
     half = Fraction(1, 2 * 10 ** len(decimals))
@@ -83,7 +83,7 @@ def _almost(typed: str) -> str | None:
 
 
 def _nearest(number: Fraction, half: Fraction, fractions: list[Fraction], texts: list[str]) -> str | None:
-    """The first of the fractions within `half`; None if there is none, or if the number itself is one of them."""
+    """Return the first of the fractions within `half`; None if there is none, or if the number is one of them."""
     first = at = bisect_left(fractions, number - half)
     while at < len(fractions) and fractions[at] <= number + half:
         if fractions[at] == number:
@@ -94,13 +94,13 @@ def _nearest(number: Fraction, half: Fraction, fractions: list[Fraction], texts:
 
 @cache
 def _binary() -> tuple[list[Fraction], list[str]]:
-    """All n / 2^k * 10^m in ascending order, each with its simplest writing."""
+    """Return all n / 2^k * 10^m in ascending order, and the simplest text of each."""
     return _table([2**two for two in _EXPONENTS_OF_TWO])
 
 
 @cache
 def _repeating() -> tuple[list[Fraction], list[str]]:
-    """Fractions whose decimals never end, in ascending order, each with its writing."""
+    """Return fractions with repeating decimals in ascending order, and the text of each."""
     fractions, _ = _table(list(_THIRDS))
     kept = [fraction for fraction in fractions if fraction.denominator % 3 == 0]
     return kept, [f"{fraction.numerator} / {fraction.denominator}" for fraction in kept]

@@ -1,4 +1,4 @@
-"""Turns formulas into the form of the model: result = argument * ratio * product(factors) + offset. Always exact."""
+"""Turns formulas into rules of the model, exactly: result = argument * ratio * product(factors) + offset."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
 
 class Symbol(NamedTuple):
-    """A run-time number: raw * slope + intercept of a point, or ten to this power. Slope > 0, no common divisor."""
+    """A run-time factor: raw * slope + intercept of a point, or ten to this power; slope > 0, no common divisor."""
 
     point: str
     slope: int
@@ -56,29 +56,29 @@ class Term:
 
     @property
     def constant(self) -> bool:
-        """Whether the term is a known number."""
+        """True if the term is a known number."""
         return self.coefficient == 0
 
     @property
     def points(self) -> str:
-        """The points of the product, as messages name them."""
+        """The points of the product, for messages."""
         return " and ".join(f"`{point}`" for point in dict.fromkeys(symbol.point for symbol in self.product))
 
 
 def number(value: Fraction) -> Term:
-    """A constant."""
+    """Return a constant as a term."""
     return Term(Fraction(0), value)
 
 
 def scaled(term: Term, by: Fraction) -> Term:
-    """A term times a constant."""
+    """Return a term times a constant."""
     if by == 0:
         return number(by)
     return Term(term.coefficient * by, term.offset * by, term.variable, term.product)
 
 
 def add(left: Term, right: Term, column: int) -> Term:
-    """The sum of two terms with the same variable and product, or of a term and a constant. Raises FormulaError."""
+    """Return the sum of two terms with the same variable and product, or with a constant. Raises FormulaError."""
     if not (left.constant or right.constant) and (left.variable, left.product) != (right.variable, right.product):
         _refuse_sum(left, right, column)
     coefficient, offset = left.coefficient + right.coefficient, left.offset + right.offset
@@ -89,7 +89,7 @@ def add(left: Term, right: Term, column: int) -> Term:
 
 
 def multiply(left: Term, right: Term, column: int) -> Term:
-    """The product of two terms. Raises FormulaError."""
+    """Return the product of two terms. Raises FormulaError."""
     if left.constant:
         return scaled(right, left.offset)
     if right.constant:
@@ -107,7 +107,7 @@ def multiply(left: Term, right: Term, column: int) -> Term:
 
 
 def reciprocal(term: Term, column: int) -> Term:
-    """One divided by a term. Raises FormulaError."""
+    """Return one divided by a term. Raises FormulaError."""
     if term.constant:
         if term.offset == 0:
             raise FormulaError("division by zero", column)
@@ -119,7 +119,7 @@ def reciprocal(term: Term, column: int) -> Term:
 
 
 def _closed(term: Term, column: int) -> Term:
-    """The same term without an offset: the offset becomes the intercept of its point."""
+    """Return the same term without an offset: the offset becomes the intercept of its point."""
     if term.offset == 0:
         return term
     (symbol, power), *others = term.product.items()
@@ -133,7 +133,7 @@ def _closed(term: Term, column: int) -> Term:
 
 
 def _opened(coefficient: Fraction, variable: int, product: dict[Symbol, int]) -> Term:
-    """The term with this product; if that is a single point, the term is open (see `Term`)."""
+    """Return the term with this product; if that is a single point, the term is open (see `Term`)."""
     if not variable and len(product) == 1:
         (symbol, power) = next(iter(product.items()))
         if power == 1 and not symbol.ten_to:
@@ -166,7 +166,7 @@ def _refuse_sum(left: Term, right: Term, column: int) -> NoReturn:
 
 
 class Affine(NamedTuple):
-    """What a name means at run time: raw * slope + intercept, of the point with this name in the model."""
+    """What a name stands for at run time: raw * slope + intercept of the point with this name in the model."""
 
     point: str
     slope: Fraction
@@ -174,11 +174,11 @@ class Affine(NamedTuple):
 
 
 Resolve = Callable[[str, Part], Affine]
-"""Gives the meaning of a name and its part. A FormulaError that it raises gets the column of the name."""
+"""Returns what a name and its part stand for. A FormulaError that it raises gets the column of the name."""
 
 
 def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
-    """The normal form of an expression that is linear in `variable`; other names are factors. Raises FormulaError."""
+    """Return the rule of an expression that is linear in `variable`; other names are factors. Raises FormulaError."""
     term = _term(expression, variable, resolve)
     if not term.variable:
         raise FormulaError(f"the result does not depend on `{variable}`", start(expression), f"use `{variable}`")
@@ -186,20 +186,20 @@ def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
 
 
 def limit_rule(expression: Expression, resolve: Resolve) -> Linear:
-    """The normal form of a limit, whose argument is always 1; a constant becomes the ratio. Raises FormulaError."""
+    """Return the rule of a limit, whose argument is always 1; a constant becomes the ratio. Raises FormulaError."""
     term = _term(expression, "", resolve)
     return _linear(Term(term.offset, Fraction(0)) if term.constant else term, expression)
 
 
 def scale_rule(scale: Scale, resolve: Resolve) -> Linear:
-    """The rule from value to raw; the scale may be written for either side. Raises FormulaError."""
+    """Return the rule from value to raw; the scale may be written for either side. Raises FormulaError."""
     if not scale.uses:
         return _static_rule(scale)
     return _rule(scale, resolve)
 
 
 def invert(rule: Linear) -> Linear:
-    """The inverse rule. Raises FormulaError (column 0) if its offset would depend on a point."""
+    """Return the inverse rule. Raises FormulaError (column 0) if its offset would depend on a point."""
     if rule.ratio == 0:
         raise FormulaError("a rule without slope cannot be inverted", 0)
     if rule.factors and rule.offset:
@@ -230,7 +230,7 @@ def _no_points(name: str, _: Part) -> NoReturn:
 
 
 def _linear(term: Term, expression: Expression) -> Linear:
-    """The model's rule of a term, factors in the order of the text."""
+    """Return the rule of a term, with its factors in the order of the text."""
     column = start(expression)
     factors = tuple(
         Factor(symbol.point, symbol.slope, symbol.intercept, 1 if power > 0 else -1, symbol.ten_to)

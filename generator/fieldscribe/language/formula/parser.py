@@ -1,4 +1,4 @@
-"""A recursive descent parser for expressions; nesting is bounded."""
+"""Parses expressions, scales and ranges by recursive descent. Nesting is limited; results are cached by their text."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from fieldscribe.language.formula.tokens import Token, number, tokens
 from fieldscribe.language.numbers import MOST_EXPONENT
 
 MOST_OPERATIONS = 50
-"""The most signs and parentheses in one expression: bounds its depth too."""
+"""The most operators and parentheses in one expression; this limits its depth too."""
 
 VARIABLES = ("value", "raw")
-"""Names of the sides of a scale; they never name a point."""
+"""The names of the two sides of a scale; they never name a point."""
 
 
 class Parser:
-    """The tokens of a text and a position in them, with the rules of the grammar as methods."""
+    """The tokens of a text and a position among them, with a method for each rule of the grammar."""
 
     def __init__(self, text: str, column0: int = 0) -> None:
         self._tokens = tokens(text, column0)
@@ -41,51 +41,51 @@ class Parser:
         return self._tokens[self._at]
 
     def sees(self, *signs: str) -> bool:
-        """Whether the next token is one of these signs."""
+        """Return True if the next token is one of these signs."""
         return self.token.kind == "sign" and self.token.text in signs
 
     def sees_word(self, word: str) -> bool:
-        """Whether the next token is this word, without a part."""
+        """Return True if the next token is this word, without a part."""
         return self.token[:3] == ("name", word, "")
 
     def take(self) -> Token:
-        """The next token; the position moves on, but never past the end."""
+        """Return the next token and move on, but never past the end."""
         token = self.token
         if token.kind != "end":
             self._at += 1
         return token
 
     def accept(self, sign: str) -> bool:
-        """Whether the next token is this sign; if so, it is taken."""
+        """Take the next token if it is this sign; return True if so."""
         if self.sees(sign):
             self._at += 1
             return True
         return False
 
     def finish(self, hint: str = "") -> None:
-        """Refuse any tokens that are left."""
+        """Raise FormulaError if any tokens are left."""
         if self.token.kind != "end":
             self.refuse("", hint or self._hint_for_rest())
 
     def refuse(self, wanted: str, hint: str = "") -> NoReturn:
-        """Raise for the next token; `wanted` is what should stand there (empty: nothing)."""
+        """Raise FormulaError for the next token; `wanted` is what should stand there (empty: nothing)."""
         message = f"{wanted} expected, found {self.token}" if wanted else f"unexpected {self.token}"
         raise FormulaError(message, self.token.column, hint)
 
     def nest(self) -> None:
-        """Count an operation or a parenthesis; called before anything recurs. Raises FormulaError beyond the bound."""
+        """Count an operator or a parenthesis, before the parser recurs. Raises FormulaError for too many."""
         self._operations += 1
         if self._operations > MOST_OPERATIONS:
             column = self.token.column
             raise FormulaError(f"an expression has at most {MOST_OPERATIONS} operations", column, "simplify it")
 
     def fresh_expression(self) -> Expression:
-        """One of several expressions in a text; each has its own bound on nesting."""
+        """Parse one of several expressions in a text; each has its own limit on nesting."""
         self._operations = 0
         return self.expression()
 
     def expression(self) -> Expression:
-        """Terms with + and - between them."""
+        """Parse terms with + and - between them."""
         left = self._term()
         while self.sees("+", "-"):
             self.nest()
@@ -139,7 +139,7 @@ class Parser:
         return None
 
     def name(self) -> Name:
-        """A name with its part."""
+        """Parse a name with its part."""
         token = self.token
         if token.kind != "name":
             self.refuse("a name")
@@ -154,7 +154,7 @@ class Parser:
         return Name(token.text, "raw" if token.part == "raw" else "value", token.column)
 
     def _hint_for_rest(self) -> str:
-        """The hint for text that follows a complete expression."""
+        """Return the hint for text that follows a complete expression."""
         previous = self._tokens[self._at - 1] if self._at else None
         if self.sees(","):
             return "a decimal number has a point, not a comma"
@@ -170,7 +170,7 @@ class Parser:
 
 
 def _exponent(operand: Expression, column: int) -> Power10:
-    """The power of ten with this exponent: a whole number or a name, with a sign. Raises FormulaError."""
+    """Return the power of ten with this exponent: a whole number or a name, with a sign. Raises FormulaError."""
     negative = False
     while isinstance(operand, Negate):
         negative = not negative
@@ -193,7 +193,7 @@ _CACHED = 16384
 
 @lru_cache(maxsize=_CACHED)
 def parse_expression(text: str, column0: int = 0) -> Expression:
-    """Numbers and names with + - * /, 10 ** n and parentheses; columns count from `column0`. Raises FormulaError."""
+    """Parse an expression of + - * /, 10 ** n and parentheses; columns count from `column0`. Raises FormulaError."""
     parser = Parser(text, column0)
     expression = parser.expression()
     parser.finish()
@@ -202,7 +202,7 @@ def parse_expression(text: str, column0: int = 0) -> Expression:
 
 @lru_cache(maxsize=_CACHED)
 def parse_scale(text: str) -> Scale:
-    """A scale `raw = <expression of value>` or `value = <expression of raw>`. Raises FormulaError."""
+    """Parse a scale, `raw = <expression of value>` or `value = <expression of raw>`. Raises FormulaError."""
     parser = Parser(text)
     side = parser.token
     how = "write raw = <expression of value> or value = <expression of raw>"
@@ -224,7 +224,7 @@ def parse_scale(text: str) -> Scale:
 
 @lru_cache(maxsize=_CACHED)
 def parse_range(text: str) -> Range:
-    """Alternatives between `|` or `,`, each `low..high` or one expression. Raises FormulaError."""
+    """Parse a range: alternatives between `|` or `,`, each `low..high` or one expression. Raises FormulaError."""
     parser = Parser(text)
     alternatives = []
     listed = True
@@ -255,5 +255,5 @@ def _hint_for_range(parser: Parser) -> str:
 
 
 def constant(expression: Expression) -> bool:
-    """Whether an expression depends on no point."""
+    """Return True if an expression depends on no point."""
     return isinstance(expression, Number) or not names(expression)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class FormulaError(ValueError):
-    """A formula that cannot be read or used. `column` is the offset in its text, from 0; `hint` may be empty."""
+    """A formula cannot be parsed or used. `column` is the offset in its text, from 0; `hint` may be empty."""
 
     def __init__(self, message: str, column: int, hint: str = "") -> None:
         super().__init__(message)
@@ -21,7 +21,7 @@ class FormulaError(ValueError):
 
 
 Part = Literal["value", "raw"]
-"""Which number of a point is meant."""
+"""Which number of a point a name stands for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class Negate:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Two expressions and what is done with them; `column` is that of the sign between them."""
+    """Two expressions and the operator between them, with its column."""
 
     op: Literal["+", "-", "*", "/"]
     left: Expression
@@ -73,7 +73,7 @@ Expression: TypeAlias = Number | Name | Negate | Binary | Power10
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """`side` = expression of the other side. `uses` are the points it needs at run time, in the order of the text."""
+    """`side` = expression of the other side; `uses` are the points it reads at run time, in the order of the text."""
 
     side: Part
     expression: Expression
@@ -81,20 +81,20 @@ class Scale:
 
     @property
     def variable(self) -> Part:
-        """The name of the other side, which the expression uses."""
+        """The other side: the variable of the expression."""
         return "value" if self.side == "raw" else "raw"
 
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Alternatives low..high in the order of the text; `listed` if the author wrote single numbers only."""
+    """Intervals low..high in the order of the text; `listed` if the author wrote only single numbers."""
 
     alternatives: tuple[tuple[Expression, Expression], ...]
     listed: bool
 
 
 def names(expression: Expression) -> tuple[Name, ...]:
-    """All names of an expression in the order of the text, each time they occur."""
+    """Return all names of an expression in the order of the text, with repetitions."""
     return tuple(_names(expression))
 
 

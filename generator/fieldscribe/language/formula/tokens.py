@@ -1,7 +1,8 @@
 """Splits the text of a formula into tokens, each with its column.
 
-A word that begins with a digit is a number (`12h` is 18) or an error. One that begins with a letter is a name (`b082`,
-`F004`, `A020`), but for hexadecimal in capitals with a small h (`FFFFh`). `ffh` is a name; as a number it is `0ffh`.
+A word that starts with a digit is a number (`12h` is 18) or an error. A word that starts with a letter is a name
+(`b082`, `F004`), unless it is hexadecimal in capitals with a small h (`FFFFh`). `ffh` is a name; the number is written
+`0ffh`.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ _STRANGE = {
 
 
 class Token(NamedTuple):
-    """A piece of text; `part` is the word after the point in `NAME.part`, else empty."""
+    """A token; `part` is the word after the point in `NAME.part`, else empty."""
 
     kind: Literal["number", "name", "sign", "end"]
     text: str
@@ -65,12 +66,12 @@ class Token(NamedTuple):
     column: int
 
     def __str__(self) -> str:
-        """The token as messages name it."""
+        """Return the token as messages name it."""
         return "the end" if self.kind == "end" else f"`{shown(self.text + ('.' + self.part if self.part else ''))}`"
 
 
 def tokens(text: str, column0: int = 0) -> list[Token]:
-    """All tokens, the last one of kind `end`; columns count from `column0`. Raises FormulaError."""
+    """Return all tokens, the last one of kind `end`; columns count from `column0`. Raises FormulaError."""
     if not column0:
         return _tokens(text)
     try:
@@ -99,7 +100,7 @@ def _tokens(text: str) -> list[Token]:
 
 
 def number(token: Token) -> Fraction:
-    """The number of a number token. Raises FormulaError."""
+    """Return the number of a number token. Raises FormulaError."""
     try:
         return parse_number(token.text)
     except NumberError as error:
