@@ -167,8 +167,8 @@ class _Layout:
         self.line += first
         for below in rest:
             self.lines.append(self.line if exactly else _ended(self.line))
-            said = below if exactly else _ended(below.lstrip())
-            self.line = f"{indent}{said}" if said else ""
+            text = below if exactly else _ended(below.lstrip())
+            self.line = f"{indent}{text}" if text else ""
 
     def _finish(self, gap: Gap) -> None:
         """End the line with the comment behind it, and write the empty lines and comments below."""
@@ -219,6 +219,6 @@ def _quoted(text: str) -> str:
 def _outdented(text: str) -> str:
     """Return a scalar of several lines without their common indentation."""
     first, *rest = text.split("\n")
-    said = next((line for line in rest if line.strip()), "")
-    indent = len(said) - len(said.lstrip(" "))
+    filled = next((line for line in rest if line.strip()), "")
+    indent = len(filled) - len(filled.lstrip(" "))
     return "\n".join([first, *(line[indent:] for line in rest)])

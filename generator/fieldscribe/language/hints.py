@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.suggestions import bits_meant, key_suggestion, language_meant
+from fieldscribe.language.suggestions import key_suggestion, suggest_bits, suggest_language
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -31,7 +31,7 @@ def quoted(text: str) -> str:
     return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
 
 
-def shown(value: Any) -> str:
+def value_text(value: Any) -> str:
     """Return a value from a description in words."""
     if isinstance(value, Map | Seq):
         return "a mapping" if isinstance(value, Map) else "a list"
@@ -46,16 +46,16 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form |
     """Return the hint for a value of the wrong type."""
     if value is None:
         return "fill it in, or leave the key out"
-    said = None
+    hint = None
     if isinstance(value, int | Decimal):
-        said = _about_number(value, accepted, example, form)
+        hint = _about_number(value, accepted, example, form)
     elif isinstance(value, str) and (int in accepted or Decimal in accepted):
-        said = _number_hint(value, Decimal in accepted)
+        hint = _number_hint(value, Decimal in accepted)
     elif bool in accepted:
-        said = "write yes or no"
-    if said is None and Seq in accepted and not isinstance(value, Map):
-        said = f"write a list: [{value}]" if len(str(value)) < 40 else "write a list: […]"
-    return said or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)
+        hint = "write yes or no"
+    if hint is None and Seq in accepted and not isinstance(value, Map):
+        hint = f"write a list: [{value}]" if len(str(value)) < 40 else "write a list: […]"
+    return hint or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)
 
 
 def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, form: Form | None) -> str | None:
@@ -114,8 +114,8 @@ def form_hint(value: str, form: Form) -> str:
 def key_in_our_notation(key: str, known: Collection[Form]) -> str | None:
     """Return a key that names bits or a language in our notation; None if it does not."""
     if forms.BITS in known:
-        return bits_meant(key)
-    return language_meant(key) if forms.LANGUAGE in known else None
+        return suggest_bits(key)
+    return suggest_language(key) if forms.LANGUAGE in known else None
 
 
 def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
@@ -139,10 +139,10 @@ def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) ->
     near = nearest(key, tuple(known), _TYPING_SLIP)
     if near is not None:
         return f"did you mean `{near}`?"
-    said = [form_hint(key, form) for form in written]
+    hints = [form_hint(key, form) for form in written]
     if known:
-        said.append("known here: " + ", ".join(sorted(known)))
-    return "; ".join(said) or "remove it"
+        hints.append("known here: " + ", ".join(sorted(known)))
+    return "; ".join(hints) or "remove it"
 
 
 @lru_cache(maxsize=4096)

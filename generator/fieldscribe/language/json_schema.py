@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
-from fieldscribe.language.keys_page import shown
+from fieldscribe.language.keys_page import example_text
 from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
 
 if TYPE_CHECKING:
@@ -90,17 +90,17 @@ class _Definitions:
         if not shape.kinds:
             return {}
         types: list[str] = []
-        said: dict[str, Any] = {}
+        keywords: dict[str, Any] = {}
         for kind in shape.kinds:
             types.append(kind.word if isinstance(kind, Plain) else _TYPES[type(kind)])
-            said |= self._kind(kind)
-        if "enum" in said:
-            said["enum"] += [True, False] if BOOLEAN in shape.kinds else []
-            said["enum"] += [None] if NOTHING in shape.kinds else []
+            keywords |= self._kind(kind)
+        if "enum" in keywords:
+            keywords["enum"] += [True, False] if BOOLEAN in shape.kinds else []
+            keywords["enum"] += [None] if NOTHING in shape.kinds else []
         if "integer" in types and "string" not in types:
             types.append("string")
-            said = _in_every_notation(said)
-        return {**_documentation(shape), "type": types[0] if len(types) == 1 else types, **said}
+            keywords = _in_every_notation(keywords)
+        return {**_documentation(shape), "type": types[0] if len(types) == 1 else types, **keywords}
 
     def _kind(self, kind: Kind) -> dict[str, Any]:
         if isinstance(kind, Place):
@@ -147,8 +147,8 @@ def _holds_keys(example: Any) -> bool:
 
 def _block(example: Any) -> str:
     if isinstance(example, dict):
-        return "\n".join(f"{key}: {shown(value)}" for key, value in example.items())
-    return "\n".join(f"- {shown(item)}" for item in example)
+        return "\n".join(f"{key}: {example_text(value)}" for key, value in example.items())
+    return "\n".join(f"- {example_text(item)}" for item in example)
 
 
 def _markdown(text: str) -> str:
@@ -158,12 +158,12 @@ def _markdown(text: str) -> str:
     return "`".join(parts)
 
 
-def _in_every_notation(said: dict[str, Any]) -> dict[str, Any]:
+def _in_every_notation(keywords: dict[str, Any]) -> dict[str, Any]:
     """Return the schema of a whole number with its notations that YAML takes for text, such as 1028h."""
-    if "enum" not in said:
-        return said | {"pattern": forms.WHOLE.pattern}
-    choices = said.pop("enum")
-    return said | {"anyOf": [{"enum": choices}, {"type": "string", "pattern": forms.WHOLE.pattern}]}
+    if "enum" not in keywords:
+        return keywords | {"pattern": forms.WHOLE.pattern}
+    choices = keywords.pop("enum")
+    return keywords | {"anyOf": [{"enum": choices}, {"type": "string", "pattern": forms.WHOLE.pattern}]}
 
 
 _TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", Place: "object"}

@@ -81,15 +81,15 @@ def _kind(kind: Kind) -> str:
 
 
 def _example(shape: Shape) -> str:
-    return f"`{shown(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""
+    return f"`{example_text(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""
 
 
-def shown(value: Any) -> str:
+def example_text(value: Any) -> str:
     """Return an example as YAML."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {shown(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{key}: {example_text(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
-        return "[" + ", ".join(map(shown, value)) + "]"
+        return "[" + ", ".join(map(example_text, value)) + "]"
     if isinstance(value, str):
         return value if value in ("yes", "no") or value.startswith("0x") else as_yaml(value)
     return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)

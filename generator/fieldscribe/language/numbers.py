@@ -60,7 +60,7 @@ def parse_integer(text: str) -> int:
     """Return the whole number of a text; a decimal point is refused, even before zeros. Raises NumberError."""
     number = parse_number(text)
     if number.denominator != 1 or "." in text:
-        raise NumberError(f"`{shown(text)}` is not a whole number", "write a whole number, without a decimal point")
+        raise NumberError(f"`{shorten(text)}` is not a whole number", "write a whole number, without a decimal point")
     return number.numerator
 
 
@@ -80,7 +80,7 @@ def is_whole_number(text: str) -> bool:
     return True
 
 
-def shown(text: str) -> str:
+def shorten(text: str) -> str:
     """Return a text from a description for messages: clean, short, and on one line."""
     cleaned = line(text[:200])
     return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
@@ -173,5 +173,5 @@ def _diagnosis(text: str) -> NumberError:
     """Return the error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
         if match := re.fullmatch(pattern, text, re.DOTALL):
-            return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(match)))
-    return NumberError(f"`{shown(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")
+            return NumberError(f"`{shorten(text)}`: {message}" if text else message, line(hint(match)))
+    return NumberError(f"`{shorten(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")

@@ -96,11 +96,11 @@ def unbroken(text: str) -> str:
 
 def comments(text: str) -> list[str]:
     """Return the comments of a text without errors, in order. Raises OddError."""
-    said: list[str] = []
+    texts: list[str] = []
     for piece in pieces(text):
         gap = piece.gap
-        said += [comment.text for comment in (gap.behind, *gap.lines) if comment is not None]
-    return said
+        texts += [comment.text for comment in (gap.behind, *gap.lines) if comment is not None]
+    return texts
 
 
 def pieces(text: str) -> Iterator[Piece]:

@@ -62,7 +62,7 @@ _ENDS = (("min", "low", "from", "minimum"), ("max", "high", "to", "maximum"))
 
 
 def _interval(match: re.Match[str]) -> str | None:
-    interval = interval_meant(match[0])
+    interval = suggest_interval(match[0])
     return interval and f"{{key}}: {interval}"
 
 
@@ -360,7 +360,7 @@ def key_suggestion(key: str, value: Any, known: Collection[str]) -> str | None:
     return hint or f"did you mean `{ours}`?"
 
 
-def interval_meant(text: str) -> str | None:
+def suggest_interval(text: str) -> str | None:
     """Return `0-100`, `0 to 100` or `[0:100]` in our notation; None if it is no interval."""
     ends = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
     if ends is None:
@@ -372,7 +372,7 @@ def interval_meant(text: str) -> str | None:
     return f"{ends[1]}..{ends[2]}"
 
 
-def bits_meant(text: str) -> str | None:
+def suggest_bits(text: str) -> str | None:
     """Return `15:8`, `b3` or `bit 3` in our notation; None if it is something else, or right already."""
     match = re.fullmatch(r"[^\W\d]{0,5}[ .]?([0-9]{1,2})(?:(?:-|:|,|/| to )([0-9]{1,2}))?", text.strip())
     if match is None or text.strip().isdecimal():
@@ -381,7 +381,7 @@ def bits_meant(text: str) -> str | None:
     return "..".join(map(str, ends))
 
 
-def language_meant(key: str) -> str | None:
+def suggest_language(key: str) -> str | None:
     """Return the code of a language that is spelled out."""
     return _LANGUAGES.get(key.lower())
 
@@ -430,7 +430,7 @@ _CONDITIONS = (
 _LONGEST_FORMULA = 80
 
 
-def scale_meant(text: str) -> str | None:
+def suggest_scale(text: str) -> str | None:
     """Return the scale that a text probably means, in our notation; None if there is no suggestion."""
     if len(text) > _LONGEST_FORMULA:
         return None
@@ -447,7 +447,7 @@ def scale_meant(text: str) -> str | None:
     return None
 
 
-def condition_meant(text: str) -> str | None:
+def suggest_condition(text: str) -> str | None:
     """Return the condition that a text probably means, in our notation; None if there is no suggestion."""
     if len(text) > _LONGEST_FORMULA:
         return None

@@ -73,10 +73,10 @@ def unit_hint(typed: str, declared: Iterable[str]) -> str:
     if stepped is not None and (shipped_unit(stepped[2]) or stepped[2] in declared):
         scale = f"`scale: value = raw * {stepped[1].replace(',', '.')}`"
         return f"write `unit: {stepped[2]}`; what one raw step is worth belongs to the scale: {scale}"
-    meant = _symbols_meant(typed, declared)
-    if not meant:
+    symbols = _likely_symbols(typed, declared)
+    if not symbols:
         return f"declare it under `units`: `units: {{{_as_key(typed)}: {{name: …, quantity: …}}}}`; {LISTED}"
-    return f"write {' or '.join(_symbol_with_name(symbol, alone=len(meant) == 1) for symbol in meant)}"
+    return f"write {' or '.join(_symbol_with_name(symbol, alone=len(symbols) == 1) for symbol in symbols)}"
 
 
 def _symbol_with_name(symbol: str, *, alone: bool) -> str:
@@ -90,7 +90,7 @@ def _as_key(typed: str) -> str:
     return typed if typed.replace("/", "").isalnum() else f'"{typed}"'
 
 
-def _symbols_meant(typed: str, declared: Iterable[str]) -> list[str]:
+def _likely_symbols(typed: str, declared: Iterable[str]) -> list[str]:
     """Return the symbols that a text probably means; those with another prefix come last."""
     folded = _folded(typed)
     symbols = [symbol for symbol in declared if _folded(symbol) == folded]
@@ -147,10 +147,10 @@ def _with_prefixes(symbol: str, entry: Mapping[str, Any], prefixes: Mapping[str,
     also = tuple(entry.get("also", ()))
     yield Known(Unit(symbol, entry["name"], entry["quantity"]), symbol, Fraction(1), "", also)
     for prefix in entry.get("prefixes", "").split():
-        said = prefixes[prefix]
-        unit = Unit(prefix + symbol, said["name"] + entry["name"], entry["quantity"])
+        described = prefixes[prefix]
+        unit = Unit(prefix + symbol, described["name"] + entry["name"], entry["quantity"])
         spellings = tuple(prefix + other for other in also)
-        yield Known(unit, symbol, Fraction(10) ** int(said["power"]), prefix, spellings)
+        yield Known(unit, symbol, Fraction(10) ** int(described["power"]), prefix, spellings)
 
 
 def _table() -> Mapping[str, Any]:

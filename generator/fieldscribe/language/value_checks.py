@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Protocol
 
-from fieldscribe.language.hints import form_hint, nearest, quoted, shown, type_hint
+from fieldscribe.language.hints import form_hint, nearest, quoted, type_hint, value_text
 from fieldscribe.language.keys import forms
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
@@ -75,7 +75,7 @@ class ShapeCheck:
             elif self.yes_no and value in _YES_NO:
                 value = holder[at] = _YES_NO[value]
         if type(value) not in self.checks:
-            message = f"{shown(value)} stands where {self.wanted} belongs"
+            message = f"{value_text(value)} stands where {self.wanted} belongs"
             hint = value_hint(at, value) or type_hint(value, self.checks, self.example, self.form)
             report.error("wrong-type", message, holder.span(at), hint)
             return False

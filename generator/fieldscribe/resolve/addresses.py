@@ -10,7 +10,7 @@ from fieldscribe.language.formula import FormulaError, evaluate, parse_expressio
 from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
-from fieldscribe.language.suggestions import interval_meant
+from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, TYPES, Place
 from fieldscribe.resolve.point_facts import ALONE
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
@@ -308,7 +308,7 @@ class Places:
 
 def _first_of_several(text: str) -> str | None:
     """Return the first address of a text that gives several (`1..2`, `1 - 2`); None for a number or a formula."""
-    first, _, last = ("" if ":" in text else interval_meant(text) or "").partition("..")
+    first, _, last = ("" if ":" in text else suggest_interval(text) or "").partition("..")
     return first if first and parse_number(first) < parse_number(last) else None
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import conditions
 from fieldscribe.conditions import Condition
 from fieldscribe.language.formula import Comparison, FormulaError, clauses_of, parse_condition, wrong_number
-from fieldscribe.language.suggestions import condition_meant
+from fieldscribe.language.suggestions import suggest_condition
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 
@@ -32,7 +32,7 @@ def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition |
     try:
         stated = clauses_of(parse_condition(text))
     except FormulaError as error:
-        suggestion = condition_meant(text)
+        suggestion = suggest_condition(text)
         error.hint = f"write `{suggestion}`" if suggestion else error.hint
         formula_finding(error, written.span, scope.report)
         stated = ()

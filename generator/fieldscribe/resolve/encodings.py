@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.language.hints import quoted
-from fieldscribe.language.suggestions import bits_meant, space_hint
+from fieldscribe.language.suggestions import space_hint, suggest_bits
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.memo import Memo
 from fieldscribe.resolve.special_codes import SpecialCodes
@@ -82,7 +82,7 @@ def _bits_of(scope: Scope, facts: PointFacts, space: str) -> tuple[int, int] | N
 
 
 def _parse_bits(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
-    suggestion = bits_meant(text)
+    suggestion = suggest_bits(text)
     if suggestion is not None:
         message = f"{quoted(text)} is not a bit or bits"
         scope.report.error("wrong-form", message, span, f"write `bits: {suggestion}`")

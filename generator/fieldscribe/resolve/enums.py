@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.suggestions import interval_meant
+from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Entry, Enum
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import integer
@@ -59,7 +59,7 @@ def entries_of(scope: Scope, node: Map) -> tuple[Entry, ...]:
 
 
 def _entry(scope: Scope, node: Map, key: str, value: Any) -> Entry | None:
-    if interval_meant(key) is not None:
+    if suggest_interval(key) is not None:
         hint = "write a row for each number that has a name; the others need none"
         scope.report.error("bad-number", f"`{key[:60]}` is not a single number", node.key_span(key), hint)
         return None

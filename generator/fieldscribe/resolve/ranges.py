@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
 from fieldscribe.language.nodes import Seq
-from fieldscribe.language.suggestions import interval_meant
+from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
 from fieldscribe.resolve.values import FactError, formula_finding
@@ -80,7 +80,7 @@ class Ranges:
                     pairs = [(high, low) for low, high in pairs]
             listed = parse_range(text).listed
         except FormulaError as error:
-            suggestion = interval_meant(text)
+            suggestion = suggest_interval(text)
             if text.lstrip()[:1] in _ONE_SIDED:
                 error.hint = "an interval has both ends, low..high; those of the type where nothing else limits it"
             elif suggestion is not None:

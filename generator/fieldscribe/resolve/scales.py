@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import Affine, FormulaError, Part, cut_off, parse_case, parse_scale, scale_rule
-from fieldscribe.language.suggestions import scale_meant
+from fieldscribe.language.suggestions import suggest_scale
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 
@@ -223,6 +223,6 @@ def _suggest_scale(error: FormulaError, text: str, key: str) -> None:
     try:
         parse_scale(text)
     except FormulaError:
-        suggestion = scale_meant(text)
+        suggestion = suggest_scale(text)
         if suggestion is not None:
             error.hint = f"write `{key}: {suggestion}`"

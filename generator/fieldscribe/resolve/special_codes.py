@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of, number_of
-from fieldscribe.language.suggestions import interval_meant
+from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.enums import entry_titles, name_of
 from fieldscribe.resolve.values import integer
@@ -102,7 +102,7 @@ class SpecialCodes:
         least, greatest = ends_of(width, signed=info.signed)
         for key, value in node.items():
             span = node.key_span(key)
-            suggestion = None if ".." in key else interval_meant(key)
+            suggestion = None if ".." in key else suggest_interval(key)
             if suggestion is not None:
                 self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {suggestion}")
                 continue

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
-from fieldscribe.language.suggestions import interval_meant
+from fieldscribe.language.suggestions import suggest_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,7 +70,7 @@ def whole(value: Any, span: Span) -> int:
 
 def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """Return the ends of `a..b`, or of a single number; None after a finding."""
-    suggestion = None if ".." in text else interval_meant(text)
+    suggestion = None if ".." in text else suggest_interval(text)
     if suggestion is not None:
         report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {suggestion}")
         return None
