@@ -6,9 +6,9 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe import pipeline
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
+from fieldscribe.output import generation
 from fieldscribe.pipeline import TargetError
 from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
 from support.described import described, write
@@ -207,14 +207,14 @@ def test_a_failing_device_is_told_behind_a_thousand_warnings(
         with (tmp_path / "b_fails" / "device.yaml").open("a") as file:
             file.write("- {name: q, at: 0, range: 5..1}\n")
     else:
-        original = pipeline.outputs
+        original = generation.outputs
 
         def outputs(device: Device, *arguments: Any) -> Iterator[tuple[str, str, str]]:
             if device.id == "b_fails":
                 raise TargetError("c") from ValueError("broken")
             return original(device, *arguments)
 
-        monkeypatch.setattr(pipeline, "outputs", outputs)
+        monkeypatch.setattr(generation, "outputs", outputs)
     out = tmp_path / "out"
     code = main(["generate", str(tmp_path), "--target", "c", "--out", str(out), "--format", form])
     said = "".join(capsys.readouterr())
