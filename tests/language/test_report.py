@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe import pipeline
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
 from fieldscribe.output import generation
@@ -207,7 +208,7 @@ def test_a_failing_device_is_told_behind_a_thousand_warnings(
         with (tmp_path / "b_fails" / "device.yaml").open("a") as file:
             file.write("- {name: q, at: 0, range: 5..1}\n")
     else:
-        original = generation.outputs
+        original = pipeline.outputs
 
         def outputs(device: Device, *arguments: Any) -> Iterator[tuple[str, str, str]]:
             if device.id == "b_fails":
