@@ -8,7 +8,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.facts.point_values import grown, items
-from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINT, POINTS, SOURCE, TITLE
+from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINTS, SOURCE, TITLE
 from fieldscribe.facts.schema import (
     ADDRESS,
     BOOLEAN,
@@ -32,11 +32,13 @@ from fieldscribe.families import families, family
 from fieldscribe.wording import without_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from fieldscribe.facts.table import Table, Weight
     from fieldscribe.families import Family
     from fieldscribe.model import Bus, Code
+
+    Listed = Callable[[Exported], Iterable[Exported]]
 
 FORMAT = 5
 """The version of the exported shape."""
@@ -86,14 +88,15 @@ def _sentence(old: str, new: str) -> str:
     return DOCS if without_lines(old) == without_lines(new) else BEHAVIOUR
 
 
-def _things(key: str, kind: str, table: Table, *same_by: str) -> Parts:
-    """Things listed under a key of the device."""
-    return Parts(kind, kind, partial(_named, key), table, same_by=same_by)
+def _list(key: str, doc: str, parts: Parts) -> Fact:
+    """A list of things with their parts for `diff`."""
+    return Fact(key, doc, list_of(ref(parts.kind)), table=parts.table, views=(parts,))
 
 
-def _of_class(parts: Parts, weight: Weight) -> Parts:
-    """Parts of which all that comes, goes or gets another name is of one class."""
-    return replace(parts, added=weight, removed=weight, renamed=weight)
+def _parts(kind: str, table: Table, *same_by: str | View, listed: Listed | None = None, change: Weight = "") -> Parts:
+    """Things of a kind; with `change` all that comes, goes or gets another name is of that class."""
+    parts = Parts(kind, kind, listed or partial(_named, f"{kind}s"), table, same_by=same_by)
+    return replace(parts, added=change, removed=change, renamed=change) if change else parts
 
 
 # The tables.
@@ -176,6 +179,7 @@ _FRAME: Table = (
     Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point", yaml=("says", "with")),
     Fact("valid", "False when the frame is misprinted.", BOOLEAN, weight=DOCS),
 )
+_MEMBERS = View("points", API, itemgetter("points"))
 _CODE_VIEWS = (
     View("number", WIRE, itemgetter("number")),
     View("max", BEHAVIOUR, itemgetter("most"), yaml=("functions",)),
@@ -306,6 +310,7 @@ def _codes_of(section: str, bus: Bus, _: Context) -> dict[str, Code]:
 def device_table(own_family: str) -> Table:
     """Return the facts of a device of that family."""
     limits, frame, codes = limits_table(own_family), frame_table(own_family), codes_table(own_family)
+    errata = replace(_parts("erratum", ERRATUM, listed=_errata, change=BEHAVIOUR), summary=_erratum_in_short)
     return (
         Fact(
             "format",
@@ -321,12 +326,10 @@ def device_table(own_family: str) -> Table:
         Fact("model", "The maker's name of the product.", STRING, weight=DOCS),
         TITLE,
         NOTE,
-        Fact(
+        _list(
             "documents",
             "The manuals.",
-            list_of(ref("document")),
-            table=DOCUMENT,
-            views=(_of_class(Parts("document", "document", partial(_named, "documents", name="id"), DOCUMENT), DOCS),),
+            _parts("document", DOCUMENT, listed=partial(_named, "documents", name="id"), change=DOCS),
         ),
         Fact(
             "variants",
@@ -343,42 +346,16 @@ def device_table(own_family: str) -> Table:
             table=limits,
             views=tuple(_inside("limits", view) for fact in limits for view in fact.compared()),
         ),
-        Fact(
-            "groups",
-            "The groups of points, in the author's order.",
-            list_of(ref("group")),
-            table=GROUP,
-            views=(Parts("group", "group", _groups, GROUP, same_by=(View("points", API, itemgetter("points")),)),),
+        _list(
+            "groups", "The groups of points, in the author's order.", _parts("group", GROUP, _MEMBERS, listed=_groups)
         ),
-        Fact("points", "All points, in the author's order.", list_of(ref("point")), table=POINT, views=(POINTS,)),
-        Fact(
-            "commands",
-            "Named constant writes.",
-            list_of(ref("command")),
-            table=COMMAND,
-            views=(_things("commands", "command", COMMAND, "space", "address", "function", "value"),),
+        _list("points", "All points, in the author's order.", POINTS),
+        _list(
+            "commands", "Named constant writes.", _parts("command", COMMAND, "space", "address", "function", "value")
         ),
-        Fact(
-            "messages",
-            "Layouts of frames.",
-            list_of(ref("message")),
-            table=MESSAGE,
-            views=(_things("messages", "message", MESSAGE, "identifier", "direction", "layout"),),
-        ),
-        Fact(
-            "telegrams",
-            "Cyclic layouts of words.",
-            list_of(ref("telegram")),
-            table=TELEGRAM,
-            views=(_things("telegrams", "telegram", TELEGRAM, "direction", "words", "message"),),
-        ),
-        Fact(
-            "frames",
-            "The worked frames of the manual.",
-            list_of(ref("frame")),
-            table=frame,
-            views=(_of_class(_things("frames", "frame", frame, "bytes"), DOCS),),
-        ),
+        _list("messages", "Layouts of frames.", _parts("message", MESSAGE, "identifier", "direction", "layout")),
+        _list("telegrams", "Cyclic layouts of words.", _parts("telegram", TELEGRAM, "direction", "words", "message")),
+        _list("frames", "The worked frames of the manual.", _parts("frame", frame, "bytes", change=DOCS)),
         Fact(
             "codes",
             "Numbers of the protocol.",
@@ -387,13 +364,7 @@ def device_table(own_family: str) -> Table:
             table=codes,
             views=tuple(view for fact in codes for view in fact.views),
         ),
-        Fact(
-            "errata",
-            "Where the manual is wrong, unclear or silent.",
-            list_of(ref("erratum")),
-            table=ERRATUM,
-            views=(_of_class(Parts("erratum", "erratum", _errata, ERRATUM, summary=_erratum_in_short), BEHAVIOUR),),
-        ),
+        _list("errata", "Where the manual is wrong, unclear or silent.", errata),
     )
 
 

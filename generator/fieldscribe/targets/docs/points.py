@@ -129,9 +129,8 @@ class _Rows:
             "when": self._when,
             "changes_with": _changes_with,
             "was": lambda point: "; ".join([f"was {code(old)}" for old in point.was]),
-            "note": lambda point: "" if _has_more(point) else _note(point),
-            "errata": lambda point: "" if _has_more(point) else _errata(point, narrow_link),
-            "source": lambda point: f"[more below](#{anchor('more', point.item)})" if _has_more(point) else "",
+            "note": lambda point: _more_link(point) if _has_more(point) else _note(point),
+            "errata": self._errata,
         }
         self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further, ())
         self._cells: dict[tuple[int, int], _Cells] = {}
@@ -180,6 +179,11 @@ class _Rows:
         unit, type_text = cell(point.unit.symbol), wording.type_text(point)
         return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names))
 
+    def _errata(self, point: Point) -> str:
+        if _has_more(point):
+            return "" if point.note else _more_link(point)
+        return _errata(point, narrow_link)
+
     def _when(self, point: Point) -> str:
         text = wording.condition_text(point.when, self.scope.by_code)
         return narrow(cell(f"exists when {text}")) if text else ""
@@ -219,6 +223,10 @@ def _has_more(point: Point) -> bool:
     if not (point.note or point.errata):
         return False
     return len(wording.title_text(point.note) if point.note else "") + sum(map(len, point.errata)) > _LONGEST_REMARK
+
+
+def _more_link(point: Point) -> str:
+    return f"[more below](#{anchor('more', point.item)})"
 
 
 def _more(point: Point) -> str:

@@ -91,17 +91,18 @@ class Remarks:
         self._shared = [(place, fact) for place, fact in places if fact.holder]
         self._own = [(place, fact) for place, fact in places if not fact.holder]
         self._own_values = attrgetter(*[fact.attribute or fact.key for _, fact in self._own])
-        self._known: dict[tuple[int, int], list[tuple[int, str]]] = {}
+        self._known: dict[tuple[int, int], tuple[list[tuple[int, str]], str]] = {}
 
     def of(self, point: Point) -> str:
         """Return the remarks of a point in one line."""
         values = zip(self._own, self._own_values(point), strict=True)
         own = self._remarks([placed for placed, value in values if value or value == 0], point)
         key = id(point.shape), id(point.terms)
-        shared = self._known.get(key)
-        if shared is None:
-            shared = self._known[key] = self._remarks(self._shared, point)
-        return "; ".join([remark for _, remark in (sorted(own + shared) if own else shared)])
+        known = self._known.get(key)
+        if known is None:
+            shared = self._remarks(self._shared, point)
+            known = self._known[key] = shared, _joined(shared)
+        return _joined(sorted(own + known[0])) if own else known[1]
 
     def _remarks(self, facts: list[tuple[int, Fact]], point: Point) -> list[tuple[int, str]]:
         remarks = [(place, self._remark(fact, point)) for place, fact in facts]
@@ -110,3 +111,7 @@ class Remarks:
     def _remark(self, fact: Fact, point: Point) -> str:
         further = self._further.get(fact.key)
         return self._encode(fact.remark_of(point, self._context)) if further is None else further(point)
+
+
+def _joined(remarks: list[tuple[int, str]]) -> str:
+    return "; ".join([remark for _, remark in remarks])

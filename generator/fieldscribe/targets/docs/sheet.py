@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
@@ -107,7 +107,7 @@ def points_table(scope: Scope) -> Table:
 def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
     known: dict[object, _Cells] = {}
     known_limits: dict[object, tuple[str, ...]] = {}
-    part, remarks = part_of(scope.device), _remarks(scope)
+    part, remarks, encoded = part_of(scope.device), _remarks(scope), cache(encode)
     for point in scope.device.points:
         key = id(point.shape), id(point.terms), len(point.addresses)
         cells = known.get(key)
@@ -143,7 +143,7 @@ def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
             *cells.behaviour,
             encode(point.record or ""),
             "" if point.set is None else str(point.set),
-            encode(remarks.of(point)),
+            encoded(remarks.of(point)),
             encode(wording.title_text(point.note)) if point.note else "",
             encode("; ".join(point.errata)),
             *source_cells(point.source, encode),
