@@ -8,72 +8,50 @@ write them differently. If the proof fails, nothing is wrong yet: then all ident
 
 from __future__ import annotations
 
-from collections import defaultdict
-from dataclasses import dataclass, field, fields, replace
+from collections import Counter, defaultdict
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Shape
+from fieldscribe.lowered.template_keys import TemplateKeys
 from fieldscribe.targets.identifiers import clashes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from fieldscribe.model import Allowed, Device, Place, Point
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.identifiers import Names, Owner
-
-_SHAPE_WITHOUT_NAMES = attrgetter(
-    *[each.name for each in fields(Shape) if each.name not in ("enum", "flags", "specials")]
-)
 
 
 class PointKinds:
-    """The points of a device by kind.
+    """The points of a device by kind: those of a kind have the same text in generated code but for their names.
 
-    `names` are the plain names of all points that belong to a kind, each with that of the first point of its kind.
-    `sample` is the device with the first point of each kind and with all points that belong to no kind.
+    `names` are the plain names of all points of a kind with several points, each with that of the first point of its
+    kind. `sample` is the device with the first point of each kind and with all other points.
     """
 
     def __init__(self, device: Device) -> None:
-        limits = {id(point.allowed): point.allowed for point in device.points}
-        terms = {id(point.terms): point.terms for point in device.points}
-        self._limits = {key: _form_of_limits(allowed) for key, allowed in limits.items()}
-        special = {key for key, shared in terms.items() if shared.when or shared.telegram or shared.changes_with}
         needed = _needed(device)
+        kinds = {point.item: self.kind(point) for point in device.points if not {point.item, point.name} & needed}
+        sizes = Counter(kinds.values())
         first: dict[object, str] = {}
-        items: list[str] = []
         self.names: dict[str, str] = {}
-        kept: list[Point] = []
-        for point in device.points:
-            item = point.item
-            if id(point.terms) in special or point.variant or point.was or point.index or {item, point.name} & needed:
-                kept.append(point)
-                continue
-            items.append(item)
+        several = [item for item, kind in kinds.items() if sizes[kind] > 1]
+        for item in several:
             name = _plain(item)
-            self.names[name] = first.setdefault(self.kind(point), name)
-            if self.names[name] == name:
-                kept.append(point)
-        self._are_unique = len(self.names) == len(items)
-        self.sample = _sample(device, kept, set(items))
+            self.names[name] = first.setdefault(kinds[item], name)
+        self._are_unique = len(self.names) == len(several)
+        left_out = {item for item in several if self.names[_plain(item)] != _plain(item)}
+        self.sample = _sample(device, left_out)
 
-    def kind(self, point: Point) -> object:
-        """Return what decides which identifiers a point has, apart from its name."""
-        return (
-            _form_of_shape(point),
-            id(point.terms),
-            self._limits[id(point.allowed)],
-            _form_of_place(point.place),
-            None if point.write_place is None else _form_of_place(point.write_place),
-            point.set,
-            point.default is None,
-            point.default_raw is None,
-        )
+    @cached_property
+    def kind(self) -> Callable[[Point], object]:
+        """The function that returns the kind of a point."""
+        return TemplateKeys().of
 
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]]) -> bool:
-        """Return True if all identifiers of a target are proven to differ; False also if the proof is not worth it."""
-        if not self._are_unique or len(self.sample.points) > len(self.names):
+        """Return True if all identifiers of a target are proven to differ."""
+        if not self._are_unique or not self.names:
             return False
         listed = list(identifiers(self.sample))
         if next(clashes(listed), None) is not None:
@@ -137,13 +115,14 @@ class _Space:
     others: set[str] = field(default_factory=set)
 
 
-def _sample(device: Device, points: list[Point], items: set[str]) -> Device:
-    """Return the device with these points alone; an enum that is named after another one of the items is left out."""
-    left_out = items - {point.item for point in points}
+def _sample(device: Device, left_out: set[str]) -> Device:
+    """Return the device without these points, and without the enums that are named after them."""
+    points = [point for point in device.points if point.item not in left_out]
     first = {point.group: point for point in reversed(points)}
     blocks = {
         group: tuple([replace(block, points=(first[group].name,)) for block in blocks[:1]])
         for group, blocks in device.blocks.items()
+        if group in first
     }
     enums = tuple([enum for enum in device.enums if enum.name not in left_out])
     return replace(device, points=tuple(points), blocks=blocks, enums=enums)
@@ -155,27 +134,6 @@ def _needed(device: Device) -> set[str]:
     limits = {id(point.allowed): point.allowed.arguments for point in device.points}
     names = {name for arguments in (*scales.values(), *limits.values()) for name in arguments}
     return names | {command.busy for command in device.commands if command.busy is not None}
-
-
-def _form_of_shape(point: Point) -> object:
-    """Return the shape, without the name of its enum if that is named after the point."""
-    shape = point.shape
-    enum = shape.enum
-    if enum is None or enum.name != point.item or shape.flags or shape.specials:
-        return id(shape)
-    return id(enum.entries), enum.closed, _SHAPE_WITHOUT_NAMES(shape)
-
-
-def _form_of_place(place: Place) -> object:
-    """Return a place without its numbers."""
-    addresses = place.addresses
-    return tuple(place.references), len(addresses) > 1 and tuple([address - addresses[0] for address in addresses])
-
-
-def _form_of_limits(allowed: Allowed) -> object:
-    """Return a single interval without its numbers; other limits whole, for a target may make a table of them."""
-    fixed = len(allowed.fixed) == len(allowed.intervals) == 1
-    return (allowed.listed, allowed.intervals[0].outer[0] < 0) if fixed else id(allowed)
 
 
 def _point_of(owner: Owner) -> str:
