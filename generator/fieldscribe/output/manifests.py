@@ -82,14 +82,14 @@ class Manifests:
     def __init__(self, out: Path, layout: Layout = GENERATED) -> None:
         self.layout = layout
         self._of: dict[str, Targets] = {}
-        self._asked: dict[str, dict[str, Any]] = {}
+        self._requests: dict[str, dict[str, Any]] = {}
         self._records: dict[str, Record] = {}
         self._users: dict[str, dict[tuple[str, str], Digests]] = {}
         for place in sorted((out / layout.folder).glob(f"*{layout.ending}")):
             device = place.name.removesuffix(layout.ending)
             if "." in device:
                 continue  # written by an earlier version; no device has a dot in its name
-            targets, self._asked[device], record = _read(place, device, layout)
+            targets, self._requests[device], record = _read(place, device, layout)
             if record is not None:
                 self._records[device] = record
             self.settle(device, targets)
@@ -98,18 +98,18 @@ class Manifests:
         """Return the recorded files of a device."""
         return self._of.get(device, {})
 
-    def asked(self, device: str) -> Mapping[str, object]:
+    def request_of(self, device: str) -> Mapping[str, object]:
         """Return what was requested in each target, where a manifest records it."""
-        return self._asked.get(device, {})
+        return self._requests.get(device, {})
 
     @property
-    def all_asked(self) -> list[tuple[str, str]]:
+    def requests(self) -> list[tuple[str, str]]:
         """Every device and target with a recorded request."""
-        return [(device, target) for device, asked in self._asked.items() for target in asked]
+        return [(device, target) for device, targets in self._requests.items() for target in targets]
 
-    def ask(self, device: str, target: str, request: Mapping[str, object]) -> None:
+    def set_request(self, device: str, target: str, request: Mapping[str, object]) -> None:
         """Record what is requested in a target."""
-        self._asked[device] = dict(sorted({**self.asked(device), target: request}.items()))
+        self._requests[device] = dict(sorted({**self.request_of(device), target: request}.items()))
 
     def record(self, device: str) -> Record | None:
         """Return the version and the digest that the manifest records; None if it has none."""
@@ -122,7 +122,7 @@ class Manifests:
     def further_keys(self, device: str) -> dict[str, object]:
         """Return what the manifest of a device holds beside its files."""
         record = self._records.get(device)
-        keys = {"asked": self.asked(device), "facts": record and record._asdict()}
+        keys = {"asked": self.request_of(device), "facts": record and record._asdict()}
         return {key: value for key, value in keys.items() if value}
 
     def settle(self, device: str, targets: Targets) -> None:

@@ -139,7 +139,7 @@ def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Pat
     paths: list[Path] = []
     for folder, out in folders.items():
         manifests = Manifests(out, VENDORED)
-        for name, language in manifests.all_asked:
+        for name, language in manifests.requests:
             if language in languages and (folder, name, language) not in wanted:
                 files = manifests.of(name).get(language, {})
                 unshared = [path for path in files if not manifests.is_shared(path, name, [language])]
@@ -152,7 +152,7 @@ def _files(order: Order) -> TargetFiles:
 
 
 def _plan(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> Plan:
-    manifests.ask(order.name, order.request.language, order.request.as_data(order.device.id))
+    manifests.set_request(order.name, order.request.language, order.request.as_data(order.device.id))
     return plan_of(order.out, manifests, order.name, made, force=force)
 
 
