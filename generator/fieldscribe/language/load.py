@@ -78,7 +78,10 @@ _SYNTAX_HINTS = (
     ("expected key", "this line is indented like a key, but is none: look at the indentation and at open quotes"),
     ("block end", "look at the indentation: all keys of a mapping start in one column"),
     ("end of stream", "a quote or a bracket is not closed"),
-    ("anchor", "an anchor or alias is a plain word: quote the text if `&` or `*` is meant"),
+    ("alphabetic", "an anchor or alias is a plain word: quote the text if `&` or `*` belongs to it"),
+    ("anchor", "an anchor or alias is a plain word: quote the text if `&` or `*` belongs to it"),
+    ("expected ':'", "a key stands on one line with `: ` behind it, and has at most 1,000 characters"),
+    ("document start", "a line `---` divides documents; nothing stands behind `...`"),
 )
 
 
