@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -44,3 +46,14 @@ def test_a_device_without_its_digest_is_else_the_same() -> None:
     assert analysis is not None
     assert analysis.device.digest == ""
     assert replace(whole, digest="") == analysis.device
+
+
+def test_check_imports_nothing_that_it_does_not_need() -> None:
+    """A quick command starts quickly: what takes long to import is left to those that use it."""
+    code = (
+        "import sys\nfrom fieldscribe.cli import main\nmain(['check', sys.argv[1]])\n"
+        "print(sorted({'jinja2', 'json', 'hashlib', 'asyncio'} & set(sys.modules)))"
+    )
+    command = [sys.executable, "-I", "-c", code, str(descriptions_dir() / "jumo_controller")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -258,7 +258,7 @@ class _Reader:
 
     def _alias(self, event: Any) -> Value:
         if event.anchor not in self.anchors:
-            message = f"the alias `*{event.anchor[:60]}` stands inside what it names, or names nothing above"
+            message = f"the alias `*{event.anchor[:60]}` stands inside its own anchor, or has no anchor above"
             self._refuse("yaml-alias", message, event, "write it out")
         value, size = self.anchors[event.anchor]
         self._count(size, event, "aliases count each time; write out what repeats, or share it under `formats`")
