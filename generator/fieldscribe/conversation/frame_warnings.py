@@ -37,7 +37,7 @@ class FrameWarnings:
     def notes(self, decoded: DecodedFrame) -> tuple[str, ...]:
         """Return notes on what may be a mistake."""
         spans = [content for content in decoded.contents if isinstance(content, Span)] if decoded.request else []
-        misprint = self._misprints.get((decoded.frame or decoded.result).data)
+        misprint = self._misprints.get(decoded.result.data)
         notes = [note for span in spans for note in _off_by_one(self._directory, span)]
         return (*notes, _misprint_text(misprint)) if misprint is not None else tuple(notes)
 

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from fieldscribe.families.directory import Directory
-    from fieldscribe.families.frame_results import Captured
     from fieldscribe.model import Telegram
 
 
@@ -103,19 +102,9 @@ Content = Span | Element | Word | ProcessData | Masks | Piece | Item
 
 
 @dataclass(frozen=True, slots=True)
-class FrameBytes:
-    """What only this frame has: its bytes, what its checksum says, and how it was captured."""
-
-    data: bytes
-    checks: str = ""
-    captured: Captured | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class DecodedFrame:
     """One decoded frame, before its contents are matched with points.
 
-    `result` may be shared by many frames with the same head; `frame` then holds what only this one has.
     `unit` is the unit that sends or receives it; `exchange` tells apart exchanges that are open at the same time.
     `request` is the family's own form of a request, if the frame is one. `unanswered`: nobody answers this request.
     `answers`: the frame closes the open request. `stays_open`: given as the expected request, it stays open for all
@@ -130,21 +119,11 @@ class DecodedFrame:
     unanswered: bool = False
     answers: bool = False
     stays_open: bool = False
-    frame: FrameBytes | None = None
 
     def with_items(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> FrameResult:
         """Return the result with the items of its points, and with more findings and notes."""
         result = self.result
-        frame = self.frame or FrameBytes(result.data, result.checks, result.captured)
-        return replace(
-            result,
-            data=frame.data,
-            items=items,
-            checks=frame.checks,
-            findings=result.findings + findings,
-            notes=result.notes + notes,
-            captured=frame.captured,
-        )
+        return replace(result, items=items, findings=result.findings + findings, notes=result.notes + notes)
 
 
 @dataclass(slots=True)

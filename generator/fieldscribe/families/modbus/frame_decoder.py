@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.decoded_frame import BoundedMemo, DecodedFrame, FrameBytes, Span, cut_apart
+from fieldscribe.families.decoded_frame import DecodedFrame, Span, cut_apart
 from fieldscribe.families.frame_results import FrameResult, Item
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
 from fieldscribe.families.modbus.exchange import Reply, Request, confirmed_write, reply_in, request_in
@@ -31,11 +31,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.user_errors import Options
 
-_MOST_HEADS = 8192
-"""How many heads of requests and replies are remembered."""
-_HeadKey = tuple[str, str, int, int, int, int]
-"""What a head depends on: request or reply, framing, unit, function, address, count."""
-
 
 class ModbusFrameDecoder:
     """Decodes the frames of one device; without `framing` each frame is tried as RTU and as TCP."""
@@ -43,7 +38,6 @@ class ModbusFrameDecoder:
     def __init__(self, device: Device, framing: str | None = None) -> None:
         self._device = device
         self._framing = framing
-        self._heads: BoundedMemo[_HeadKey, FrameResult] = BoundedMemo(_MOST_HEADS, self._head)
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """Return the frames in pasted texts. Raises UnclearError."""
@@ -64,9 +58,9 @@ class ModbusFrameDecoder:
         if expecting and isinstance(problem := request_in(unwrapped), Flaw):
             result = replace(result, kind="unreadable")
             faults = (*faults, f"it is no request: {remarks.flaw_text(problem)}")
-        result = replace(result, faults=faults) if faults else result
-        own_bytes = FrameBytes(unwrapped.data, remarks.frame_checks(unwrapped))
-        return replace(decoded, result=result, frame=own_bytes, stays_open=decoded.request is not None)
+        checks = remarks.frame_checks(unwrapped)
+        result = replace(result, data=unwrapped.data, checks=checks, faults=faults)
+        return replace(decoded, result=result, stays_open=decoded.request is not None)
 
     def _read(self, unwrapped: Unwrapped, request: Request | None, *, fixed: bool) -> DecodedFrame:
         pdu = unwrapped.pdu
@@ -78,27 +72,21 @@ class ModbusFrameDecoder:
         if request and reply.status == "ok":
             words = reply.values if request.function in READS else request.values
             contents = _contents(request, _span(request, words, learned=True))
-            return DecodedFrame(self._heads["reply", unwrapped.framing, *_key(request)], contents, answers=True)
+            return replace(_reply(unwrapped, request, contents, ()), answers=True)
         parsed = request_in(unwrapped)
         if isinstance(parsed, Flaw) or fixed:
             return _unmatched_reply(unwrapped, parsed, request, reply.status)
-        unanswered = parsed.unit == self._device.bus.broadcast
-        head = self._heads["request", unwrapped.framing, *_key(parsed)]
-        return DecodedFrame(head, _contents(parsed, _span(parsed)), request=parsed, unanswered=unanswered)
+        return self._request(unwrapped, parsed)
 
-    def _head(self, key: _HeadKey) -> FrameResult:
-        """Return what a request, or the reply to it, says apart from its values."""
-        kind, framing, unit, function, address, count = key
-        request = Request(unit, function, address, count)
-        if kind == "reply":
-            return FrameResult(b"", framing, kind, unit, function, remarks.reply_text(framing, unit, request))
-        broadcast = unit == self._device.bus.broadcast
-        echo = function in SINGLE and not broadcast
-        kind, prefix = ("request_or_reply", "request, or the reply that repeats it") if echo else (kind, kind)
-        text = remarks.summary(framing, unit, function, f"{prefix}, {remarks.span_of_request(request)}")
+    def _request(self, unwrapped: Unwrapped, request: Request) -> DecodedFrame:
+        broadcast = request.unit == self._device.bus.broadcast
+        echo = request.function in SINGLE and not broadcast
+        kind, text = ("request_or_reply", "request, or the reply that repeats it") if echo else ("request", "request")
+        result = _result(unwrapped, kind, f"{text}, {remarks.span_of_request(request)}")
         findings = tuple(remarks.request_findings(self._device, request))
         notes = (remarks.BROADCAST_NOTE,) if broadcast and not findings else ()
-        return FrameResult(b"", framing, kind, unit, function, text, findings=findings, notes=notes)
+        result = replace(result, findings=findings, notes=notes)
+        return DecodedFrame(result, _contents(request, _span(request)), request=request, unanswered=broadcast)
 
     def _exception(self, unwrapped: Unwrapped, request: Request | None, status: str) -> DecodedFrame:
         if len(unwrapped.pdu) != 2:
@@ -159,10 +147,6 @@ def _sound_tcp(data: bytes) -> int:
 def _is_whole(pdu: bytes) -> bool:
     """Return True if a PDU has the length that its function gives, as a request or as a reply."""
     return bool(pdu) and len(pdu) in (request_length(pdu), reply_length(pdu))
-
-
-def _key(request: Request) -> tuple[int, int, int, int]:
-    return request.unit, request.function, request.address, request.count
 
 
 def _unmatched_reply(
