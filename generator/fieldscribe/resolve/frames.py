@@ -12,7 +12,7 @@ from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
-from fieldscribe.resolve.values import integer, number
+from fieldscribe.resolve.values import FactError, number, whole
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -146,62 +146,49 @@ class _StatedValues:
             point = points.get(facts.item)
             if point is None or facts.failed & {"scale", "type", "enum"}:
                 continue
-            if word == name:
-                raw_number = self._raw(point, word, value)
-            else:
-                raw_number = integer(value, self.values.span(word), self.scope.report)
-            if raw_number is not None:
-                yield point, raw_number
+            try:
+                yield point, self._raw(point, word, value) if word == name else whole(value, self.values.span(word))
+            except FactError as error:
+                error.report(self.scope.report)
 
-    def _raw(self, point: Point, word: str, value: Any) -> int | None:
-        """Return the raw number of a name, or of a value in the unit; None after a finding."""
+    def _raw(self, point: Point, word: str, value: Any) -> int:
+        """Return the raw number of a name, or of a value in the unit. Raises FactError."""
         if isinstance(value, bool):
             return int(value)
         known = _names(point) if isinstance(value, str) and not value[:1].isdigit() else {}
         if value in known:
             return known[value]
+        span = self.values.span(word)
         if known and not is_whole_number(value):
-            self.scope.unknown("entry", value, self.values.span(word), known)
-            return None
-        fault = self._fault(point)
-        if fault is not None:
-            hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"
-            self._refuse("bad-formula", word, fault, hint)
-            return None
-        exact = number(value, self.values.span(word), self.scope.report)
-        return None if exact is None else self._number(point, word, value, exact)
-
-    def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
-        """Return the raw number of a value; None after a finding."""
-        if point.info.floating or point.scale_arguments:
-            try:
-                return encode(point, exact, self.held)
-            except CodecError:
-                self._report_no_number(point, word, value)
-                return None
-        if point.fixed_scale is not None:
-            exact = point.fixed_scale.at(exact)
-        if exact.denominator != 1:
-            fault = f"cannot be {value}: that is raw {number_text(exact)}"
-            self._refuse("bad-number", word, fault, "give the value as printed, in the unit of the point")
-            return None
-        return exact.numerator
-
-    def _report_no_number(self, point: Point, word: str, value: Any) -> None:
-        if point.info.floating:
-            self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
-        else:
-            self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
-
-    def _fault(self, point: Point) -> str | None:
-        """Return why the point has no raw number for a value; None if it has one."""
+            self.scope.unknown("entry", value, span, known)
+            raise FactError
         if point.text is not None:
-            return "is a text"
-        missing = [name for name in point.scale_arguments if name not in self.held]
-        return f"needs what {', '.join(missing)} holds to be scaled (say it under `with`)" if missing else None
+            raise FactError("bad-formula", f"`{word}` is a text", span, "leave it out of `says`")
+        exact = number(value, span, self.scope.report)
+        if exact is None:
+            raise FactError
+        try:
+            raw = encode(point, exact, self.held)
+        except CodecError as error:
+            raise self._no_number(point, word, error) from error
+        if point.fixed_scale is not None and point.fixed_scale.at(exact) != raw:
+            exact = point.fixed_scale.at(exact)
+        elif point.scale is not None or point.info.floating or exact == raw:
+            return raw
+        message = f"`{word}` cannot be {value}: that is raw {number_text(exact)}"
+        raise FactError("bad-number", message, span, "give the value as printed, in the unit of the point")
 
-    def _refuse(self, rule: str, word: str, fault: str, hint: str) -> None:
-        self.scope.report.error(rule, f"`{word}` {fault}", self.values.span(word), hint)
+    def _no_number(self, point: Point, word: str, error: CodecError) -> FactError:
+        """Return the error for a value that has no raw number."""
+        span = self.values.span(word)
+        if error.status == "missing":
+            message = f"`{word}` needs what {', '.join(error.missing)} holds to be scaled (say it under `with`)"
+            return FactError("bad-formula", message, span, f"give its raw number: `{word}{RAW}: …`")
+        if point.info.floating:
+            message = f"`{word}` cannot be {self.values[word]}: the type is too small"
+            return FactError("bad-number", message, span, "correct it")
+        message = f"`{word}` has no scale with what `with` says"
+        return FactError("bad-formula", message, span, "check the values under `with`")
 
 
 def _names(point: Point) -> dict[str, int]:
