@@ -123,9 +123,7 @@ class PointFacts:
 
     def __post_init__(self) -> None:
         group, where = self.group, self._where
-        for key in _INHERITED:
-            if key in group:
-                where[key] = group
+        where.update({key: group for key in group if key in _INHERITED})
         for layer in reversed(self.layers):
             keys = layer if layer is self.node or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))

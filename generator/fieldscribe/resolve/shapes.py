@@ -73,7 +73,7 @@ class Shapes:
         """Return the shape of a point and its limits; `kind` is the same for points that differ in numbers only."""
         limits, free = facts.get("range"), self._free.get(kind)
         if free is not None and (ends := _plain_ends(limits, self._encodings[facts].holds)) is not None:
-            return free._replace(allowed=self._interner.interval(*ends))
+            return ShapeAndLimits(free.shape, self._interner.interval(*ends), free.raw_alone, free=True)
         whole = kind, hashable(limits), hashable(facts.get("range_in_units"))
         found = self._memo.of(whole, facts, self._shape_of, lambda new: new.is_general)
         if found.free and found.is_general:
