@@ -128,6 +128,10 @@ def test_words_of_cells() -> None:
     assert [cells.access_in(cell) for cell in accesses] == ["rw", "r", "r", "w", "none", None, None]
     types = ("UINT16", "Unsigned 32 bit", "float", "BOOL", "Int_16", "INT", "BCD", "")
     assert [cells.type_in(cell) for cell in types] == ["u16", "u32", "f32", "bit", "s16", None, None, None]
+    kinds = ("u8", "s8", "u16", "s16", "u32", "s32", "u64", "s64", "f32", "f64", "bit")
+    assert [cells.type_in(kind) for kind in kinds] == list(kinds)
+    spelled = ("byte", "SINT", "Word", "short", "DWORD", "DINT", "ULINT", "LINT", "real", "double", "boolean")
+    assert [cells.type_in(cell) for cell in spelled] == list(kinds)
     bits = ("11", "Bit 3", "15 + 14", "4..7", "16", "99", "Word", "")
     assert [cells.bits_in(cell) for cell in bits] == ["11", "3", "15..14", "7..4", None, None, None, None]
     units = ("Hz", "seconds", "Std", "[°C]", "1/min", "sacks", "")

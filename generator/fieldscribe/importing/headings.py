@@ -53,7 +53,7 @@ _HEADINGS = {
     ),
     "bits": r"bits?( ?(nr|no|number|position|pos))?|bitnummer|bit ?nummer",
     "space": (
-        r"(register|object|modbus|data) ?(type|table|area|space)|fc|function codes?|area|registertyp|tabelle|"
+        r"(register|object|modbus|data) ?(type|table|area|space)|space|fc|function codes?|area|registertyp|tabelle|"
         r"funktionscodes?|bereichstyp"
     ),
     "range": (
