@@ -104,7 +104,6 @@ def test_a_long_workbook_is_read_to_its_end(tmp_path: Path, capsys: pytest.Captu
         ("A title\nAddress,Name,Unit", 0),
         ("foo,foo,bar\nAddress,Name,Unit", 1),
         ("Range,,Type,\nAddress,Name,,Unit", 0),
-        ("Range,,Type,\nAddress,Name 2,,Unit", 1),
     ],
 )
 def test_the_row_of_headings_has_no_number_and_is_known_by_half(headings: str, code: int, tmp_path: Path) -> None:

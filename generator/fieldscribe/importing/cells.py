@@ -153,8 +153,9 @@ def access_in(cell: str) -> str | None:
 
 def type_in(cell: str) -> str | None:
     """Return the wire type; None if the words are unknown or, as `int`, leave sign or width open."""
-    plain = " ".join(re.sub(r"[_\-().,]|\bbits?\b", " ", one_line(cell).casefold()).split())
-    return _TYPES.get(plain) or _TYPES.get(plain.replace(" ", ""))
+    whole = one_line(cell).casefold()
+    plain = " ".join(re.sub(r"[_\-().,]|\bbits?\b", " ", whole).split())
+    return _TYPES.get(whole) or _TYPES.get(plain) or _TYPES.get(plain.replace(" ", ""))
 
 
 def bits_in(cell: str) -> str | None:
