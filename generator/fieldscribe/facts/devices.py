@@ -103,36 +103,36 @@ def _parts(kind: str, table: Table, *same_by: str | View, listed: Listed | None 
 
 DOCUMENT: Table = (
     Fact("id", "What sources call it.", STRING),
-    Fact("title", "Its title.", STRING, weight=DOCS),
-    Fact("language", "The language it is written in.", STRING, weight=DOCS),
-    Fact("file", "The name of the file that was read.", TEXT_OR_NULL, weight=DOCS),
-    Fact("sha256", "The SHA-256 of that file.", TEXT_OR_NULL, weight=DOCS),
+    Fact("title", "Its title.", STRING, DOCS),
+    Fact("language", "The language it is written in.", STRING, DOCS),
+    Fact("file", "The name of the file that was read.", TEXT_OR_NULL, DOCS),
+    Fact("sha256", "The SHA-256 of that file.", TEXT_OR_NULL, DOCS),
 )
 GROUP: Table = (NAME, TITLE, NOTE, SOURCE)
 COMMAND: Table = (
     NAME,
     TITLE,
     NOTE,
-    Fact("space", "The space of its address.", STRING, weight=WIRE),
-    Fact("address", "The address on the wire.", ADDRESS, weight=WIRE),
-    Fact("function", "The function to write with.", INTEGER, weight=WIRE),
-    Fact("value", "What to write; null where any value does.", INTEGER_OR_NULL, weight=WIRE),
-    Fact("wears", "How many such writes the memory stands.", INTEGER_OR_NULL, weight=BEHAVIOUR),
-    Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, weight=BEHAVIOUR, refers="point"),
+    Fact("space", "The space of its address.", STRING, WIRE),
+    Fact("address", "The address on the wire.", ADDRESS, WIRE),
+    Fact("function", "The function to write with.", INTEGER, WIRE),
+    Fact("value", "What to write; null where any value does.", INTEGER_OR_NULL, WIRE),
+    Fact("wears", "How many such writes the memory stands.", INTEGER_OR_NULL, BEHAVIOUR),
+    Fact("busy", "The point that tells that the command is at work.", TEXT_OR_NULL, BEHAVIOUR, refers="point"),
     SOURCE,
 )
 _SENDER = Fact(
     "direction",
     "Who sends it: `request` the master, `response` the device when asked, `cyclic` the device by itself.",
     DIRECTION,
-    weight=WIRE,
+    WIRE,
 )
 MESSAGE: Table = (
     NAME,
     TITLE,
     _SENDER,
-    Fact("answers", "The message that it answers.", TEXT_OR_NULL, weight=WIRE, refers="message"),
-    Fact("identifier", "The identifier.", ADDRESS, weight=WIRE),
+    Fact("answers", "The message that it answers.", TEXT_OR_NULL, WIRE, refers="message"),
+    Fact("identifier", "The identifier.", ADDRESS, WIRE),
     Fact(
         "adds_unit",
         "Whether the unit number is added to the identifier.",
@@ -143,8 +143,8 @@ MESSAGE: Table = (
         "layout",
         "What each byte holds.",
         list_of(ref("role"), 8, 8),
+        WIRE,
         value=lambda message, _: [{"holds": role.kind, "number": role.number} for role in message.roles],
-        weight=WIRE,
     ),
     SOURCE,
 )
@@ -152,32 +152,32 @@ TELEGRAM: Table = (
     NAME,
     TITLE,
     _SENDER,
-    Fact("words", "How many words it has.", COUNT, weight=WIRE),
-    Fact("message", "The message whose frames carry the words.", TEXT_OR_NULL, weight=WIRE, refers="message"),
+    Fact("words", "How many words it has.", COUNT, WIRE),
+    Fact("message", "The message whose frames carry the words.", TEXT_OR_NULL, WIRE, refers="message"),
     SOURCE,
 )
 _FRAME: Table = (
     NAME,
-    Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, weight=DOCS),
+    Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, DOCS),
     TITLE,
     Fact(
         "bytes",
         "The bytes as printed, in hexadecimal with spaces.",
         _HEX,
+        DOCS,
         value=lambda frame, _: frame.printed.hex(" ").upper(),
-        weight=DOCS,
     ),
     Fact(
         "corrected",
         "The bytes as they should read; those that are printed unless it is misprinted.",
         _HEX,
+        DOCS,
         value=lambda frame, _: frame.corrected.hex(" ").upper(),
-        weight=DOCS,
     ),
-    Fact("direction", "`request`, `response` or `cyclic`.", STRING, weight=DOCS),
-    Fact("answers", "The request that a response answers.", TEXT_OR_NULL, weight=DOCS, refers="frame"),
-    Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), weight=DOCS, refers="point", yaml=("says", "with")),
-    Fact("valid", "False when the frame is misprinted.", BOOLEAN, weight=DOCS),
+    Fact("direction", "`request`, `response` or `cyclic`.", STRING, DOCS),
+    Fact("answers", "The request that a response answers.", TEXT_OR_NULL, DOCS, refers="frame"),
+    Fact("meaning", "Raw numbers by point name.", map_of(INTEGER), DOCS, refers="point", yaml=("says", "with")),
+    Fact("valid", "False when the frame is misprinted.", BOOLEAN, DOCS),
 )
 _MEMBERS = View("points", API, itemgetter("points"))
 _CODE_VIEWS = (
@@ -191,15 +191,15 @@ CODE: Table = (
         "broadcast",
         "Whether it may be sent to all units at once; null: as the protocol says.",
         null_or(BOOLEAN),
-        weight=BEHAVIOUR,
+        BEHAVIOUR,
     ),
     Fact(
         "answers",
         "USS: of a task the responses that it can get, of a response or an error the tasks.",
         list_of(INTEGER),
-        weight=WIRE,
+        WIRE,
     ),
-    Fact("refusals", "USS: of a task the responses that refuse it.", list_of(INTEGER), weight=BEHAVIOUR),
+    Fact("refusals", "USS: of a task the responses that refuse it.", list_of(INTEGER), BEHAVIOUR),
 )
 ERRATUM: Table = (
     Fact("id", "Its name, never reused.", STRING),
@@ -210,18 +210,18 @@ ERRATUM: Table = (
         value=lambda erratum, _: erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
         views=(View("points", BEHAVIOUR, itemgetter("point"), refers="point", yaml=("point", "points")),),
     ),
-    Fact("where", "The place, in words.", STRING, value=lambda erratum, _: str(erratum.where), weight=DOCS),
+    Fact("where", "The place, in words.", STRING, DOCS, value=lambda erratum, _: str(erratum.where)),
     SOURCE,
-    Fact("printed", "What is printed.", STRING, weight=_sentence),
-    Fact("taken", "What this description takes instead.", STRING, weight=_sentence),
+    Fact("printed", "What is printed.", STRING, _sentence),
+    Fact("taken", "What this description takes instead.", STRING, _sentence),
     Fact("facts", "The printed facts by their keys.", map_of(STRING), published=False),
-    Fact("reason", "Why.", STRING, attribute="why", weight=DOCS, yaml=("why",)),
-    Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), weight=BEHAVIOUR),
+    Fact("reason", "Why.", STRING, DOCS, attribute="why", yaml=("why",)),
+    Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), BEHAVIOUR),
 )
 _LIMITS: Table = (
-    Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, weight=grown),
-    Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), weight=BEHAVIOUR),
-    Fact("broadcast", "The unit number of a broadcast; null when there is none.", INTEGER_OR_NULL, weight=WIRE),
+    Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, grown),
+    Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), BEHAVIOUR),
+    Fact("broadcast", "The unit number of a broadcast; null when there is none.", INTEGER_OR_NULL, WIRE),
     Fact(
         "most",
         "The most items in one request, by function number as decimal text.",
@@ -232,11 +232,11 @@ _LIMITS: Table = (
         "gaps",
         "Address ranges that no request may cross, by space: the first and the last address of each.",
         map_of(list_of(list_of(INTEGER, 2, 2))),
+        BEHAVIOUR,
         value=lambda bus, _: {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
-        weight=BEHAVIOUR,
     ),
-    Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), weight=DOCS),
-    Fact("note", "A remark for people; empty without one.", TITLES, weight=DOCS, for_people=True),
+    Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), DOCS),
+    Fact("note", "A remark for people; empty without one.", TITLES, DOCS, for_people=True),
 )
 
 
@@ -321,9 +321,9 @@ def device_table(own_family: str) -> Table:
         ),
         Fact("device", "The id of the device.", STRING, attribute="id"),
         Fact("version", "The version of its description.", STRING),
-        Fact("family", "The rules of addressing and framing.", STRING, weight=WIRE),
-        Fact("vendor", "Who makes it.", STRING, weight=DOCS),
-        Fact("model", "The maker's name of the product.", STRING, weight=DOCS),
+        Fact("family", "The rules of addressing and framing.", STRING, WIRE),
+        Fact("vendor", "Who makes it.", STRING, DOCS),
+        Fact("model", "The maker's name of the product.", STRING, DOCS),
         TITLE,
         NOTE,
         _list(

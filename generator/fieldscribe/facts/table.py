@@ -122,12 +122,12 @@ class Fact:
     key: str
     doc: str
     schema: Schema
+    weight: Weight = ""
     _: KW_ONLY
     attribute: str = ""
     value: Callable[[Any, Context], Any] | None = None
     table: Table | None = None
     shared: str = ""
-    weight: Weight = ""
     follows: tuple[str, ...] = ()
     refers: str = ""
     yaml: tuple[str, ...] = ()

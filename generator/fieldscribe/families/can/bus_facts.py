@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:
-    return Fact(key, doc, schema, value=lambda bus, _: getattr(of_bus(bus), key), weight=WIRE)
+    return Fact(key, doc, schema, WIRE, value=lambda bus, _: getattr(of_bus(bus), key))
 
 
 LIMITS = (
@@ -27,11 +27,7 @@ LIMITS = (
 
 FRAME = (
     Fact(
-        "can_id",
-        "The identifier of a CAN frame.",
-        null_or(ADDRESS),
-        value=lambda frame, _: identifier_of(frame),
-        weight=DOCS,
+        "can_id", "The identifier of a CAN frame.", null_or(ADDRESS), DOCS, value=lambda frame, _: identifier_of(frame)
     ),
 )
 """The same for worked examples."""

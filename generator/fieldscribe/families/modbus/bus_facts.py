@@ -20,8 +20,8 @@ LIMITS = (
         "pad_coil_bytes",
         "Modbus: to which number of bytes the data of written coils is padded.",
         null_or(STRING),
+        WIRE,
         value=lambda bus, _: of_bus(bus).pad_coil_bytes,
-        weight=WIRE,
     ),
 )
 """The facts of a bus that only this family has; they are empty on a bus of another family."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:
-    return Fact(key, doc, schema, value=lambda bus, _: getattr(of_bus(bus), key), weight=WIRE)
+    return Fact(key, doc, schema, WIRE, value=lambda bus, _: getattr(of_bus(bus), key))
 
 
 LIMITS = (
@@ -28,8 +28,8 @@ LIMITS = (
         "variant_pzd",
         "USS: the most words of process data of variants that take fewer, by axis=value.",
         map_of(INTEGER),
+        BEHAVIOUR,
         value=lambda bus, _: {str(variant): most for variant, most in of_bus(bus).variant_pzd},
-        weight=BEHAVIOUR,
     ),
     _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
 )
@@ -40,8 +40,8 @@ FRAME = (
         "pkw",
         "The words of the parameter part of a USS telegram, as set for the link.",
         null_or(INTEGER),
+        DOCS,
         value=lambda frame, _: of_frame(frame).pkw,
-        weight=DOCS,
     ),
 )
 """The same for worked examples."""
