@@ -188,7 +188,7 @@ def test_neither_a_new_key_nor_a_renamed_field_changes_generated_files(tmp_path:
         text = file.read_text("utf-8")
         file.write_text(re.sub(r"\bwrite_place\b", "second_place", text), "utf-8")
     table = package / "facts/points.py"
-    text = table.read_text("utf-8").replace("POINT: Table = (\n", f"POINT: Table = (\n{NEW_KEY}", 1)
+    text = table.read_text("utf-8").replace("POINT: FactTable = (\n", f"POINT: FactTable = (\n{NEW_KEY}", 1)
     for name, is_used in (("nothing", False), ("wanted_speed", True)):
         table.write_text(text.replace("HAZARDOUS", f'"{name}"'), "utf-8")
         command = ["generate", str(DEVICES / "kitchen_sink"), "--out", str(tmp_path / name), "--target", "c,docs"]

@@ -28,7 +28,7 @@ from fieldscribe.facts.table import Context, exported
 from fieldscribe.families import FAMILIES, families, family
 
 if TYPE_CHECKING:
-    from fieldscribe.facts.table import Table
+    from fieldscribe.facts.table import FactTable
     from fieldscribe.model import Device
 
 
@@ -54,7 +54,7 @@ def export_form(form: str, device: Device, unit: int | None) -> bytes:
 def schema_text() -> str:
     """Return the JSON Schema of the exported model."""
     first = next(iter(FAMILIES))
-    tables: dict[str, tuple[str, Table]] = {
+    tables: dict[str, tuple[str, FactTable]] = {
         "document": ("A manual that facts were taken from.", DOCUMENT),
         "limits": ("What the line allows.", limits_table(first)),
         "group": ("Points that the manual presents together.", GROUP),
@@ -88,5 +88,5 @@ def schema_text() -> str:
     return json.dumps(schema, indent=2) + "\n"
 
 
-def _object(table: Table) -> dict[str, Any]:
+def _object(table: FactTable) -> dict[str, Any]:
     return dict(record({fact.key: (fact.doc, fact.schema) for fact in table if fact.published}))

@@ -34,7 +34,7 @@ from fieldscribe.wording import without_lines
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
-    from fieldscribe.facts.table import Table, Weight
+    from fieldscribe.facts.table import FactTable, Weight
     from fieldscribe.families import Family
     from fieldscribe.model import Bus, Code
 
@@ -93,7 +93,9 @@ def _list(key: str, doc: str, parts: Parts) -> Fact:
     return Fact(key, doc, list_of(ref(parts.kind)), table=parts.table, views=(parts,))
 
 
-def _parts(kind: str, table: Table, *same_by: str | View, listed: Listed | None = None, change: Weight = "") -> Parts:
+def _parts(
+    kind: str, table: FactTable, *same_by: str | View, listed: Listed | None = None, change: Weight = ""
+) -> Parts:
     """Things of a kind; with `change` all that comes, goes or gets another name is of that class."""
     parts = Parts(kind, kind, listed or partial(_named, f"{kind}s"), table, same_by=same_by)
     return replace(parts, added=change, removed=change, renamed=change) if change else parts
@@ -101,15 +103,15 @@ def _parts(kind: str, table: Table, *same_by: str | View, listed: Listed | None 
 
 # The tables.
 
-DOCUMENT: Table = (
+DOCUMENT: FactTable = (
     Fact("id", "What sources call it.", STRING),
     Fact("title", "Its title.", STRING, DOCS),
     Fact("language", "The language it is written in.", STRING, DOCS),
     Fact("file", "The name of the file that was read.", TEXT_OR_NULL, DOCS),
     Fact("sha256", "The SHA-256 of that file.", TEXT_OR_NULL, DOCS),
 )
-GROUP: Table = (NAME, TITLE, NOTE, SOURCE)
-COMMAND: Table = (
+GROUP: FactTable = (NAME, TITLE, NOTE, SOURCE)
+COMMAND: FactTable = (
     NAME,
     TITLE,
     NOTE,
@@ -127,7 +129,7 @@ _SENDER = Fact(
     DIRECTION,
     WIRE,
 )
-MESSAGE: Table = (
+MESSAGE: FactTable = (
     NAME,
     TITLE,
     _SENDER,
@@ -148,7 +150,7 @@ MESSAGE: Table = (
     ),
     SOURCE,
 )
-TELEGRAM: Table = (
+TELEGRAM: FactTable = (
     NAME,
     TITLE,
     _SENDER,
@@ -156,7 +158,7 @@ TELEGRAM: Table = (
     Fact("message", "The message whose frames carry the words.", TEXT_OR_NULL, WIRE, refers="message"),
     SOURCE,
 )
-_FRAME: Table = (
+_FRAME: FactTable = (
     NAME,
     Fact("framing", "How its bytes are framed: `rtu`, `tcp`, ...", STRING, DOCS),
     TITLE,
@@ -184,7 +186,7 @@ _CODE_VIEWS = (
     View("number", WIRE, itemgetter("number")),
     View("max", BEHAVIOUR, itemgetter("most"), yaml=("functions",)),
 )
-CODE: Table = (
+CODE: FactTable = (
     NAME,
     TITLE,
     Fact(
@@ -201,7 +203,7 @@ CODE: Table = (
     ),
     Fact("refusals", "USS: of a task the responses that refuse it.", list_of(INTEGER), BEHAVIOUR),
 )
-ERRATUM: Table = (
+ERRATUM: FactTable = (
     Fact("id", "Its name, never reused.", STRING),
     Fact(
         "point",
@@ -218,7 +220,7 @@ ERRATUM: Table = (
     Fact("reason", "Why.", STRING, DOCS, attribute="why", yaml=("why",)),
     Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), BEHAVIOUR),
 )
-_LIMITS: Table = (
+_LIMITS: FactTable = (
     Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, grown),
     Fact("units", "The lowest and the highest unit number.", list_of(INTEGER, 2, 2), BEHAVIOUR),
     Fact("broadcast", "The unit number of a broadcast; null when there is none.", INTEGER_OR_NULL, WIRE),
@@ -241,27 +243,27 @@ _LIMITS: Table = (
 
 
 @cache
-def _with_family_facts(kind: str, table: Table, own_family: str) -> Table:
+def _with_family_facts(kind: str, table: FactTable, own_family: str) -> FactTable:
     """The table with the facts that families add; those of other families have their empty values."""
     facts = {fact.key: replace(fact, **_FOREIGN) for each in families() for fact in _offered(each, kind)}
     facts |= {fact.key: fact for fact in _offered(family(own_family), kind)}
     return (*table, *facts.values())
 
 
-def _offered(of_family: Family, kind: str) -> Table:
-    table: Table = getattr(of_family.part("bus_facts"), kind, ())
+def _offered(of_family: Family, kind: str) -> FactTable:
+    table: FactTable = getattr(of_family.part("bus_facts"), kind, ())
     return table
 
 
 _FOREIGN: Mapping[str, Any] = {"derived": "it is a fact of another family", "weight": "", "views": ()}
 
 
-def limits_table(own_family: str) -> Table:
+def limits_table(own_family: str) -> FactTable:
     """Return the facts of the bus of a device of that family."""
     return _with_family_facts("LIMITS", _LIMITS, own_family)
 
 
-def frame_table(own_family: str) -> Table:
+def frame_table(own_family: str) -> FactTable:
     """Return the facts of worked examples of that family."""
     return (*_with_family_facts("FRAME", _FRAME, own_family), SOURCE, ERRATA)
 
@@ -274,7 +276,7 @@ _SECTIONS = {
 
 
 @cache
-def codes_table(own_family: str) -> Table:
+def codes_table(own_family: str) -> FactTable:
     """The numbered codes by section; those that generated code has no names for break no code."""
     emitted = {codes.section for codes in family(own_family).codes if codes.emitted}
     sections = []
@@ -307,7 +309,7 @@ def _codes_of(section: str, bus: Bus, _: Context) -> dict[str, Code]:
 
 
 @cache
-def device_table(own_family: str) -> Table:
+def device_table(own_family: str) -> FactTable:
     """Return the facts of a device of that family."""
     limits, frame, codes = limits_table(own_family), frame_table(own_family), codes_table(own_family)
     errata = replace(_parts("erratum", ERRATUM, listed=_errata, change=BEHAVIOUR), summary=_erratum_in_short)

@@ -32,7 +32,7 @@ from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, Parts, Vie
 from fieldscribe.model import TYPES
 
 if TYPE_CHECKING:
-    from fieldscribe.facts.table import Table
+    from fieldscribe.facts.table import FactTable
 
 _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 
@@ -54,17 +54,17 @@ SOURCE = Fact(
 
 ERRATA = Fact("errata", "The errata that touch it.", TEXTS, derived="the errata name it")
 
-FLAG_VALUE: Table = (
+FLAG_VALUE: FactTable = (
     NAME,
     TITLE,
 )
 
-ENTRY: Table = (
+ENTRY: FactTable = (
     *FLAG_VALUE,
     Fact("quantity", "The quantity that it stands for: `0.37 kW`.", TEXT_OR_NULL, BEHAVIOUR),
 )
 
-FLAG: Table = (
+FLAG: FactTable = (
     Fact("bits", "Which bits.", ref("bits"), WIRE, value=lambda flag, _: [flag.low + flag.width - 1, flag.low]),
     *FLAG_VALUE,
     Fact("active", "The value of a single bit while its name is true.", one_of(0, 1), WIRE),
@@ -83,7 +83,7 @@ FLAG: Table = (
     ),
 )
 
-SPECIAL: Table = (
+SPECIAL: FactTable = (
     Fact(
         "raw",
         "The first and the last raw number; of f32 and f64 the pattern.",
@@ -104,7 +104,7 @@ SPECIAL: Table = (
     ),
 )
 
-DIGITS: Table = (
+DIGITS: FactTable = (
     Fact("count", "How many there are.", {**COUNT, "maximum": 5}),
     Fact(
         "enum",
@@ -120,7 +120,7 @@ _REFERENCES = (
     map_of({"type": ["integer", "string"]}),
 )
 
-POINT: Table = (
+POINT: FactTable = (
     Fact("name", "English snake_case; unique but for variants.", STRING),
     Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE),
     Fact(

@@ -84,7 +84,7 @@ class Parts:
     label: str
     kind: str
     listed: Callable[[Exported], Iterable[Exported]]
-    table: Table
+    table: FactTable
     views: tuple[View, ...] = ()
     same_by: tuple[str | View, ...] = ()
     added: Weight = COMPATIBLE
@@ -126,7 +126,7 @@ class Fact:
     _: KW_ONLY
     attribute: str = ""
     value: Callable[[Any, Context], Any] | None = None
-    table: Table | None = None
+    table: FactTable | None = None
     shared: str = ""
     follows: tuple[str, ...] = ()
     refers: str = ""
@@ -194,18 +194,18 @@ class Fact:
 
 _EMPTY: Mapping[str, Any] = {"array": [], "object": {}, "string": "", "boolean": False}
 
-Table: TypeAlias = tuple[Fact, ...]
-FactsOf: TypeAlias = Callable[[Table, Any, Context], dict[str, Any]]
+FactTable: TypeAlias = tuple[Fact, ...]
+FactsOf: TypeAlias = Callable[[FactTable, Any, Context], dict[str, Any]]
 
 
-def exported(table: Table, thing: object, context: Context) -> dict[str, Any]:
+def exported(table: FactTable, thing: object, context: Context) -> dict[str, Any]:
     """Return all published facts of a thing by key, in the order of the table."""
     return {
         fact.key: plain_value(fact, fact.get(thing, context), context, exported) for fact in table if fact.published
     }
 
 
-def stated(table: Table, thing: object, context: Context) -> dict[str, Any]:
+def stated(table: FactTable, thing: object, context: Context) -> dict[str, Any]:
     """Return the facts of a thing that follow from no others and differ from their usual value."""
     values: dict[str, Any] = {}
     for fact in table:

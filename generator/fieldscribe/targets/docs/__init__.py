@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
-    from fieldscribe.targets.docs.scope import Scope
+    from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Table
     from fieldscribe.targets.identifiers import Names
 
@@ -28,14 +28,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
         yield f"docs/{path}", text
 
 
-def markdown_files(scope: Scope, render: Render) -> Iterable[tuple[str, str]]:
+def markdown_files(scope: DocsScope, render: Render) -> Iterable[tuple[str, str]]:
     """Yield the reference in Markdown."""
     from fieldscribe.targets.docs.page import page_of
 
     yield f"{scope.device.id}.md", render("docs/device.md.j2", {"page": page_of(scope)}).rstrip("\n") + "\n"
 
 
-def csv_files(scope: Scope) -> Iterable[tuple[str, str]]:
+def csv_files(scope: DocsScope) -> Iterable[tuple[str, str]]:
     """Yield the points and their meanings as CSV."""
     from fieldscribe.targets.docs.tables import csv_of
 
@@ -44,14 +44,14 @@ def csv_files(scope: Scope) -> Iterable[tuple[str, str]]:
     yield f"{scope.device.id}_meanings.csv", csv_of(meanings)
 
 
-def xlsx_files(scope: Scope) -> Iterable[tuple[str, bytes]]:
+def xlsx_files(scope: DocsScope) -> Iterable[tuple[str, bytes]]:
     """Yield all tables as one workbook. Raises ModuleNotFoundError without XlsxWriter."""
     from fieldscribe.targets.docs.workbook import workbook_of
 
     yield f"{scope.device.id}.xlsx", workbook_of(scope.device, tables_of(scope))
 
 
-def tables_of(scope: Scope) -> tuple[Table, Table, Table]:
+def tables_of(scope: DocsScope) -> tuple[Table, Table, Table]:
     """Return the tables of the points, their meanings, and the errata."""
     from fieldscribe.targets.docs.sheet import points_table
     from fieldscribe.targets.docs.tables import errata_table, meanings_table

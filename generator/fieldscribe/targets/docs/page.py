@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Command, Device, Erratum, Frame, Point, Special
     from fieldscribe.targets.docs.bus import OfFamily
-    from fieldscribe.targets.docs.scope import Scope
+    from fieldscribe.targets.docs.scope import DocsScope
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
@@ -77,7 +77,7 @@ class PageView:
     missing: str
 
 
-def page_of(scope: Scope) -> PageView:
+def page_of(scope: DocsScope) -> PageView:
     """Return the view of a device's page."""
     device = scope.device
     version = f"{device.version} ({device.digest[:16]})"
@@ -141,13 +141,13 @@ def _documents(device: Device) -> str:
     return by_rows(("Document", "Title", "Language", "File", "SHA-256"), rows)
 
 
-def _frames(scope: Scope) -> str:
+def _frames(scope: DocsScope) -> str:
     rows = [_frame_row(scope, frame) for frame in scope.device.frames]
     heads = ("Frame", "Kind", "Bytes", "Meaning", "Errata", "Source")
     return by_rows(heads, rows, always=heads)
 
 
-def _frame_row(scope: Scope, frame: Frame) -> tuple[str, ...]:
+def _frame_row(scope: DocsScope, frame: Frame) -> tuple[str, ...]:
     answers = f"answers {link('frame', frame.answers)}" if frame.answers else ""
     corrected = "" if frame.valid else f"correct: {code(frame.corrected.hex(' ').upper())}"
     return (

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from fieldscribe.model import Enum, Group, Point
-    from fieldscribe.targets.docs.scope import Scope
+    from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.words import WordView
 
 _ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
@@ -73,7 +73,7 @@ class GroupView:
     lists: tuple[ListView, ...]
 
 
-def group_views(scope: Scope) -> Iterator[GroupView]:
+def group_views(scope: DocsScope) -> Iterator[GroupView]:
     """Yield all groups that have points or a note, in the author's order."""
     members: dict[str, list[Point]] = {}
     for point in scope.device.points:
@@ -118,7 +118,7 @@ class _Cells(NamedTuple):
 class _Rows:
     """The rows of points; what points share is worked out once."""
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(self, scope: DocsScope) -> None:
         self.scope = scope
         further = {
             "words": lambda point: f"bits: {narrow_link('bits', point.item)}" if point.shape.flags else "",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     RemarkOf = Callable[[Point], str]
 
 
-class Scope(NamedTuple):
+class DocsScope(NamedTuple):
     """What all rows of a device share."""
 
     device: Device
@@ -29,11 +29,11 @@ class Scope(NamedTuple):
     """True if facts come from several documents: then each source names its own."""
 
 
-def scope_of(device: Device) -> Scope:
+def scope_of(device: Device) -> DocsScope:
     """Return what the rows of a device share."""
     by_name = {point.name: point for point in device.points}
     by_code = RenamedPoints(by_name, _codes(device.points))
-    return Scope(device, by_name, by_code, len(device.documents) > 1)
+    return DocsScope(device, by_name, by_code, len(device.documents) > 1)
 
 
 def _codes(points: Iterable[Point]) -> dict[str, str]:

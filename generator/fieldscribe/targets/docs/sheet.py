@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldscribe.arithmetic.exact import Line
     from fieldscribe.model import Command, Device, Place, Point
     from fieldscribe.targets.docs.bus import OfFamily
-    from fieldscribe.targets.docs.scope import Scope
+    from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Encode
 
 COLUMNS = (
@@ -99,12 +99,12 @@ class _Cells(NamedTuple):
     generated: tuple[str, str]
 
 
-def points_table(scope: Scope) -> Table:
+def points_table(scope: DocsScope) -> Table:
     """Return the table of the points and commands of a device."""
     return Table("points", COLUMNS, partial(_rows, scope))
 
 
-def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
+def _rows(scope: DocsScope, encode: Encode) -> Iterator[tuple[str, ...]]:
     known: dict[object, _Cells] = {}
     known_limits: dict[object, tuple[str, ...]] = {}
     part, remarks, encoded = part_of(scope.device), _remarks(scope), cache(encode)
@@ -154,7 +154,7 @@ def _rows(scope: Scope, encode: Encode) -> Iterator[tuple[str, ...]]:
         yield tuple(texts.get(column.name, "") for column in COLUMNS)
 
 
-def _shared_cells(scope: Scope, point: Point, encode: Encode) -> _Cells:
+def _shared_cells(scope: DocsScope, point: Point, encode: Encode) -> _Cells:
     typed = point.untyped is None
     return _Cells(
         group=encode(point.group),
@@ -173,7 +173,7 @@ def _shared_cells(scope: Scope, point: Point, encode: Encode) -> _Cells:
     )
 
 
-def _remarks(scope: Scope) -> Remarks:
+def _remarks(scope: DocsScope) -> Remarks:
     further = {
         "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
         "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",
