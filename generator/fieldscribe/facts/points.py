@@ -137,6 +137,7 @@ POINT: FactTable = (
         "The variant in which it is so: `axis=value`.",
         TEXT_OR_NULL,
         API,
+        attribute="variant",
         value=lambda point, _: None if point.variant is None else str(point.variant),
         label="Variant",
         remark="only {}",

@@ -90,7 +90,8 @@ class Remarks:
         places = list(enumerate(facts))
         self._shared = [(place, fact) for place, fact in places if fact.holder]
         self._own = [(place, fact) for place, fact in places if not fact.holder]
-        self._own_values = attrgetter(*[fact.attribute or fact.key for _, fact in self._own])
+        attributes = [fact.attribute or (fact.key if fact.value is None else "name") for _, fact in self._own]
+        self._own_values = attrgetter(*attributes)
         self._known: dict[tuple[int, int], tuple[list[tuple[int, str]], str]] = {}
 
     def of(self, point: Point) -> str:
