@@ -7,16 +7,20 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `description.py`: the keys that only this family has (`KEYS`), and the text of a new description.
 - `reading.py`: `READING` turns these keys into facts of the model.
 - `checks.py`: `CHECKS` report what only this family can get wrong; `read` reads a worked example.
-- `frames.py` (USS: `telegrams.py` and `parts.py`) and what stands on it build and parse bytes; pure functions.
+- `frames.py` (Modbus also `exchange.py`; USS `telegrams.py` and `parts.py`) builds and parses bytes; pure functions.
 - `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has its sentences.
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
 - `bus_facts.py`: what the documentation and exports say of the bus.
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.
 
-To add a function of a bus (Modbus function 17h, a USS task): its number, space and limits go into the tables of
-`__init__.py` (USS: of `parts.py`), its bytes into `frames.py` and the parsers next to it, its name for people into
-`remarks.py`, and its examples into `targets/vectors.py`. The generated code follows from the tables; the runtimes in
-`templates/<target>/runtime` need the bytes once more in their language, and the vectors show when they differ.
+To add a function of a bus:
+
+1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py` (number, name, space, most items), or
+   `_WRITE_TASKS` and `RESPONSE_WIDTHS` in `uss/parts.py`. Checks, profiles and generated tables follow from it.
+2. If its bytes have a new form, add that to the module that builds and parses them. The runtimes in
+   `templates/<target>/runtime` have the same form once more, each in its language.
+3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.
+
 A part that a family does not have is left out; whoever asks for a part says what it must offer.
 """
 
