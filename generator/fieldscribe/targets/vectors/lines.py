@@ -176,7 +176,7 @@ class Lines:
 
     def _write_sets(self) -> None:
         """Write the sets that changed; each ends the sets after it in the table."""
-        for name in [name for name in SETS if name in self._wanted]:
+        for name in self._wanted if len(self._wanted) == 1 else [name for name in SETS if name in self._wanted]:
             line = self._wanted[name]
             if line != self._in_force.get(name, name):
                 self._lines.append(line)
