@@ -67,7 +67,7 @@ def test_any_text_comes_back(text: str) -> None:
 
 def test_a_line_that_the_table_does_not_know_is_refused() -> None:
     lines = Lines()
-    with pytest.raises(TypeError, match="'x' is no int"):
+    with pytest.raises(TypeError, match="check: raw takes int, no str"):
         lines.add("check", "x", "ok")
     with pytest.raises(ValueError, match="check lacks status"):
         lines.add("check", 1)

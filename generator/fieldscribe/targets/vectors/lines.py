@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from operator import call
 from struct import Struct
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -78,30 +79,44 @@ class Row:
 
     def __init__(self, name: str, kind: Kind) -> None:
         self.name, self.kind = name, kind
-        self._forms = tuple(_FORMS[form] for _, form in kind.fields)
-        self._needed = [(place, key) for place, (key, _) in enumerate(kind.fields) if key not in kind.optional]
+        self._writers: dict[tuple[type, ...], Sequence[Callable[[Any], str]]] = {}
 
     def line(self, values: Sequence[object]) -> str:
         """Return the line of one vector; fields without a value are absent, and left out at the end."""
-        if len(values) > len(self._forms):
-            raise ValueError(f"{self.name} has no more than {len(self._forms)} fields")
-        end = len(values)
-        while end and values[end - 1] is None:
-            end -= 1
-        words = []
-        for (types, write), value in zip(self._forms, values[:end], strict=False):
-            if type(value) in types:
-                words.append(write(value) or ABSENT)
-            elif value is None:
-                words.append(ABSENT)
-            else:
-                raise TypeError(f"{value!r} is no {' or '.join(each.__name__ for each in types)}")
+        types = tuple(map(type, values))
+        if types not in self._writers:
+            self._writers[types] = self._writers_of(types)
+        words = [*map(call, self._writers[types], values)]
+        return "\t".join((self.name, *(self._without_empty(words) if "" in words else words)))
+
+    def _writers_of(self, types: tuple[type, ...]) -> Sequence[Callable[[Any], str]]:
+        """Return what writes values of these types. Raises ValueError or TypeError if the fields do not take them."""
+        if len(types) > len(self.kind.fields):
+            raise ValueError(f"{self.name} has no more than {len(self.kind.fields)} fields")
+        writers: list[Callable[[Any], str]] = []
+        for (key, form), given in zip(self.kind.fields, types, strict=False):
+            taken, write = _FORMS[form]
+            if given not in taken and given is not type(None):
+                raise TypeError(
+                    f"{self.name}: {key} takes {' or '.join(each.__name__ for each in taken)}, no {given.__name__}"
+                )
+            writers.append(write if given in taken else lambda _: ABSENT)
+        end = max((place for place, given in enumerate(types, 1) if given is not type(None)), default=0)
+        self._look_for_needed([given is not type(None) for given in types])
+        return writers[:end]
+
+    def _without_empty(self, words: list[str]) -> list[str]:
+        """Return the words with empty ones absent; an empty list has no notation."""
+        words = [word or ABSENT for word in words]
         while words and words[-1] == ABSENT:
             words.pop()
-        for place, key in self._needed:
-            if place >= len(words) or words[place] == ABSENT:
+        self._look_for_needed([word != ABSENT for word in words])
+        return words
+
+    def _look_for_needed(self, present: Sequence[bool]) -> None:
+        for place, (key, _) in enumerate(self.kind.fields):
+            if key not in self.kind.optional and not (place < len(present) and present[place]):
                 raise ValueError(f"{self.name} lacks {key}")
-        return "\t".join((self.name, *words))
 
 
 _ROWS = {name: Row(name, kind) for name, kind in KINDS.items()}
