@@ -47,7 +47,7 @@
 //! let mut client = Client::new(Line, &PROFILE, 0);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //!
-//! // What the device sends unasked, frame by frame, is heard by a receiver of the telegram.
+//! // What the device sends on its own, frame by frame, goes to a receiver of the telegram.
 //! fn hear(client: &mut Client<Line, Receiver<telegrams::Visualisation>>) -> Result<(), ClientError<std::io::Error>> {
 //!     let value = client.receive::<p::GeneratorFrequency>()?; // waits for its next frame
 //!     println!("it is {value:?}");

@@ -75,18 +75,18 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
             )
 
 
-def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
-    owner = Owner("point", shown.fields.item)
-    names = [*(name for name, _ in shown.defines), *(name for name, _ in symbols_of(shown))]
-    parts = list(_of_parts(shown, point, owner)) if point.flags or point.specials else []
+def _of_point(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
+    owner = Owner("point", view.fields.item)
+    names = [*(name for name, _ in view.defines), *(name for name, _ in symbols_of(view))]
+    parts = list(_of_parts(view, point, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:
             names.remove(name)  # only once: another use of the name in the same point is a clash
     yield owner, names
     yield from parts
-    yield from _of_shared(shown, point, scope)
-    if shown.special is not None and shown.special.codes is not None and point.shared_codes:
-        codes, shared = shown.special.codes, Owner("special codes", point.shared_codes)
+    yield from _of_shared(view, point, scope)
+    if view.special is not None and view.special.codes is not None and point.shared_codes:
+        codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
         for special in point.specials:
             yield (
@@ -94,33 +94,33 @@ def _of_point(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Na
                 _code_names(special, f"{scope.upper}_{shared.name.upper()}", point),
             )
     enum = named_numbers(point)
-    if shown.enum is not None and enum is not None:
-        whole = Owner("enum", names_of(point, shown.fields)[0])
-        yield whole, (shown.enum.function, shown.enum.table)
-        for entry, (name, _, _) in zip(enum.entries, shown.enum.entries, strict=True):
+    if view.enum is not None and enum is not None:
+        whole = Owner("enum", names_of(point, view.fields)[0])
+        yield whole, (view.enum.function, view.enum.table)
+        for entry, (name, _, _) in zip(enum.entries, view.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)
 
 
-def _of_shared(shown: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
+def _of_shared(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
     """Yield the identifiers that hold a checksum of a content; the owner is that content, so equal checksums clash."""
-    if shown.struct:
-        yield Owner("struct", ", ".join(sorted(point.arguments))), (shown.struct,)
-    if shown.rule is not None:
-        yield Owner("rule", shown.rule.content), (shown.rule.name,)
+    if view.struct:
+        yield Owner("struct", ", ".join(sorted(point.arguments))), (view.struct,)
+    if view.rule is not None:
+        yield Owner("rule", view.rule.content), (view.rule.name,)
     if table := ranges_table(point, scope):
         yield Owner("table of ranges", repr(point.allowed.fixed)), (table,)
 
 
-def _of_parts(shown: PointView, point: Point, owner: Owner) -> Iterator[Named]:
+def _of_parts(view: PointView, point: Point, owner: Owner) -> Iterator[Named]:
     """Yield the identifiers for the point's flags, and for special codes of its own."""
     for flag in point.flags:
-        defines = [name for name, _ in flag_defines(flag, point, shown.macro)]
+        defines = [name for name, _ in flag_defines(flag, point, view.macro)]
         yield (
             Owner("flag", flag.name, owner),
-            [*defines, f"{shown.function}_{flag.name}"] if flag.width > 1 else defines,
+            [*defines, f"{view.function}_{flag.name}"] if flag.width > 1 else defines,
         )
     for special in () if point.shared_codes else point.specials:
-        yield Owner("code", special.name, owner), _code_names(special, shown.macro, point)
+        yield Owner("code", special.name, owner), _code_names(special, view.macro, point)
 
 
 def _code_names(special: Special, macro: str, point: Point) -> list[str]:

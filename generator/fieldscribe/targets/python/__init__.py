@@ -35,9 +35,12 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     head = _head(device)
     enums = enums_view(device, names, render)
     folder = f"python/{names.package}"
-    shown = {"uses": uses(device, names.device_class, "")}
-    said = {"version": python_string(device.version), "digest": python_string(device.digest)}
-    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **shown, **said, "view": names})
+    facts = {
+        "uses": uses(device, names.device_class, ""),
+        "version": python_string(device.version),
+        "digest": python_string(device.digest),
+    }
+    yield f"{folder}/__init__.py", render("python/init.py.j2", {**head, **facts, "view": names})
     yield f"{folder}/py.typed", ""
     project = {
         "name": toml_string(names.package.replace("_", "-")),

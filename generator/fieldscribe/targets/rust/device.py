@@ -65,7 +65,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     structs = tuple(arguments_views(scope, render))
     version = Version.of(device.version)
     of_family, example = in_rust(device.family), example_of(device, scope)
-    heard, received = of_family.heard(scope)
+    telegram, received = of_family.telegram(scope)
     family_context = of_family.context(device)
     return {
         "head": head(device, "//"),
@@ -76,7 +76,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "first_word": first_word,
         "structs": structs,
         "example": example.lines,
-        "heard": heard,
+        "telegram": telegram,
         "received": received.lines,
         "example_uses": example_uses(device.id, example + received, of_family.names),
         "example_unit": device.bus.units[0],

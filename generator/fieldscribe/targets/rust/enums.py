@@ -75,7 +75,7 @@ class FlagView:
 class FlagsView:
     """A word whose bits have names; the bits are held in the unsigned type of the raw number's width.
 
-    `false` is the word in which no flag is true, `shown` the lines that print the word.
+    `false` is the word in which no flag is true, `printed` the lines that print the word.
     """
 
     doc: str
@@ -84,7 +84,7 @@ class FlagsView:
     bits: str
     false: str
     flags: tuple[FlagView, ...]
-    shown: tuple[str, ...]
+    printed: tuple[str, ...]
 
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
@@ -165,24 +165,24 @@ def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
         bits=bits,
         false=mask(low, bits) if low else "0",
         flags=flags,
-        shown=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
+        printed=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
     )
 
 
 def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
-    """Return the constant that says how flags are shown, with the names of their numbers."""
+    """Return the constant that says how flags are printed, with the names of their numbers."""
     item = Item("const FLAGS", "&'static [runtime::Flag]")
-    names, shown = list[str](), list[tuple[str, tuple[str, ...]]]()
+    names, printed = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
         if view.values:
             names += _names(f"NAMES_{place}", flag)
-            shown.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
+            printed.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
         else:
             made = "new" if view.active or not view.single else "active_low"
-            shown.append((f"runtime::Flag::{made}", (view.name, view.mask)))
+            printed.append((f"runtime::Flag::{made}", (view.name, view.mask)))
     if not names:
-        return calls(4, item, shown)
-    return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, shown))), "};"
+        return calls(4, item, printed)
+    return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, printed))), "};"
 
 
 def _names(constant: str, flag: Flag) -> tuple[str, ...]:

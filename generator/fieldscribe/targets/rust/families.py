@@ -88,7 +88,7 @@ class RustFamily:
     `context` is the context of the template `<family>.rs.j2`. `traits` are the lines by which a point implements the
     traits of its bus. `identifiers` are those of the family's own items. The conformance program gets further `ways` to
     read and write a point, tables of points and frames that only this family has, and `refusals`, the kind of vectors
-    for the codes of refusals. The first page of a crate imports these `names`; `heard` is the telegram to which it
+    for the codes of refusals. The first page of a crate imports these `names`; `telegram` is the telegram to which it
     listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features of the
     runtime; its first program talks over the `line` of a device (none: it has none), and imports `line_names` of the
     runtime.
@@ -105,7 +105,7 @@ class RustFamily:
     transports: tuple[str, ...] = ()
     line: Callable[[Device], str] = no_line
     line_names: str = ""
-    heard: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
+    telegram: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
 
 
 def in_rust(name: str) -> RustFamily:

@@ -147,7 +147,7 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
         )
 
 
-def heard(scope: CrateScope) -> tuple[str, Snippet]:
+def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:
     """Return an example for the documentation: a telegram with a point that needs no other, and lines that read it."""
     come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
     plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
@@ -190,5 +190,5 @@ IN_RUST = RustFamily(
     refusals="constant",
     names=("Frame",),
     transports=("embedded-can",),
-    heard=heard,
+    telegram=telegram_of,
 )
