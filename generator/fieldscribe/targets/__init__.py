@@ -27,17 +27,14 @@ if TYPE_CHECKING:
         NAMES_CONTAIN_POINT: bool
         """True if every identifier contains the full name of its point, so that checks need not compare all of them."""
 
-        def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
-            """Return the files of a device: path relative to the output folder, and text."""
+        def outputs(self, device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
+            """Return the files of a device: path below the output folder, and text.
 
-        def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
+            A target of code leaves out its conformance `tests` for a project that vendors the device.
+            """
+
+        def runtime(self, device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
             """Return the source files beside them: path below the output folder, and path below the templates."""
-
-        def vendored(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
-            """Return the files that a project needs to use the device: path below the project's folder, and text."""
-
-        def vendored_runtime(self, device: Device) -> Iterable[tuple[str, str]]:
-            """Return the source files beside them: path below the project's folder, and path below the templates."""
 
         def identifiers(self, device: Device) -> Iterable[Names]:
             """Return every name of the device in generated code; none if names cannot clash."""

@@ -122,8 +122,10 @@ def files_of(device: Device, request: CodeRequest) -> Iterator[tuple[str, str]]:
     reduced = select(device, request.points) if request.points else device
     named = replace(for_code(reduced), id=request.name or device.id, command=request.command(device.id))
     language = target(request.language)
-    files = {path: (templates_dir() / source).read_text("utf-8") for path, source in language.vendored_runtime(named)}
-    files |= language.vendored(named, render)
+    copied = language.runtime(named, tests=False)
+    files = {path: (templates_dir() / source).read_text("utf-8") for path, source in copied}
+    files |= language.outputs(named, render, tests=False)
+    files = {path.removeprefix(f"{request.language}/"): text for path, text in files.items()}
     if not request.frames:
         files = {path: text for path, text in files.items() if path not in _of_frames(named)}
     if request.single_file:

@@ -25,12 +25,13 @@ NEEDS_FAMILY = True
 NAMES_CONTAIN_POINT = True
 
 
-def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files of the device's package, as paths below the output folder and their text."""
     from fieldscribe.targets.python.device import device_view, uses
     from fieldscribe.targets.python.enums import enums_view
     from fieldscribe.targets.python.points_module import points_view
 
+    del tests  # they are not generated
     names = Identifiers(device)
     head = _head(device)
     enums = enums_view(device, names, render)
@@ -56,26 +57,14 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     yield f"{folder}/device.py", render("python/device.py.j2", {**head, "view": device_view(device, names)})
 
 
-def runtime(device: Device) -> Iterable[tuple[str, str]]:
+def runtime(device: Device, *, tests: bool = True) -> Iterable[tuple[str, str]]:
     """Yield the files copied beside the package: output path, and path under the templates folder.
 
     All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
     """
-    del device
+    del device, tests  # its tests are not generated
     for name in runtime_files(f"python/runtime/{_RUNTIME}"):
         yield f"python/{_RUNTIME}/{name}", f"python/runtime/{_RUNTIME}/{name}"
-
-
-def vendored(device: Device, render: Render) -> Iterable[tuple[str, str]]:
-    """Yield the device's package, as it lies in a project."""
-    for path, text in outputs(device, render):
-        yield path.removeprefix("python/"), text
-
-
-def vendored_runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """Yield what the package imports: path, and path under the templates."""
-    for path, template in runtime(device):
-        yield path.removeprefix("python/"), template
 
 
 def _head(device: Device) -> Mapping[str, object]:
@@ -90,4 +79,4 @@ def _head(device: Device) -> Mapping[str, object]:
     }
 
 
-__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime", "vendored", "vendored_runtime"]
+__all__ = ["SEES_TITLES", "device_name_taken", "identifiers", "outputs", "runtime"]
