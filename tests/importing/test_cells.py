@@ -211,6 +211,9 @@ def test_blocks_of_labels() -> None:
     assert label_map(labels, "", "en") == (
         '\n  0: {name: "off", en: "Off"}\n  1: {name: off_1, en: "off"}\n  7..4: {name: eingang, en: Eingang}'
     )
+    assert label_map({"7..4": "A", "3..2": "A"}, "", "en") == (
+        "\n  7..4: {name: a, en: A}\n  3..2: {name: a_3_2, en: A}"
+    )
     assert label_map({"3": "Ein"}, "title", "de") == "\n  3: {name: ein, title: {en: Ein, de: Ein}}"
 
 

@@ -18,6 +18,7 @@ TABLES = {
     "drive.md": ["--address-part", "2"],
     "merged.html": [],
     "sheet.txt": ["--ranges", "raw"],
+    "names.csv": [],
 }
 """The tables in the folder `tables`, each beside its draft, with the options that the draft is made with."""
 
