@@ -130,7 +130,8 @@ class Editions:
 
     def _decide(self) -> None:
         """Find out which places count the lines of the new edition; lines that did not move tell nothing."""
-        claims = [claim for claim in self.citations.claims if any(self._has_moved(cited) for cited in claim.cited)]
+        needed = (claim for claim in self.citations.claims if not claim.optional)
+        claims = [claim for claim in needed if any(map(self._has_moved, claim.cited))]
         self._counting_old: set[tuple[str, int, int]] = set()
         if not claims:
             return
@@ -147,13 +148,20 @@ class Editions:
         return self.alignment.now(cited.first) != cited.first
 
     def _standing(self, claims: list[Claim], in_old: _Mapping, in_new: _Mapping) -> Counter[tuple[str, int, int]]:
-        """Count the claims that one of both texts prints, by the place of their lines in the YAML."""
-        texts = [
-            Held(self.citations, manual, now, filter(manual.opens_row, range(1, len(manual) + 1)))
-            for manual, now in ((self._old, in_old), (self._new, in_new))
-        ]  # each row by itself: the one below would have the facts of another numbering
-        printed = [claim for claim in claims if any(held.is_printed(claim) for held in texts)]
-        return Counter(_identity(cited.key) for claim in printed for cited in claim.cited if self._has_moved(cited))
+        """Count the claims that one of both texts prints, by the place of their lines in the YAML.
+
+        They count once for the whole place that is cited, and once for its first row alone: a row below has the facts
+        of another numbering.
+        """
+        counts: Counter[tuple[str, int, int]] = Counter()
+        for row_alone in (False, True):
+            texts = [
+                Held(self.citations, manual, now, filter(manual.opens_row, range(1, row_alone * len(manual) + 1)))
+                for manual, now in ((self._old, in_old), (self._new, in_new))
+            ]
+            printed = [claim for claim in claims if any(held.is_printed(claim) for held in texts)]
+            counts.update(_identity(cited.key) for claim in printed for cited in claim.cited if self._has_moved(cited))
+        return counts
 
     def _now(self, cited: Cited) -> tuple[int, int] | None:
         return cited.lines if self.counts_new(cited.key) else self._moved(self.alignment.now)(cited)

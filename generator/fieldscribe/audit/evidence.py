@@ -55,8 +55,9 @@ def _number(evidence: Number, passage: Passage, *, binary: bool) -> Found:
     """A number counts once for each time that it is printed, in whatever notation, also as part of a name."""
     tokens = [token for token in passage.tokens if _reads(token, evidence.numbers, binary=binary)]
     if evidence.names:
-        named = passage.behind_names(evidence.names)
-        tokens = [token for token in tokens if not named or token in named or token in passage.opening_lines]
+        named = {id(token) for token in passage.behind_names(evidence.names)}
+        allowed = named | passage.opening_lines if named else set()
+        tokens = [token for token in tokens if not allowed or id(token) in allowed]
     words = [_word(Word((word,)), passage) for word in evidence.words]
     times = max([len(tokens), *(word.times for word in words)])
     if not times and evidence.ends:

@@ -31,6 +31,8 @@ _BINARY_FACTS = ("enum", "flag values", "special", "fixed bits", "default")
 _SPREAD_FACTS = ("enum", "flags", "flag values", "says")
 """Facts of several numbers: of several cited places each prints some of them."""
 _WORDS_OF_ROW = ("access", "type", "unit")
+_NEAR = 200
+"""A sentence of an erratum speaks of at most so many lines above and below the one that it cites."""
 _NEVER_PRINTED = ("scale", "default")
 """Facts that an erratum took of which it does not say that the manual prints them."""
 _TAKEN_ANYWHERE = ("code", "range", "enum", "scale")
@@ -241,8 +243,10 @@ class Held:
         return stands and all(" ".join(quoted.split()) in text for quoted in erratum.texts)
 
     def _around(self, extent: Extent) -> Extent:
+        """Return the section around a cited place, or what of it is near: a text without headings is one section."""
         section = self.manual.section_around(extent.first)
-        return Extent(min(extent.first, section.first), max(extent.last, section.last), "section")
+        first, last = max(section.first, extent.first - _NEAR), min(section.last, extent.first + _NEAR)
+        return Extent(min(extent.first, first), max(extent.last, last), "section")
 
     @cached_property
     def passed_over(self) -> dict[int, frozenset[str]]:

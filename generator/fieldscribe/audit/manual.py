@@ -28,7 +28,7 @@ _LONGEST_ROW = 40
 """A row or paragraph has at most so many lines."""
 _TALLEST_CELL = 200
 """A merged cell spans at most so many rows."""
-_NEAR = 2_000
+_NEAR = 200
 """A fact that is missing is looked for in so many lines above and below its place."""
 _LONGEST_HEAD = 120
 _PAGE_COUNT = re.compile(
@@ -60,6 +60,7 @@ class Manual:
     def __init__(self, text: str, names: Sequence[str] = ()) -> None:
         self.lines = lines_of(text)
         self._tokens: dict[int, list[Token]] = {}
+        self._readings_of: dict[int, frozenset[Fraction]] = {}
         self._names = re.compile("|".join([_PAGE_REFERENCE, *map(_pattern_of_name, names)]))
 
     def __len__(self) -> int:
@@ -182,15 +183,19 @@ class Manual:
 
     def nearest_with(self, numbers: frozenset[Fraction], words: Sequence[str], line: int) -> int | None:
         """Return the line nearest to `line` that has one of the numbers, or else one of the words; None if none has."""
-        for step in range(min(_NEAR, len(self.lines))):
-            for near in (line - step, line + step):
-                if (
-                    any(token.readings & numbers for token in self.tokens(near))
-                    if numbers
-                    else (any(has_word(self.line(near), word) for word in words))
-                ):
-                    return near
+        near = range(max(1, line - _NEAR), min(len(self.lines), line + _NEAR) + 1)
+        for place in sorted(near, key=lambda place: abs(place - line)):
+            has_one = not self._readings(place).isdisjoint(numbers) if numbers else False
+            if has_one or (not numbers and any(has_word(self.line(place), word) for word in words)):
+                return place
         return None
+
+    def _readings(self, number: int) -> frozenset[Fraction]:
+        """Return all that the numbers of a line can mean."""
+        if number not in self._readings_of:
+            readings = (token.readings for token in self.tokens(number))
+            self._readings_of[number] = frozenset().union(*readings)
+        return self._readings_of[number]
 
 
 def lines_of(text: str) -> list[str]:

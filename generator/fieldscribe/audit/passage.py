@@ -107,12 +107,12 @@ class Passage:
         return [token for match in matches for token in self.inside(match.end(), match.end() + 1)]
 
     @cached_property
-    def opening_lines(self) -> list[Token]:
-        """The numbers with no word before them on their line."""
+    def opening_lines(self) -> set[int]:
+        """The ids of the numbers with no word before them on their line."""
         openings = (re.match(r"\W*", text) for _, _, text in self.pieces)
         ends = (match.end() if match else 0 for match in openings)
         starts = {start + end for start, end in zip(self._line_starts, ends, strict=True)}
-        return [token for token, start in zip(self.tokens, self.starts, strict=True) if start in starts]
+        return {id(token) for token, start in zip(self.tokens, self.starts, strict=True) if start in starts}
 
     def in_order(self, numbers: tuple[frozenset[Fraction], ...]) -> Iterator[list[Token]]:
         """Yield each run of numbers that follow each other as these do, with no other number between them."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import Label, Word
@@ -157,7 +158,8 @@ def audit_of(held: Held, name: str, *, same_text: bool | None) -> Audit:
     _errata(held, outcome)
     unused = list(_Unused(held).all())
     missing = [claim for claim in claims if not claim.optional and not held.stands(claim)]
-    outcome.missing = [_missing(claim, held, unused) for claim in missing]
+    by_line = {line: list(numbers) for line, numbers in groupby(unused, key=lambda number: number.line)}
+    outcome.missing = [_missing(claim, held, by_line) for claim in missing]
     instead = {(fact.line, fact.printed) for fact in outcome.missing if fact.printed is not None}
     outcome.unused = [number for number in unused if (number.line, number.number) not in instead]
     outcome.uncited = sorted(_uncited(held), key=lambda place: place.line)
@@ -174,10 +176,10 @@ def _errata(held: Held, outcome: Audit) -> None:
             outcome.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0].first, place))
 
 
-def _missing(claim: Claim, held: Held, unused: list[Unused]) -> Missing:
+def _missing(claim: Claim, held: Held, unused: dict[int, list[Unused]]) -> Missing:
     extents = [place.extent for place in held.places[claim]]
     first, last = (extents[0].first, extents[0].last) if extents else claim.cited[0].lines
-    there = [number for number in unused if any(number.line in extent for extent in extents)]
+    there = [number for extent in extents for line in extent.lines for number in unused.get(line, ())]
     printed = _printed_instead(claim, [held.passage(extent) for extent in extents], there)
     nearest = None if printed else held.manual.nearest_with(claim.numbers, claim.words, first)
     return Missing(claim.subject, claim.fact, claim.shown, first, last, claim.where, printed, nearest)

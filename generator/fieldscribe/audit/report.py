@@ -119,9 +119,10 @@ def comparison_lines(outcome: Comparison, *, with_lines: bool = True) -> Iterato
     for line in lines:
         yield from _changed_line(line)
     shown = {fact for line in lines for fact in line.facts}
-    for fact in outcome.fallen:
-        if fact not in shown:
-            yield _finding(fact.place, "missing", f"{_named(fact)} is not printed where it is cited")
+    others = [fact for fact in outcome.fallen if fact not in shown]
+    for subject, facts in groupby(others, key=lambda fact: fact.subject):
+        for place, named in _listed(list(facts)):
+            yield _finding(place, "missing", f"{subject}: {named}: not printed where it is cited")
     for erratum in outcome.errata:
         yield [("error", "erratum"), ("", visible(f": {erratum}: its printed text is not there any more"))]
     yield from _figures_of_comparison(outcome)
@@ -156,10 +157,6 @@ def _listed(facts: list[CitedFact]) -> list[tuple[str, str]]:
     if len(facts) < _FEWEST_TOGETHER:
         return [(fact.place, name) for fact, name in zip(facts, named, strict=True)]
     return [(facts[0].place, ", ".join(dict.fromkeys(named)))]
-
-
-def _named(fact: CitedFact) -> str:
-    return f"{fact.subject}: {fact.fact} {_short(fact.says)}"
 
 
 def _short(text: str) -> str:

@@ -23,7 +23,7 @@ fact uses, and for rows that nothing cites among rows that are cited"""
 
 _MOST_BYTES = 16 << 20
 _MOST_LINES, _LONGEST_LINE = 100_000, 20_000
-_MOST_NUMBERS = 500_000
+_MOST_NUMBERS = 200_000
 """Limits of a manual's text: more than ten times those of the longest known one."""
 
 
@@ -135,7 +135,7 @@ def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
 
     result = renumber(subject.scope.files, document.id, editions)
     if result.hindrances:
-        raise StopError("not renumbered:\n  " + "\n  ".join(result.hindrances), "nothing was changed", FINDINGS)
+        raise StopError(f"not renumbered: {'; '.join(result.hindrances)}", "nothing was changed", FINDINGS)
     before = {file.file.name: file.file.text for file in subject.scope.files}
     rewrite({name: (before[name], text) for name, text in result.texts.items()})
     by_hand = "".join(f"\n  {note}" for note in result.by_hand)
