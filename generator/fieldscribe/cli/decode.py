@@ -72,7 +72,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="read frames from a file, one a line; may be repeated",
     )
     parser.add_argument("--request", metavar="FRAME", help="the request that the frames answer")
-    add_framing(parser, "found from the bytes; uss")
+    add_framing(parser, "rtu or tcp by the bytes; uss")
     parser.add_argument("--unit", type=int, metavar="N", help="only frames to or from this unit")
     add_family_options(parser, "decode")
     add_with(parser)
