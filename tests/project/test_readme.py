@@ -95,6 +95,7 @@ def prose(page: Path) -> list[str]:
     [
         ("README.md", 160),
         ("CHANGELOG.md", 60),
+        ("descriptions/new-edition.md", 120),
         *((str(page.relative_to(ROOT)), 200) for page in sorted(USING.glob("*.md"))),
     ],
 )
