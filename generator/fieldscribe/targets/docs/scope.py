@@ -50,7 +50,7 @@ def place_text(point: Point) -> str:
     if not point.addresses:
         return ""
     start = wording.address_text(min(point.addresses))
-    order = wording.order_text(point)
+    order = wording.order_text(point) if len(point.addresses) > 1 else ""
     return f"{start}{LINE_BREAK}{len(point.addresses)} words, {cell(order)}" if order else start
 
 

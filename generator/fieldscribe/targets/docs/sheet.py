@@ -119,7 +119,7 @@ def _rows(scope: DocsScope, encode: Encode) -> Iterator[tuple[str, ...]]:
             known_limits[*key, id(point.allowed)] = limits
         enum = enum_of(point)
         yield (
-            encode(point.code or ""),
+            encode(point.code) if point.code else "",
             encode(point.item),
             "point",
             encode(str(point.variant)) if point.variant else "",
@@ -129,7 +129,7 @@ def _rows(scope: DocsScope, encode: Encode) -> Iterator[tuple[str, ...]]:
             *cells.space,
             *_address(point.place),
             cells.words,
-            encode(wording.order_text(point)),
+            encode(wording.order_text(point)) if len(point.place.addresses) > 1 else "",
             *cells.bits,
             "" if point.index is None else str(point.index),
             *_references(point, part, encode),
@@ -139,13 +139,13 @@ def _rows(scope: DocsScope, encode: Encode) -> Iterator[tuple[str, ...]]:
             "" if point.default_raw is None else str(point.default_raw),
             "" if enum is None else encode(enum.name),
             encode(point.item) if point.flags else "",
-            encode(codes_of(point)),
+            encode(codes_of(point)) if point.specials else "",
             *cells.behaviour,
-            encode(point.record or ""),
+            encode(point.record) if point.record else "",
             "" if point.set is None else str(point.set),
             encoded(remarks.of(point)),
             encode(wording.title_text(point.note)) if point.note else "",
-            encode("; ".join(point.errata)),
+            encode("; ".join(point.errata)) if point.errata else "",
             *source_cells(point.source, encode),
             *cells.generated,
         )
