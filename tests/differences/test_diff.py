@@ -297,8 +297,8 @@ def test_a_folder_of_a_revision_is_called_as_it_was_asked_for(repository: Diff) 
 
 
 NOT_THERE = {
-    ":old": "is no revision",
-    "v\n1:old": "is no revision",
+    ":old": "is not a revision",
+    "v\n1:old": "is not a revision",
     "v9:old": "git knows no revision `v9`",
     "v1:nothing": "there is no `nothing` in `v1`",
     "v1:../old": "there is no `../old` in `v1`",
@@ -318,7 +318,7 @@ def test_a_revision_is_never_an_option(repository: Diff) -> None:
     for revision in ("--upload-pack=x", "-h", "--output=x", "-"):
         assert revision == "-h" or repository(f"{revision}:old", "old")[:2] == (2, "")
         assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
-        with pytest.raises(UnclearError, match="is no revision"):
+        with pytest.raises(UnclearError, match="is not a revision"):
             copied(revision, "old", repository.folder)
         assert not Path("x").exists()
 
@@ -336,7 +336,7 @@ def test_links_in_a_revision_lead_nowhere(repository: Diff) -> None:
 
 def test_outside_of_a_repository(diff: Diff, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(diff.folder.parent))
-    assert "this is no folder of a git repository" in diff("v1:old", "new").err
+    assert "this is not a folder of a git repository" in diff("v1:old", "new").err
 
 
 def _exported(change: Callable[[dict[str, Any]], object]) -> str:
@@ -351,13 +351,13 @@ FOREIGN = "model.json does not follow the schema of exported models"
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("{", "it is no JSON"),
-        ("", "it is no JSON"),
-        ("\0", "it is no JSON"),
-        ("[" * 200_000, "it is no JSON"),
-        ('{"format": ' + "9" * 5000 + "}", "it is no JSON"),
-        ("NaN", "it is no exported model"),
-        ("[]", "it is no exported model"),
+        ("{", "it is not JSON"),
+        ("", "it is not JSON"),
+        ("\0", "it is not JSON"),
+        ("[" * 200_000, "it is not JSON"),
+        ('{"format": ' + "9" * 5000 + "}", "it is not JSON"),
+        ("NaN", "it is not an exported model"),
+        ("[]", "it is not an exported model"),
         ('{"format": 3, "device": "a"}', "its format is not 5"),
         (lambda model: model.pop("points"), "`points` is missing"),
         (lambda model: model.update(points={}), "`points` is missing or no list"),

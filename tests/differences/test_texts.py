@@ -143,7 +143,7 @@ BELOW_1 = "(below 1.0 the middle number says what breaks)"
             "wire",
             f"the version must take a major step: 0.3.0 or more, it says 0.2.4 {BELOW_1}",
         ),
-        ("dev", "dev", "docs", "a patch step of the version (dev is no version like 1.2.3)"),
+        ("dev", "dev", "docs", "a patch step of the version (dev is not a version like 1.2.3)"),
     ],
 )
 def test_the_step_that_the_version_must_take(old: str, new: str, weight: str, advice: str) -> None:

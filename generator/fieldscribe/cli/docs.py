@@ -56,9 +56,9 @@ def _orders(arguments: Namespace) -> tuple[list[Order], int]:
     from fieldscribe.vendoring.requests import DocumentRequest
 
     orders, code = [], FINE
-    for asked in arguments.devices:
+    for name in arguments.devices:
         try:
-            device = open_device(Asked(device=asked, descriptions=arguments.descriptions))
+            device = open_device(Asked(device=name, descriptions=arguments.descriptions))
         except StopError as stop:
             code = max(code, stop.tell())
         else:

@@ -183,7 +183,7 @@ def _advice(comparison: Comparison, arrow: str = "->") -> str:
         return f"{'a new device' if old is None else 'the device is gone'}"
     wanted = next_version(old.version, step)
     if wanted is None:
-        return f"a {step} step of the version ({old.version} is no version like 1.2.3)"
+        return f"a {step} step of the version ({old.version} is not a version like 1.2.3)"
     below = " (below 1.0 the middle number says what breaks)" if old.version.startswith("0.") else ""
     if is_taken(old.version, new.version, step):
         return f"a {step} step of the version: {old.version} {arrow} {new.version}{below}"

@@ -110,9 +110,9 @@ def _model(path: Path, name: str) -> Exported:
     try:
         model = json.loads(read_regular(path, _MOST_MODEL_BYTES).data)
     except (ValueError, RecursionError) as error:
-        raise UnclearError(f"{name}: it is no JSON: {str(error)[:120]}", EXPORT_HINT) from None
+        raise UnclearError(f"{name}: it is not JSON: {str(error)[:120]}", EXPORT_HINT) from None
     if not isinstance(model, dict) or not {"format", "device"} <= model.keys():
-        raise UnclearError(f"{name}: it is no exported model", EXPORT_HINT)
+        raise UnclearError(f"{name}: it is not an exported model", EXPORT_HINT)
     if model["format"] != FORMAT:
         wanted = f"its format is not {FORMAT}, the one of this fieldscribe"
         raise UnclearError(f"{name}: {wanted}", f"{EXPORT_HINT} of this version")
@@ -123,7 +123,7 @@ def _model(path: Path, name: str) -> Exported:
         is_list = fact.schema.get("type") == "array"
         if fact.key not in model or is_list != isinstance(model[fact.key], list):
             what = f"`{fact.key}` is missing or {'no' if is_list else 'a'} list"
-            raise UnclearError(f"{name}: it is no exported model: {what}", EXPORT_HINT)
+            raise UnclearError(f"{name}: it is not an exported model: {what}", EXPORT_HINT)
     return model
 
 
@@ -149,20 +149,20 @@ def copied(revision: str, path: str, folder: Path) -> Path:
     beside, _ = _object(commit, revision, above) if above != "/" else (f"{commit}^{{tree}}", "tree")
     _write((blob for blob in _blobs(beside) if len(blob.parts) == 1), folder)
     if not (folder / name).is_file():
-        raise UnclearError(f"`{path}` is no regular file in `{revision}`")
+        raise UnclearError(f"`{path}` is not a regular file in `{revision}`")
     return folder / name
 
 
 def _commit(revision: str) -> str:
     """Return the id of a commit. A name that git could take for an option never reaches git."""
     if revision.startswith("-") or not revision.isprintable() or not revision.strip():
-        raise UnclearError(f"`{revision}` is no revision", "name a commit, a tag or a branch: HEAD~1, v1.2.0, main")
+        raise UnclearError(f"`{revision}` is not a revision", "name a commit, a tag or a branch: HEAD~1, v1.2.0, main")
     known = _git("rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
     text = (known or b"").decode("ascii", "replace").strip()
     if not text.isalnum():
         hint = "`git log --oneline` and `git tag` list them"
         if _git("rev-parse", "--git-dir") is None:
-            raise UnclearError("this is no folder of a git repository", "call it inside the repository")
+            raise UnclearError("this is not a folder of a git repository", "call it inside the repository")
         raise UnclearError(f"git knows no revision `{revision}`", hint)
     return text
 
