@@ -185,12 +185,12 @@ class Point:
     @property
     def raw_only(self) -> bool:
         """Return True if only its address is known, not the meaning of its words: it is read and written raw."""
-        return not (self.generated or self.reserved) and self.access != "none" and bool(self.addresses)
+        return not (self.generated or self.reserved) and self.access != "none" and bool(self.place.addresses)
 
     @property
     def words(self) -> int:
         """Return how many 16-bit words (or single bits) the point takes; without a type, how many addresses it has."""
-        return self.shape.words if self.untyped is None else max(1, len(self.addresses))
+        return self.shape.words if self.untyped is None else max(1, len(self.place.addresses))
 
     @property
     def outer(self) -> tuple[int, int]:
@@ -212,7 +212,7 @@ class Point:
     @property
     def address(self) -> int | None:
         """Return the lowest address, which requests name; None if the manual prints none."""
-        return min(self.addresses) if self.addresses else None
+        return min(self.place.addresses) if self.place.addresses else None
 
     @property
     def written(self) -> Place:
@@ -223,7 +223,7 @@ class Point:
     def places(self) -> tuple[Place, ...]:
         """Return where the point is read, and where else it is written; empty if the manual prints no address."""
         elsewhere = () if self.write_place is None else (self.write_place,)
-        return (self.place, *elsewhere) if self.addresses else ()
+        return (self.place, *elsewhere) if self.place.addresses else ()
 
     def special(self, raw: int) -> Special | None:
         """Return the special code with that raw number, if there is one."""

@@ -101,7 +101,7 @@ def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> 
 
 
 def _place(point: Point) -> _Place:
-    return point.name, point.space, point.addresses
+    return point.name, point.space, point.place.addresses
 
 
 def _always_there(

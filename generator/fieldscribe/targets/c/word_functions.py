@@ -85,9 +85,9 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
 
 def places_of(point: Point) -> list[int]:
     """Return the positions of a point's words among its addresses, the high word first."""
-    order = sorted(point.addresses)
+    order = sorted(point.place.addresses)
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
-    return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
+    return [order.index(address) for address in point.place.addresses] if whole else list(range(point.words))
 
 
 def bits_functions(point: Point, name: str) -> Iterator[Function]:

@@ -70,7 +70,9 @@ def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScop
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
     counts = [block.count for blocks in device.blocks.values() for block in blocks]
-    frames = Frames(placed, lambda point, view: _frame(point, view, profile, layouts) if point.addresses else None)
+    frames = Frames(
+        placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
+    )
     functions = (
         (unsigned(code.number), f"{most}U", _bool(code.number in profile.broadcasts), c_comment(code.name))
         for code in device.bus.functions
