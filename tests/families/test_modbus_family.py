@@ -401,7 +401,7 @@ def test_points_at_one_address_count_once() -> None:
     assert planned([group, other, *variants, at(12)]) == [(10, 3, ("high", "low", "p11", "p12"))]
 
 
-def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
+def test_a_point_that_some_devices_lack_is_in_a_separate_block() -> None:
     """A device refuses all of a read that touches one address that it does not have."""
     large = Condition(((Comparison("class", "==", ("400V",)),),))
     for facts in (
@@ -484,7 +484,7 @@ def test_vectors_exchange_nothing_that_one_request_cannot_carry(
     assert ModbusWire(sample_device(), "rtu").script(function, addresses, words) is None
 
 
-def test_a_bus_of_which_nothing_is_said_pads_nothing() -> None:
+def test_a_bus_without_facts_pads_nothing() -> None:
     assert not profile_of(bus(family_facts=FamilyFacts())).pad_coil_bytes_even
     assert profile_of(bus(family_facts=ModbusBus("even"))).pad_coil_bytes_even
 

@@ -74,7 +74,7 @@ def test_targets_that_do_not_know_it(tmp_path: Path) -> None:
     assert not (tmp_path / "out/docs").exists()
 
 
-def test_its_own_findings(tmp_path: Path) -> None:
+def test_findings_of_the_family(tmp_path: Path) -> None:
     foreign = run(described(tmp_path, DEVICE.replace("space: tone", "space: coil")), "check", "carillon")
     assert (foreign.returncode, "unknown-space" in foreign.stdout) == (1, True)
     wrong = DEVICE.replace("strikes: 90", "strikes: 2000").replace("31 42", "31 42 0A")

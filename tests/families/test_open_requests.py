@@ -13,7 +13,7 @@ def follow(requests: OpenRequests, **said: object) -> None:
     requests.follow(DecodedFrame(HEARD, **said), expecting=False)  # type: ignore[arg-type]  # each row says what it needs
 
 
-def test_only_who_was_asked_has_been_met() -> None:
+def test_only_a_unit_that_was_sent_a_request_counts_as_addressed() -> None:
     requests = OpenRequests()
     follow(requests, unit=3, answers=True)
     assert not requests.addressed(3)
@@ -22,7 +22,7 @@ def test_only_who_was_asked_has_been_met() -> None:
     assert not requests.addressed(4)
 
 
-def test_a_request_is_open_until_its_own_answer() -> None:
+def test_a_request_is_open_until_the_answer_to_it() -> None:
     requests = OpenRequests()
     follow(requests, unit=3, exchange="a", request="first")
     follow(requests, unit=3, exchange="b", request="second")

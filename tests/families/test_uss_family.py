@@ -158,7 +158,7 @@ def test_answers(link: Link, request_: Request, data: bytes, expected: tuple[str
     assert (found.status, found.width, found.value) == expected
 
 
-def test_an_error_and_process_data_are_told() -> None:
+def test_a_reply_holds_an_error_and_process_data() -> None:
     assert parse(BUS, VARIABLE, replace(ASK, task=2), answer("743A 0000 0011")).error == 17
     found = parse(BUS, Link(127, 2), Request(3, 0, words=(0, 0)), answer("0000 0000 0000 FA31 0000"))
     assert (found.status, found.words) == ("ok", (0xFA31, 0))

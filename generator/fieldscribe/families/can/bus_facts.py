@@ -9,10 +9,10 @@ from fieldscribe.facts.table import DOCS, WIRE, Fact
 from fieldscribe.families.can import identifier_of, of_bus
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.facts.schema import Schema
-    from fieldscribe.model import Bus, Code
+    from fieldscribe.model import Bus
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:
@@ -41,15 +41,3 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     if details.identifier_bits is not None:
         yield "Identifier", f"{details.identifier_bits} bits"
     yield "Unit numbers", "{}..{}".format(*bus.units)
-
-
-def numbers(space: str, address: int) -> Mapping[str, int]:
-    """Return other numbers that people use for an address: none."""
-    del space, address  # an address is a number for people already
-    return {}
-
-
-def goes_to_all(function: Code) -> bool:
-    """Return False: there are no functions."""
-    del function
-    return False

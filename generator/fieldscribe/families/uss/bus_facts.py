@@ -11,10 +11,10 @@ from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, write_task
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.facts.schema import Schema
-    from fieldscribe.model import Bus, Code, Point
+    from fieldscribe.model import Bus, Point
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:
@@ -69,15 +69,3 @@ def facts(bus: Bus) -> Iterator[tuple[str, str]]:
     lengths = (f"variable ({VARIABLE})" if length == VARIABLE else str(length) for length in details.pkw)
     yield "Words of the parameter part (PKW)", (", ".join(lengths))
     yield "Words of process data (PZD)", "{}..{}".format(*details.pzd)
-
-
-def numbers(space: str, address: int) -> Mapping[str, int]:
-    """Return other numbers that people use for an address: none."""
-    del space, address  # an address is a number for people already
-    return {}
-
-
-def goes_to_all(function: Code) -> bool:
-    """Return False: broadcasts are telegrams of their details."""
-    del function
-    return False

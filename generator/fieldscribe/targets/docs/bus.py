@@ -56,12 +56,16 @@ def bus_view(device: Device) -> BusView:
 
 def part_of(device: Device) -> OfFamily:
     """Return what the family of a device knows about its bus."""
-    part: OfFamily = family(device.family).part("bus_facts") or OfFamily()
-    return part
+    return OfFamily(family(device.family).part("bus_facts"))
 
 
 class OfFamily:
-    """The part `bus_facts` of a family. These are the defaults."""
+    """What the part `bus_facts` of a family defines of these functions, and defaults for the others."""
+
+    def __init__(self, part: object) -> None:
+        for name in ("facts", "goes_to_all", "numbers"):
+            if hasattr(part, name):
+                setattr(self, name, getattr(part, name))
 
     def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
         """Yield label and text of each fact about the line."""
