@@ -102,6 +102,7 @@ def test_a_long_workbook_is_read_to_its_end(tmp_path: Path, capsys: pytest.Captu
         ("Address,foo", 1),
         ("Address,16,Name", 1),
         ("Remark,Unit", 1),
+        ("Name,Unit", 1),
         ("A title\nAddress,Name,Unit", 0),
         ("foo,foo,bar\nAddress,Name,Unit", 1),
         ("Range,,Type,\nAddress,Name,,Unit", 0),
