@@ -227,9 +227,9 @@ def _place_cases(point: Point, view: PointView) -> list[str]:
         cases.append(f"DISPLAY({view.macro})")
     if point.text is not None:
         cases.append(f"PLACE_OF_TEXT({view.macro}, {view.function}, {_index_and_telegram(point, view)})")
-    elif point.addresses and (point.index is not None or point.telegram is not None):
-        first = min(point.addresses)
-        words = [f"FIELDSCRIBE_PLACED({view.macro}, {address - first}U)" for address in point.addresses]
+    elif point.place.addresses and (point.index is not None or point.telegram is not None):
+        first = min(point.place.addresses)
+        words = [f"FIELDSCRIBE_PLACED({view.macro}, {address - first}U)" for address in point.place.addresses]
         cases.append(f"PLACE({' '.join(words)}, {_index_and_telegram(point, view)})")
     return cases
 

@@ -138,7 +138,7 @@ def symbols_of(view: PointView) -> list[tuple[str, str]]:
 def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[TableView]:
     """Yield the arrays of a point: the words of a text, its ranges if it is the first that has them."""
     if point.text is not None:
-        rows = filled(map(hexadecimal, point.addresses), ", ", "    ")
+        rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield TableView("uint16_t", f"{name}_addresses", str(point.words), tuple(rows))
     elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
