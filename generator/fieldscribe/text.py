@@ -124,7 +124,12 @@ def markdown(text: str) -> str:
 
 def csv_cell(text: str) -> str:
     """Return a cell of CSV, quoted if needed; what a spreadsheet would run as a formula gets an apostrophe in front."""
-    if not text or (_CELL.fullmatch(text) and "  " not in text and text[-1] != " "):
+    if (
+        not text
+        or text.isidentifier()
+        or text.isalnum()
+        or (_CELL.fullmatch(text) and "  " not in text and text[-1] != " ")
+    ):
         return text
     cleaned = line(text)
     if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
