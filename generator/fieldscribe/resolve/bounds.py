@@ -79,9 +79,8 @@ class Bounds:
         key = (facts, end)
         bound = self._ends.get(key)
         if bound is None:
-            bound = self._ends[key] = self.encodings[facts].holds[
-                end
-            ]  # the answer to points of a circle, which ask again
+            held: int = self.encodings[facts].holds[end]
+            bound = self._ends[key] = held  # for points in a circle, which ask again
             self._depth += 1
             if self._depth <= _DEEPEST:
                 bound = self._ends[key] = self._computed_end(facts, end)

@@ -166,7 +166,7 @@ def _most_raw(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, n
         return None
     least = _largest(facts, bounds)
     parts = [(case.rule.offset, _needs(case.rule, 0, bounds).down) for case in cases]
-    # a factor that is 0 throughout makes the numerator 0, whatever the raw number is
+    # without `down` a factor is always 0, and so is the numerator for every raw number
     mosts = [(numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts if down]
     most = min(mosts, default=None)
     return None if most is None or most >= max(map(abs, bounds.encodings[facts].holds)) else max(least, most)
@@ -226,7 +226,7 @@ def _least_decimals(rule: Linear, bounds: Bounds) -> int:
     """Return the fewest decimals at which a raw step is a count or more; above MOST_DECIMALS if none are enough."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
     if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
-        return 0  # nothing can be computed: the author's decimals count
+        return 0  # a floating-point factor without limits: only the stated decimals count
     if rule.factors:
         corners = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
         largest = max((corner for corner in corners if corner), default=abs(rule.ratio))
