@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import re
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.audit import Citations, Editions, audit, audit_of
+from fieldscribe.audit.recording import LONGEST, hindrances, with_recorded
+from fieldscribe.audit.renumbering import renumber
+from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
+from fieldscribe.cli import FINDINGS, FINE
+from fieldscribe.cli.common import StopError, add_device, device_file, print_json, report_findings, some_path
+from fieldscribe.cli.rewriting import rewrite
+from fieldscribe.cli.terminal import print_lines
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_analysis
+from fieldscribe.report import visible
+from fieldscribe.safe_files import read_regular
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.audit import Comparison, Editions
+    from fieldscribe.audit import Comparison
     from fieldscribe.model import Document
     from fieldscribe.resolve.analysis import Analysis
 
@@ -43,8 +58,6 @@ class _Text(NamedTuple):
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    from fieldscribe.cli.common import add_device, some_path
-
     add_device(parser, variants=False)
     parser.add_argument(
         "--manual", type=some_path, required=True, metavar="FILE", help="the manual's text, or the folder that holds it"
@@ -68,8 +81,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Audit, or compare two editions; return the exit code."""
-    from fieldscribe.cli.common import StopError
-
     if not arguments.accept and (arguments.file is not None or arguments.edition is not None):
         raise StopError("--file and --edition are what --accept records", "give them with --accept")
     if arguments.old is not None:
@@ -80,12 +91,6 @@ def run(arguments: Namespace) -> int:
 
 
 def _audit(arguments: Namespace) -> int:
-    from fieldscribe.audit import Citations, audit
-    from fieldscribe.audit.report import audit_lines, audit_page
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import print_json
-    from fieldscribe.cli.terminal import print_lines
-
     subject = _subject(arguments)
     text = _text(subject, arguments.manual)
     outcome = audit(Citations(subject), text.name, text.text, same_text=text.is_recorded)
@@ -100,10 +105,6 @@ def _audit(arguments: Namespace) -> int:
 
 def _compare(arguments: Namespace) -> int:
     """Compare both editions; with --renumber and --accept, write."""
-    from fieldscribe.audit import Citations, Editions
-    from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import StopError
-
     if arguments.format == "html":
         raise StopError("two editions have no HTML report", "use --report text or json")
     written: list[str] = []
@@ -128,11 +129,6 @@ def _compare(arguments: Namespace) -> int:
 
 def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
     """Write the lines of the new edition; return what was done. Raises StopError."""
-    from fieldscribe.audit.renumbering import renumber
-    from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.rewriting import rewrite
-
     result = renumber(subject.scope.files, document.id, editions)
     if result.hindrances:
         raise StopError(f"not renumbered: {'; '.join(result.hindrances)}", "nothing was changed", FINDINGS)
@@ -144,8 +140,6 @@ def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
 
 def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: _Text) -> str | None:
     """Return why the new edition cannot be accepted; None if it can. Raises StopError."""
-    from fieldscribe.audit.recording import hindrances
-
     if not outcome.stands:
         return "not every cited fact stands in the new edition"
     if outcome.left_to_renumber:
@@ -156,9 +150,6 @@ def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: 
 
 def _given(arguments: Namespace) -> dict[str, str]:
     """Return what is to be recorded beside the checksum. Raises StopError."""
-    from fieldscribe.audit.recording import LONGEST
-    from fieldscribe.cli.common import StopError
-
     given = {key: str(value) for key in LONGEST if (value := getattr(arguments, key)) is not None}
     for key, value in given.items():
         if not value.strip() or not value.isprintable() or len(value) > LONGEST[key]:
@@ -170,12 +161,6 @@ def _given(arguments: Namespace) -> dict[str, str]:
 
 def _accept(arguments: Namespace, outcome: Comparison, editions: Editions, subject: Analysis, new: _Text) -> list[str]:
     """Record the new edition; return what was done and what is left to look at. Raises StopError."""
-    from fieldscribe.audit import audit_of
-    from fieldscribe.audit.recording import with_recorded
-    from fieldscribe.cli import FINDINGS
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.rewriting import rewrite
-
     recorded = subject.scope.header["documents"][new.document.id]
     text = with_recorded(recorded, {"sha256": new.sha256, **_given(arguments)})
     if text is None:
@@ -191,11 +176,6 @@ def _accept(arguments: Namespace, outcome: Comparison, editions: Editions, subje
 
 
 def _report(arguments: Namespace, outcome: Comparison, written: list[str], refused: str | None) -> None:
-    from fieldscribe.audit.report import comparison_lines
-    from fieldscribe.cli.common import print_json
-    from fieldscribe.cli.terminal import print_lines
-    from fieldscribe.report import visible
-
     if arguments.format == "json":
         print_json({**outcome.as_data(), "written": written, "refused": refused})
         return
@@ -207,10 +187,6 @@ def _report(arguments: Namespace, outcome: Comparison, written: list[str], refus
 
 def _subject(arguments: Namespace) -> Analysis:
     """Return the description with the places of its facts. Raises StopError."""
-    from fieldscribe.cli.common import StopError, device_file, report_findings
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import load_analysis
-
     report = Report()
     subject = load_analysis(device_file(arguments), report)
     if subject is None:
@@ -221,12 +197,6 @@ def _subject(arguments: Namespace) -> Analysis:
 
 def _text(subject: Analysis, place: Path) -> _Text:
     """Read the text of a manual. Raises StopError."""
-    import re
-    from hashlib import sha256
-
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.safe_files import read_regular
-
     path, document = _manual_of(subject, place)
     data = read_regular(path, _MOST_BYTES).data
     try:
@@ -247,8 +217,6 @@ def _text(subject: Analysis, place: Path) -> _Text:
 
 def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
     """Return the file to read, and the document of the description whose text it is. Raises StopError."""
-    from fieldscribe.cli.common import StopError
-
     documents = list(subject.scope.documents.values())
     if not place.exists():
         raise StopError(f"there is no file `{place}`", "name the text that was extracted from the manual")
