@@ -37,70 +37,23 @@ FOLDERS = [
     for folder in sorted(DEVICES.iterdir())
 ]
 SMALL = [path.read_text("utf-8", "replace") for path in sorted(BAD.glob("*.yaml"))]
+_WITHOUT_BLANKS = """
+    ~ null true yes no 0 -1 -0 1 256 1..2 2..1 1.. ..1 0..65535 1.5 1e400 1e-9 4E20 0x FFFFh 0FFh -1h 0b11
+    raw a.raw 1/0 f32 f64 u64 s64 bit s8 u8 text latin-1 none r w rw holding coil parameter telegram unit address
+    P2000 P0731 1..15 739..732 multiplexer words name class self status always never request * *a ' " [ { # ---
+"""
 WORDS = (
-    *(
-        "",
-        " ",
-        "~",
-        "null",
-        "true",
-        "0",
-        "-1",
-        "1..2",
-        "2..1",
-        "0..65535",
-        "-0",
-        "1e400",
-        "9" * 64,
-        "0x",
-        "FFFFh",
-        "-1h",
-    ),
-    *(
-        "raw",
-        "value = raw",
-        "raw = value * speed",
-        "value = raw * 10 ** power_exponent",
-        "0 | speed..1",
-        "a.raw",
-        "1/0",
-    ),
-    *("f32", "u64", "bit", "s8", "text", "low first", "none", "rw", "w", "holding", "coil", "parameter", "telegram"),
-    *("mode == 0", "mode == 0 and mode == 1", "mode in (0, 1)", "xor 0..5", "multiplexer", "words", "320h + unit"),
-    *(
-        "P2000",
-        "1..15",
-        "739..732",
-        "[1, 2]",
-        "{a: b}",
-        "*a",
-        "&a x",
-        "!!int 3",
-        "<<: {}",
-        "'",
-        '"',
-        "[",
-        "{",
-        "- ",
-        "#",
-        "---",
-    ),
+    *("", " ", "value = raw", "raw = value * speed", "value = raw * 10 ** power_exponent", "0 | speed..1"),
+    *("mode == 0", "mode == 0 and mode == 1", "mode in (0, 1)", "voltage == 230V", "320h + unit", "low first"),
+    *("value = -raw", "value = raw / 65536", "[1, 2]", "{a: b}", "&a x", "!!int 3", "<<: {}", "- ", "9" * 64),
+    *("high first", "xor 0..5"),
+    *_WITHOUT_BLANKS.split(),
     *HOSTILE,
 )
 VALUES: tuple[Any, ...] = (
-    ...,
-    None,
-    True,
-    5,
-    -1,
-    70000,
-    10**70,
-    [],
-    {},
-    [1, 2],
-    {"en": "x"},
-    {"0": "a"},
-    {"3..0": 5},
+    *(..., None, True, -1, 5, 8, 16, 255, 65536, 70000, -(1 << 63), 1 << 64, 10**70, [], {}, [1, 2], ["1..3"]),
+    *({"en": "x"}, {"0": "a"}, {"0": "a", "1": "b"}, {"3..0": 5}, {"name": "x"}, {"number": 5, "sets": 2}),
+    *({"number": 731, "indices": "0..1"}, {"count": 4, "enum": "switch2"}),
     *WORDS,
 )
 
@@ -109,9 +62,9 @@ def mutant(seed: int, index: int) -> dict[str, str]:
     """The files of the mutant of that number: always the same texts."""
     random = Random(f"{seed}/{index}")
     kind = random.random()
-    if kind < 0.2:
+    if kind < 0.4:
         return _of_structure(random)
-    if kind < 0.7:
+    if kind < 0.8:
         return {"device.yaml": _of_text(random, random.choice(SMALL))}
     files = random.choice(FOLDERS)
     name = random.choice(sorted(files))
@@ -123,14 +76,22 @@ def _of_structure(random: Random) -> dict[str, str]:
     place = random.randrange(len(WHOLES))
     device: dict[str, Any] = WHOLES[place]
     for _ in range(random.randint(1, 3)):
+        path, source = random.choice(PATHS[place]), random.choice(PATHS[place])
         try:
-            device = changed(device, random.choice(PATHS[place]), random.choice(VALUES))
+            new = random.choice(VALUES) if random.random() < 0.5 else _value_at(WHOLES[place], source)
+            device = changed(device, path, str(new) if isinstance(new, int) and random.random() < 0.2 else new)
         except (KeyError, IndexError, TypeError, ValueError, AttributeError):
             continue  # an earlier change took the place away
     documents = device.get("device.yaml")
     if random.random() < 0.3 and isinstance(documents, list) and isinstance(documents[0], dict):
         device = _of_one_file(random, device, documents[0])
     return as_texts(json.loads(json.dumps(device)))
+
+
+def _value_at(value: Any, path: tuple[Any, ...]) -> Any:
+    for key in path:
+        value = value[key]
+    return value
 
 
 def _of_one_file(random: Random, device: dict[str, Any], header: dict[str, Any]) -> dict[str, Any]:

@@ -141,24 +141,8 @@ def test_both_readings_agree_on_mutations(seed: int) -> None:
     """Wrong values at random places of the devices that use everything."""
     dice = random.Random(seed)
     places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str) if len(path) > 2]
-    wrongs = [
-        None,
-        True,
-        5,
-        5.5,
-        -1,
-        "",
-        "a b",
-        "x\n",
-        [],
-        {},
-        ["a"],
-        {"name": "a"},
-        {"en": "a"},
-        {"0": "a"},
-        10**6,
-        ...,
-    ]
+    texts = ("", "a b", "x\n")
+    wrongs = (None, True, 5, 5.5, -1, 10**6, *texts, [], {}, ["a"], {"name": "a"}, {"en": "a"}, {"0": "a"}, ...)
     valid = 0
     for _ in range(100):
         start, path = dice.choice(places)
@@ -223,20 +207,3 @@ def test_findings_do_not_depend_on_what_was_met_before(monkeypatch: pytest.Monke
                     check_shape(root, DEVICE if "device" in root else PART, report)
             monkeypatch.undo()
         assert reports[0].findings == reports[1].findings, file.name
-
-
-def test_a_plan_of_other_keys_would_be_noticed() -> None:
-    """Were plans not told apart by all their keys, a mapping that lacks one would pass or end in an exception."""
-    from fieldscribe.language.shape import MappingCheck
-
-    text = "group: a\ntitle: A\nspace: holding\naccess: r\nsource: {document: m, section: x}\npoints: []\n"
-    check = MappingCheck(PART)
-    whole, wrong = (load(SourceFile("a.yaml", part), Report())[0] for part in (text, text.replace("title", "titel")))
-    assert whole is not None
-    assert wrong is not None
-    assert check(whole, whole, None, Report())
-    assert check.fits(whole)
-    assert not check.fits(wrong)
-    check.plans[tuple(wrong)] = check.plans[tuple(whole)]
-    with pytest.raises(KeyError, match="title"):
-        check.fits(wrong)

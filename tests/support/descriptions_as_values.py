@@ -8,8 +8,6 @@ import shutil
 from typing import TYPE_CHECKING, Any
 
 import yaml
-from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
 
 from support.described import DEVICES
 from support.files import write_files
@@ -59,14 +57,6 @@ _NUMBERS = {"fieldscribe", "line", "max", "bytes", "broadcast", "wears", "choice
     *("1", "10000"),  # the steps
     *("length", "characters", "count", "index", "set", "pkw", "bitrate", "identifier_bits", "error", "bit"),
 }
-
-
-def load_files(tmp_path: Path, files: dict[str, Any]) -> Report:
-    """What the compiler finds in the values of some files."""
-    report = Report()
-    device = load_device(rewrite(tmp_path, as_texts(files)), report)
-    assert (device is None) == report.has_errors
-    return report
 
 
 def rewrite(folder: Path, texts: dict[str, str]) -> Path:
