@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.points import ResolvedPoint
 
-_LITERAL = re.compile(r"0[xX][0-9A-Fa-f]+|[0-9][0-9A-Fa-f]*h\b|[0-9]+(?:\.(?!\.)[0-9]+)?")
+_LITERAL = re.compile(r"0b[01]+|0[xX][0-9A-Fa-f]+|[0-9][0-9A-Fa-f]*h\b|[0-9]+(?:\.(?!\.)[0-9]+)?")
 _SMALL = 9
 """Addresses up to this one are positions in a telegram, which manuals do not print as numbers of their own."""
 _LONGEST_PLACE = 30
@@ -120,6 +120,8 @@ def numbers_in(value: Any) -> list[Fraction]:
 
 
 def _number(text: str) -> Fraction:
+    if text.startswith("0b"):
+        return Fraction(int(text, 2))
     if text.lower().startswith("0x") or text.endswith("h"):
         return Fraction(int(text.lower().removeprefix("0x").removesuffix("h"), 16))
     return Fraction(text)
