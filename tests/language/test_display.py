@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
-import json
 import random
 import re
 from contextlib import contextmanager
 from dataclasses import replace
 from decimal import ROUND_HALF_UP, Decimal, localcontext
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
-import fieldscribe
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.export import export_model
-from fieldscribe.facts.digest import code_digest
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
 from fieldscribe.wording.exact import rounded
-from jsonschema import Draft202012Validator
 from support.described import kitchen_sink
 from support.models import changed, named
 from support.places import TESTS
 from support.python_package import imported, write_package
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 DEVICE = kitchen_sink()
 KITCHEN = str(TESTS / "devices/kitchen_sink")
@@ -101,14 +98,6 @@ def test_explain_and_encode_say_it(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == "shown_eighths = 0.38: raw 3 = 0003h\n"
 
 
-def test_the_export_says_it() -> None:
-    spoken = tuple(named(DEVICE, item) for item in ("shown_frequency", "speed"))
-    exported: dict[str, Any] = export_model(replace(DEVICE, points=spoken))
-    assert [one["display"] for one in exported["points"]] == [{"decimals": 2}, None]
-    schema = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
-    Draft202012Validator(schema).validate(exported)
-
-
 def test_targets_say_it() -> None:
     """A constant and a comment in C, the fact and the documentation in Rust, a remark in the table."""
     header = dict(c.outputs(DEVICE, render))["c/kitchen_sink.h"]
@@ -119,14 +108,6 @@ def test_targets_say_it() -> None:
     assert "shown with 2 decimals" in points
     table = dict(docs.outputs(DEVICE, render))["docs/kitchen_sink.md"]
     assert re.search(r"shown_heat`.*shown with 1 decimal\b(?!s)", table)
-
-
-def test_it_belongs_to_the_digest_of_those_who_say_it() -> None:
-    """Code says it, so that it is another code without it; others keep their digest."""
-    point = named(DEVICE, "shown_frequency")
-    without = replace(point, shape=replace(point.shape, display=None))
-    assert code_digest(DEVICE) != code_digest(replace(DEVICE, points=(without,)))
-    assert code_digest(replace(DEVICE, points=(point,))) != code_digest(replace(DEVICE, points=(without,)))
 
 
 def test_python_says_it(tmp_path: Path) -> None:

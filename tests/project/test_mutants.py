@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from itertools import islice
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from mutants.changes import Change, places_of
-from mutants.equivalents import FILE, entry, named
-from mutants.fact_changes import changes_of, siblings
-from mutants.facts import read
-from mutants.generator import entering
-from mutants.judges import KILLED, LEFT_OUT, SURVIVED, OfC, Verdict, conditions_around
-from mutants.noticing import FileOfTests, Witness
-from mutants.results import Results
-from mutants.rooms import PACKAGE, place_of, room_of, rooms
-from mutants.sources import Source, drawn, mutant_of, sources_of
-from mutants.table import MARKS, Table
+from mutants.equivalents import FILE, named
+from mutants.judges import KILLED, LEFT_OUT, SURVIVED, OfC
+from mutants.sources import mutant_of, sources_of
+from mutants.table import MARKS
 from support.places import TESTS
 from support.toolchains import tool
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 C = """\
 /* 1 head */
@@ -117,14 +113,6 @@ def test_statements_names_and_neighbours_change() -> None:
     assert ("0x0AU, true},\n    {0x0BU", "0x0BU, true},\n    {0x0AU") in edits("c", C, "neighbours")
 
 
-def test_a_mutant_says_where_it_is_and_is_named_without_the_device(monkeypatch: pytest.MonkeyPatch) -> None:
-    source = Source("c", "points header", "one_two", "c/one_two.h", "a\n#define ONE_TWO_X 1U\n")
-    mutant = mutant_of(source, Change("number", 20, 22, "2U"))
-    assert (mutant.line, mutant.before, mutant.after) == (2, "#define ONE_TWO_X 1U", "#define ONE_TWO_X 2U")
-    assert entry("c", mutant) == ("c", "points header", "#define {device}_X 1U", "#define {device}_X 2U")
-    assert mutant.key == mutant_of(source, Change("number", 20, 22, "2U")).key
-
-
 def test_each_equivalent_has_a_reason_and_a_language() -> None:
     assert FILE.is_file()
     for (language, kind, before, after), reason in named().items():
@@ -132,63 +120,6 @@ def test_each_equivalent_has_a_reason_and_a_language() -> None:
         assert kind
         assert before != after
         assert len(reason) > 20
-
-
-def test_a_table_counts_what_could_be_noticed() -> None:
-    source = Source("c", "runtime", "", "c/fieldscribe.h", "1\n")
-    mutants = [mutant_of(source, Change("number", 0, 1, str(number))) for number in range(2, 6)]
-    table = Table("c")
-    for mutant, outcome in zip(mutants, (KILLED, SURVIVED, LEFT_OUT, SURVIVED), strict=True):
-        table.add(mutant, Verdict(outcome, "x"), equivalent=mutant is mutants[3])
-    assert table.judged == 3
-    assert not table.met
-    assert table.lines()[1].split() == ["runtime", "1", "1", "1", "1", "50.0"]
-    assert table.survivor_lines() == ["c/fieldscribe.h:1 (number)\n  - 1\n  + 3"]
-
-
-def test_results_are_kept_at_once(tmp_path: Path) -> None:
-    file = tmp_path / "some/results.jsonl"
-    Results(file).put("a", Verdict(KILLED, "x"))
-    file.write_text(file.read_text("utf-8") + '{"key": "b", "outco', encoding="utf-8")  # it was stopped here
-    assert (Results(file).get("a"), Results(file).get("b")) == (Verdict(KILLED, "x"), None)
-
-
-def test_conditions_around_a_line() -> None:
-    assert conditions_around("#if A\n#ifdef B\n1\n#endif\n2\n#endif\n3\n", 3) == ["#if A", "#ifdef B"]
-    assert conditions_around("#if A\n#ifdef B\n1\n#endif\n2\n#endif\n3\n", 7) == []
-
-
-DEVICE = """\
-group: main
-title: {en: Main}
-access: rw
-enums:
-  mode: {0: {name: stop, en: Stop}, 3: {name: run}}
-points:
-- {code: A1, name: first, at: 10h, enum: mode, printed: {wire: 10h}, line: 3}
-- {code: A2, name: second, at: 11h, scale: value = raw * 0.1, flags: {0: ready, 2..1: speed}}
-"""
-
-
-def test_facts_of_a_point_are_its_own_its_groups_and_those_of_its_enum(tmp_path: Path) -> None:
-    (tmp_path / "device.yaml").write_text(DEVICE, encoding="utf-8")
-    first, second = read(tmp_path).points
-    assert {key: [one.text for one in facts] for key, facts in first.facts.items()} == {
-        "access": ["rw"],
-        "code": ["A1"],
-        "name": ["first"],
-        "at": ["10h"],
-        "enum": ["mode", "0", "stop", "3", "run"],
-    }
-    assert [one.text for one in second.facts["flags"]] == ["0", "ready", "2..1", "speed"]
-    assert "access" not in second.own
-    for point in (first, second):
-        for fact in (one for some in point.facts.values() for one in some):
-            assert DEVICE[fact.start : fact.end] == fact.text
-            assert changes_of(fact, siblings(fact, point), {})
-    stop = first.facts["enum"][2]
-    swap = ((stop.start, stop.end, "run"), (first.facts["enum"][4].start, first.facts["enum"][4].end, "stop"))
-    assert swap in changes_of(stop, siblings(stop, first), {})
 
 
 @pytest.fixture
@@ -203,13 +134,6 @@ def base(tmp_path: Path) -> Path:
     program = '#include "../dev.h"\nint main(void) { return DEV_A == 1 && DEV_B ? 0 : 1; }\n'
     (tmp_path / "base/c/conformance/dev_conformance.c").write_text(program, encoding="utf-8")
     return tmp_path / "base"
-
-
-def test_the_same_seed_draws_the_same_mutants(base: Path) -> None:
-    keys = [mutant.key for mutant in drawn("c", base, "7")]
-    assert len(keys) == len(set(keys))
-    assert keys == [mutant.key for mutant in drawn("c", base, "7")]
-    assert keys[:3] == [mutant.key for mutant in islice(drawn("c", base, "7"), 3)]
 
 
 def test_a_mutant_that_vectors_see_is_killed_and_one_that_they_do_not_survives(base: Path, tmp_path: Path) -> None:
@@ -265,34 +189,6 @@ def test_the_compiler_changes_where_it_says_what_to_do() -> None:
     assert not any("Later" in before for some in found.values() for before, _ in some)
 
 
-def test_every_module_lies_in_a_room_that_its_folder_names() -> None:
-    known = rooms()
-    assert sum(map(len, known.values())) == len(list(PACKAGE.rglob("*.py")))
-    assert room_of(("text.py",)) == "fieldscribe"
-    assert room_of(("cli", "check.py")) == "cli"
-    assert room_of(("targets", "__init__.py")) == "targets"
-    assert room_of(("targets", "c", "points.py")) == "targets/c"
-    assert room_of(("families", "can", "targets", "c.py")) == "families/can"
-    assert set(known) >= {"fieldscribe", "cli", "targets", "targets/c", "families/can"}
-
-
-def test_a_mutant_of_the_compiler_lies_in_a_function() -> None:
-    (source,) = (one for one in rooms()["fieldscribe"] if one.path.endswith("/text.py"))
-    inside = source.text.index("return", source.text.index("\ndef line("))
-    mutant = mutant_of(source, Change("return", inside, inside + 6, "yield"))
-    assert place_of(mutant) == "fieldscribe/text.py::line"
-    assert place_of(mutant_of(source, Change("number", 0, 3, "'''"))) == "fieldscribe/text.py::"
-
-
-def test_who_enters_a_function_judges_it() -> None:
-    first = Witness("first", 1.0, frozenset({"a.py::f", "a.py::"}))
-    second = Witness("second", 1.0, frozenset({"b.py::g"}))
-    file = FileOfTests(Path("test_x.py"), (first, second), first.enters | second.enters)
-    assert entering(file, "a.py::f") == [first]
-    assert entering(file, "a.py::g") == []
-    assert entering(file, "a.py::") == [first], "what runs at import is noticed by who enters the module"
-
-
 JUDGED = """\
 import sys
 from pathlib import Path
@@ -317,7 +213,7 @@ def test_a_mutant_of_the_compiler_is_judged_by_tests_that_enter_it(tmp_path: Pat
         ("import re", "import nothing_of_that_name"),
         ("import re", "import re "),
     ]
-    program = JUDGED.format(file="text", test=TESTS / "wording/test_text.py", changes=changes)
+    program = JUDGED.format(file="text", test=TESTS / "language/test_text.py", changes=changes)
     command = [sys.executable, "-c", program, str(tmp_path)]
     done = subprocess.run(command, cwd=TESTS, capture_output=True, text=True, check=True)
     assert done.stdout.split("\n") == [KILLED, LEFT_OUT, SURVIVED, ""]

@@ -1,7 +1,8 @@
-"""Conformance vectors: held against numbers worked out by hand, and against a second, plain reading of the model."""
+"""Conformance vectors: held against numbers worked out by hand; each fact of a point shows in them."""
 
 from __future__ import annotations
 
+import struct
 from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -13,13 +14,17 @@ from support.models import (
     named,
     units,
 )
-from support.plain_reading import f64, wrong
 from support.sample_vectors import SAMPLE, VECTORS, vectors
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from support.vector_file import Vector
+
+
+def f64(value: float) -> str:
+    """Return the bits of a binary64."""
+    return struct.pack(">d", value).hex()
 
 
 def by_hand(kind: str, item: str, **facts: object) -> Vector:
@@ -170,10 +175,6 @@ def test_frames_meet_every_status() -> None:
     assert wanted <= found
 
 
-def test_a_second_reading_of_the_model_agrees() -> None:
-    assert list(wrong(SAMPLE, VECTORS)) == []
-
-
 def test_what_decodes_in_range_encodes_back() -> None:
     encoded = {
         (vector["point"], str(vector.get("with")), vector["float"]): vector.get("raw")
@@ -311,5 +312,5 @@ CHANGES = [
 
 @pytest.mark.parametrize(("item", "other"), CHANGES)
 def test_a_changed_fact_is_caught(item: str, other: Point) -> None:
-    own = [vector for vector in VECTORS if vector.get("point") == item]
-    assert next(wrong(sample_with(item, lambda _: other), own), None) is not None
+    changed_vectors = vectors(sample_with(item, lambda _: other))
+    assert [vector for vector in VECTORS if vector.get("point") == item and vector not in changed_vectors]
