@@ -21,78 +21,16 @@ from fieldscribe.cli import COMMANDS, command_module, main
 from fuzz.languages import Result
 
 MADE = Path(__file__).resolve().parents[1] / "devices"
+_WITHOUT_BLANKS = """
+    nothing . device.yaml speed P0700 A020 wire:16 modicon:40017 code:P11 wire: 0x10 1028h -5 1e400 nan 50.0
+    text json dbc c python,rust c,c, vectors voltage=230V voltage= = speed=5 model é
+    010300000001840A 325#FF0501FB0190FF6E 320 0x320 FF zz # rtu tcp pkw 127 0 255 256 -1 99999999999999999999
+    -- - -x --no-such
+"""
 FREE = (
-    *(
-        "kitchen_sink",
-        "kitchen_can",
-        "kitchen_uss",
-        "devices",
-        "devices/kitchen_can",
-        "nothing",
-        "",
-        " ",
-        ".",
-        "device.yaml",
-    ),
-    *(
-        "speed",
-        "P0700",
-        "A020",
-        "wire:16",
-        "modicon:40017",
-        "code:P11",
-        "wire:",
-        "0x10",
-        "1028h",
-        "-5",
-        "1e400",
-        "nan",
-        "50.0",
-    ),
-    *(
-        "text",
-        "json",
-        "dbc",
-        "c",
-        "python,rust",
-        "c,c,",
-        "vectors",
-        "voltage=230V",
-        "voltage=",
-        "=",
-        "speed=5",
-        "model",
-    ),
-    *(
-        "01 03 02 00 2A 39 9B",
-        "010300000001840A",
-        "325#FF0501FB0190FF6E",
-        "320",
-        "0x320",
-        "FF",
-        "zz",
-        "#",
-        "12BC 0000",
-        "1" * 600,
-    ),
-    *(
-        "rtu",
-        "tcp",
-        "pkw",
-        "127",
-        "0",
-        "255",
-        "256",
-        "-1",
-        "99999999999999999999",
-        "--",
-        "-",
-        "-x",
-        "--no-such",
-        "\x00a",
-        "\u202e",
-        "é",
-    ),
+    *("devices/kitchen_can", "kitchen_sink", "kitchen_can", "kitchen_uss", "devices"),
+    *("", " ", "01 03 02 00 2A 39 9B", "12BC 0000", "1" * 600, "\x00a", "\u202e"),
+    *_WITHOUT_BLANKS.split(),
 )
 
 ENDLESS = ("watch",)

@@ -18,20 +18,8 @@ HOSTILE = [
     "???/",
     "see https://x.y www.z a@b.c $x$",
     *("*/ int x; /*", "/*/", "**/", "a */", "*", "/", "a*", "// x", "??/", "trigraph ??/", "end \\", "\\\\\\", "\\"),
-    *(
-        '"',
-        '""',
-        '"""',
-        "'''",
-        "'",
-        '\\"',
-        'say "x"\\',
-        '"; import os; "',
-        "\\N{BULLET}",
-        "\\x41",
-        "\\u{41}",
-        "\\u0041",
-    ),
+    *('"', '""', '"""', "'''", "'", '\\"', 'say "x"\\', '"; import os; "'),
+    *("\\N{BULLET}", "\\x41", "\\u{41}", "\\u0041"),
     *("line\nbreak", "cr\rx", "crlf\r\nx", "\u2028x\u2029y", "\x85x", "\v\f", "nul\0x", "\x1b[31m", "tab\tx"),
     *("\u202eevil\u202c", "\u2066x\u2069", "\u200bx", "\ufeffx", "\ud800x", "\U000e0041x", "\x7f"),
     *("{{ 7 * 7 }}", "{% raw %}", "</script><script>alert(1)</script>", "<b>", "&lt;", "&", "<!-- x -->", "]]>"),
@@ -111,22 +99,13 @@ def test_rust_code_is_one_span(hostile: str) -> None:
 
 
 @pytest.mark.parametrize("hostile", HOSTILE)
-def test_a_markdown_cell_is_one_cell(hostile: str) -> None:
-    result = text.markdown(hostile)
-    row = f"| first | {result} | last |"
-    assert len(re.split(r"(?<!\\)(?:\\\\)*\|", row)) == 5
-    assert "<" not in result
-    assert ">" not in result
-    assert not re.search(r"(?<!\\)(?:\\\\)*[`*\[\]]", result)
-
-
-@pytest.mark.parametrize("hostile", HOSTILE)
 def test_a_markdown_cell_shows_its_text(hostile: str) -> None:
     parser = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
     html = parser.render(f"| a | b |\n| --- | --- |\n| x{text.markdown(hostile)}y | z |\n")
     assert html.count("<td>") == 2
     cell = re.search(r"<td>x(.*?)y</td>", html)
     assert cell is not None
+    assert not re.search("[<>]", cell[1])
     plain = cell[1].replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", '"').replace("&amp;", "&")
     assert plain == text.line(hostile)
 

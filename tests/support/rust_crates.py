@@ -29,19 +29,7 @@ from fieldscribe.targets import rust, vectors
 
 from support.c_device import rare_points
 from support.files import generate
-from support.models import (
-    SOURCE,
-    allowed,
-    changed,
-    device_of,
-    entry,
-    linear,
-    point,
-    scaled,
-    titles,
-    units,
-    value_of,
-)
+from support.models import SOURCE, allowed, changed, device_of, entry, linear, point, scaled, titles, units, value_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
 
-from support.models import (
-    sample_device,
-)
+from support.models import sample_device
 from support.vector_file import Vector, counts_of, plain, vectors_of
 
 if TYPE_CHECKING:
