@@ -110,7 +110,6 @@ def test_a_limit_becomes_a_rule_for_1(text: str) -> None:
 
 # scale: (column, part of the message)
 REFUSED = {
-    "raw = value * value": (12, "multiplied by itself"),
     "raw = 1 / value": (8, "in a divisor"),
     "raw = value / value": (12, "in a divisor"),
     "raw = 10 ** value": (12, "is an exponent"),

@@ -6,10 +6,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
-from fieldscribe.facts.digest import code_digest
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
@@ -345,22 +343,6 @@ def test_places_of_uss_parameters_in_the_export() -> None:
     assert places["control_word"] == [("write", None)]
     repeats = {one["name"]: one["repeat"] for one in exported}
     assert (repeats["baud_rate_index_1"], repeats["command_source"]) == ("baud_rate", None)
-
-
-@pytest.mark.parametrize("name", ["kitchen_can", "kitchen_uss"])
-def test_what_is_for_people_does_not_reach_code(name: str) -> None:
-    """Titles, notes, sources and lines are not in the digest; they are gone before targets that make code."""
-    device = made(name)
-    plain = for_code(device)
-    assert code_digest(plain) == device.digest
-    named = [(one.name, one.title) for one in plain.messages]
-    named += [(one.name, one.title) for one in plain.telegrams]
-    named += [(one.name, one.title) for one in plain.bus.codes("responses")]
-    assert named
-    assert all(title == {"en": name.replace("_", " ").capitalize()} for name, title in named)
-    for found in plain.points:
-        if found.digits is not None:
-            assert found.digits.enum in plain.enums
 
 
 @pytest.mark.parametrize(
