@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 if TYPE_CHECKING:
@@ -102,6 +102,7 @@ NUMBERS = count()
 
 @settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.sampled_from(HEADINGS), max_size=6, unique=True), ROWS, st.sampled_from(OPTIONS))
+@example(["Register", "Range"], [["", ""], ["", "", "1-16", "65536 = x; 2 = y"]], ["--space", "coil"])
 def test_a_draft_compiles(
     folder: Path,
     capsys: pytest.CaptureFixture[str],

@@ -169,10 +169,13 @@ def _withdraw_rejected(lines: Sequence[Line]) -> bool:
         path.write_text("".join(f"{line.text}\n" for line in lines), "utf-8", newline="\n")
         load_device(path, report)
     errors = [finding for finding in report.findings if finding.severity == "error"]
+    withdrawn: set[tuple[int, str]] = set()
     for finding in errors:
         spans = [finding.span, *(span for span, _ in finding.related)]
         owner = next((line for span in spans if (line := lines[span.line - 1]).point is not None), None)
         if owner is None or owner.point is None:
             raise ValueError(finding.message)
-        owner.point.withdraw(owner.key, finding.message)
+        if (id(owner.point), owner.key) not in withdrawn:  # one fact may have several errors
+            withdrawn.add((id(owner.point), owner.key))
+            owner.point.withdraw(owner.key, finding.message)
     return bool(errors)
