@@ -316,8 +316,9 @@ def test_what_git_does_not_have(repository: Diff) -> None:
 
 def test_a_revision_is_never_an_option(repository: Diff) -> None:
     for revision in ("--upload-pack=x", "-h", "--output=x", "-"):
-        assert revision == "-h" or repository(f"{revision}:old", "old")[:2] == (2, "")
-        assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
+        if revision != "-h":  # Python 3.13 shows the help for `-h:old`
+            assert repository(f"{revision}:old", "old")[:2] == (2, "")
+            assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
         with pytest.raises(UnclearError, match="is not a revision"):
             copied(revision, "old", repository.folder)
         assert not Path("x").exists()
