@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.arithmetic.words import number_of
-from fieldscribe.language.formula import FormulaError
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number, plain_number
 from fieldscribe.resolve.addresses import WIRE

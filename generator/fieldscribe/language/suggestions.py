@@ -11,7 +11,10 @@ from collections.abc import Callable
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.formula import FormulaError, exact_scale, parse_condition, parse_scale
+from fieldscribe.language.formula.conditions import parse_condition
+from fieldscribe.language.formula.lint import exact_scale
+from fieldscribe.language.formula.parser import parse_scale
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 

@@ -6,8 +6,9 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
-from fieldscribe.language.formula.syntax import names
+from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.syntax import FormulaError, names
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.arithmetic.exact import half_away
-from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
+from fieldscribe.language.formula.normal import evaluate, limit_rule
+from fieldscribe.language.formula.parser import parse_range
+from fieldscribe.language.formula.syntax import Expression, FormulaError, names
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear
 from fieldscribe.resolve.values import FactError, Written
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from fieldscribe.diagnostics import Span
-    from fieldscribe.language.formula import Affine, Part
+    from fieldscribe.language.formula.normal import Affine
+    from fieldscribe.language.formula.syntax import Part
     from fieldscribe.resolve.encodings import Encoding
     from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scales import Scales

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import conditions
 from fieldscribe.conditions import Condition
-from fieldscribe.language.formula import Comparison, FormulaError, clauses_of, parse_condition, wrong_number
+from fieldscribe.language.formula.conditions import Comparison, parse_condition, wrong_number
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.suggestions import suggest_condition
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 
 if TYPE_CHECKING:
-    from fieldscribe.language.formula import Affine, Constant
+    from fieldscribe.language.formula.conditions import Constant
+    from fieldscribe.language.formula.normal import Affine
     from fieldscribe.resolve.point_facts import PointFacts
     from fieldscribe.resolve.scales import Scales
     from fieldscribe.resolve.scope import Scope
@@ -30,7 +32,7 @@ def condition_of(scope: Scope, facts: PointFacts, scales: Scales) -> Condition |
         return None
     written = Written(text, facts.span("when"))
     try:
-        stated = clauses_of(parse_condition(text))
+        stated = parse_condition(text)
     except FormulaError as error:
         suggestion = suggest_condition(text)
         error.hint = f"write `{suggestion}`" if suggestion else error.hint

@@ -8,7 +8,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.exact import half_away
-from fieldscribe.language.formula import Expression, FormulaError, parse_range
+from fieldscribe.language.formula.parser import parse_range
+from fieldscribe.language.formula.syntax import Expression, FormulaError
 from fieldscribe.language.nodes import Seq
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear

@@ -5,7 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula import Affine, FormulaError, Part, cut_off, parse_case, parse_scale, scale_rule
+from fieldscribe.language.formula.conditions import parse_case
+from fieldscribe.language.formula.lint import cut_off
+from fieldscribe.language.formula.normal import Affine, scale_rule
+from fieldscribe.language.formula.parser import parse_scale
+from fieldscribe.language.formula.syntax import FormulaError, Part
 from fieldscribe.language.suggestions import suggest_scale
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.values import FactError, Written, formula_finding

@@ -7,7 +7,9 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 from fieldscribe.language.suggestions import suggest_interval
 

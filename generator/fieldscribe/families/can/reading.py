@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.formula.normal import evaluate
+from fieldscribe.language.formula.parser import parse_expression
+from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_integer, shorten
 from fieldscribe.model import Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader

@@ -12,7 +12,7 @@ from fieldscribe.language.formula.syntax import FormulaError, Name
 from fieldscribe.language.formula.tokens import Token, number
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from fractions import Fraction
 
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
@@ -42,37 +42,17 @@ class Comparison:
     column: int = field(compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Not:
-    """True if the operand is false."""
-
-    operand: Condition
-
-
-@dataclass(frozen=True, slots=True)
-class AllOf:
-    """True if all parts are true."""
-
-    parts: tuple[Condition, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class AnyOf:
-    """True if one of the parts is true."""
-
-    parts: tuple[Condition, ...]
-
-
-Condition: TypeAlias = Comparison | Not | AllOf | AnyOf
+Clauses: TypeAlias = tuple[tuple[Comparison, ...], ...]
+"""A condition as an `or` of clauses, each an `and` of comparisons."""
 
 
 @lru_cache(maxsize=4096)
-def parse_condition(text: str) -> Condition:
-    """Return the condition of a text; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
+def parse_condition(text: str) -> Clauses:
+    """Return the clauses of a condition; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
     parser = Parser(text)
-    condition = _any(parser)
+    clauses = _alternatives(parser, opposite=False)
     parser.finish(_NO_ARITHMETIC)
-    return condition
+    return clauses
 
 
 @lru_cache(maxsize=4096)
@@ -92,53 +72,40 @@ def parse_case(text: str) -> tuple[Name, int]:
     return Name(case.name.name, "raw", case.name.column), constant.value.numerator
 
 
-def condition_names(condition: Condition) -> tuple[Name, ...]:
-    """Return all names that a condition compares, in the order of the text, with repetitions."""
-    return tuple(comparison.name for comparison in _comparisons(condition))
+def _alternatives(parser: Parser, *, opposite: bool) -> Clauses:
+    """Parse conditions joined by `or`; return their clauses, or those of the opposite."""
+    parts = _joined(parser, "or", _conjunction, opposite=opposite)
+    return _all_of(parts) if opposite else _any_of(parts)
 
 
-def _comparisons(condition: Condition) -> Iterator[Comparison]:
-    match condition:
-        case Comparison():
-            yield condition
-        case Not(operand):
-            yield from _comparisons(operand)
-        case AllOf(parts) | AnyOf(parts):
-            for part in parts:
-                yield from _comparisons(part)
+def _conjunction(parser: Parser, *, opposite: bool) -> Clauses:
+    """Parse conditions joined by `and`; return their clauses, or those of the opposite."""
+    parts = _joined(parser, "and", _operand, opposite=opposite)
+    return _any_of(parts) if opposite else _all_of(parts)
 
 
-def _any(parser: Parser) -> Condition:
-    parts = _joined(parser, "or", _all)
-    return parts[0] if len(parts) == 1 else AnyOf(parts)
-
-
-def _all(parser: Parser) -> Condition:
-    parts = _joined(parser, "and", _one)
-    return parts[0] if len(parts) == 1 else AllOf(parts)
-
-
-def _joined(parser: Parser, word: str, read: Callable[[Parser], Condition]) -> tuple[Condition, ...]:
-    parts = [read(parser)]
+def _joined(parser: Parser, word: str, read: Callable[..., Clauses], *, opposite: bool) -> list[Clauses]:
+    parts = [read(parser, opposite=opposite)]
     while parser.sees_word(word):
         parser.take()
-        parts.append(read(parser))
-    return tuple(parts)
+        parts.append(read(parser, opposite=opposite))
+    return parts
 
 
-def _one(parser: Parser) -> Condition:
+def _operand(parser: Parser, *, opposite: bool) -> Clauses:
     if parser.sees_word("not"):
         parser.nest()
         parser.take()
-        return Not(_one(parser))
+        return _operand(parser, opposite=not opposite)
     if parser.sees("("):
         parser.nest()
         parser.take()
-        inside = _any(parser)
+        inside = _alternatives(parser, opposite=opposite)
         if not parser.accept(")"):
             parser.refuse("`)`", _NO_ARITHMETIC)
         return inside
-    return _comparison(parser)
+    comparison = _comparison(parser)
+    return _opposite(comparison) if opposite else ((comparison,),)
 
 
 def _comparison(parser: Parser) -> Comparison:
@@ -203,27 +170,13 @@ def wrong_number(text: str, column: int) -> FormulaError:
     return FormulaError(f"`{text}` is a number", column)
 
 
-def clauses_of(condition: Condition) -> tuple[tuple[Comparison, ...], ...]:
-    """Return the condition as an `or` of clauses, each an `and` of comparisons. Raises FormulaError for too many."""
-    return _clauses(condition, turned=False)
+def _any_of(parts: list[Clauses]) -> Clauses:
+    return tuple(clause for clauses in parts for clause in clauses)
 
 
-def _clauses(condition: Condition, *, turned: bool) -> tuple[tuple[Comparison, ...], ...]:
-    """Return the clauses of a condition, or of its opposite if `turned`."""
-    match condition:
-        case Comparison():
-            return _turned(condition) if turned else ((condition,),)
-        case Not(operand):
-            return _clauses(operand, turned=not turned)
-        case AllOf(parts) | AnyOf(parts):
-            parts_clauses = [_clauses(part, turned=turned) for part in parts]
-            if isinstance(condition, AnyOf) != turned:
-                return tuple(clause for clauses in parts_clauses for clause in clauses)
-            return _all_of(parts_clauses)
-
-
-def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comparison, ...], ...]:
-    clauses: tuple[tuple[Comparison, ...], ...] = ((),)
+def _all_of(parts: list[Clauses]) -> Clauses:
+    """Return the clauses that are true if all parts are. Raises FormulaError for too many."""
+    clauses: Clauses = ((),)
     for part in parts:
         if len(clauses) * len(part) > _MOST_CLAUSES:
             column = part[0][0].column
@@ -232,7 +185,7 @@ def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comp
     return clauses
 
 
-def _turned(comparison: Comparison) -> tuple[tuple[Comparison, ...], ...]:
+def _opposite(comparison: Comparison) -> Clauses:
     """Return the opposite of a comparison; the opposite of `in` is that no constant is equal."""
     if comparison.op == "in":
         return (tuple(replace(comparison, op="!=", constants=(each,)) for each in comparison.constants),)

@@ -9,7 +9,6 @@ from functools import lru_cache
 from math import gcd, lcm
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
-from fieldscribe.language.formula.evaluation import bounded, start
 from fieldscribe.language.formula.parser import VARIABLES
 from fieldscribe.language.formula.syntax import (
     Binary,
@@ -28,6 +27,8 @@ from fieldscribe.model import Factor, Linear
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+MOST_BITS = 4096
+"""The most bits of a numerator or denominator; larger results make no sense and cannot be printed."""
 SHAPE = "supported is number * product of points + number, where a factor may be (number * point + number)"
 LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"
 
@@ -181,7 +182,7 @@ def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
     """Return the rule of an expression that is linear in `variable`; other names are factors. Raises FormulaError."""
     term = _term(expression, variable, resolve)
     if not term.variable:
-        raise FormulaError(f"the result does not depend on `{variable}`", start(expression), f"use `{variable}`")
+        raise FormulaError(f"the result does not depend on `{variable}`", _start(expression), f"use `{variable}`")
     return _linear(term, expression)
 
 
@@ -189,6 +190,19 @@ def limit_rule(expression: Expression, resolve: Resolve) -> Linear:
     """Return the rule of a limit, whose argument is always 1; a constant becomes the ratio. Raises FormulaError."""
     term = _term(expression, "", resolve)
     return _linear(Term(term.offset, Fraction(0)) if term.constant else term, expression)
+
+
+def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction:
+    """Return the result of an expression; `values` has numbers by name (`name.raw` for `.raw`). Raises FormulaError."""
+
+    def resolve(name: str, part: Part) -> Affine:
+        key = name if part == "value" else f"{name}.raw"
+        if key in values:
+            return Affine(name, Fraction(0), values[key])
+        known = ", ".join(values)
+        raise FormulaError(f"`{key}` is not known here", 0, f"known: {known}" if known else "write a number")
+
+    return limit_rule(expression, resolve).ratio
 
 
 def scale_rule(scale: Scale, resolve: Resolve) -> Linear:
@@ -231,13 +245,23 @@ def _no_points(name: str, _: Part) -> NoReturn:
 
 def _linear(term: Term, expression: Expression) -> Linear:
     """Return the rule of a term, with its factors in the order of the text."""
-    column = start(expression)
+    column = _start(expression)
     factors = tuple(
         Factor(symbol.point, symbol.slope, symbol.intercept, 1 if power > 0 else -1, symbol.ten_to)
         for symbol, power in term.product.items()
         for _ in range(abs(power))
     )
-    return Linear(bounded(term.coefficient, column), bounded(term.offset, column), factors)
+    sizes = map(int.bit_length, (*term.coefficient.as_integer_ratio(), *term.offset.as_integer_ratio()))
+    if max(sizes) > MOST_BITS:
+        raise FormulaError("the numbers of this formula are too large", column)
+    return Linear(term.coefficient, term.offset, factors)
+
+
+def _start(expression: Expression) -> int:
+    """Return the column of the leftmost operand of an expression."""
+    while isinstance(expression, Binary):
+        expression = expression.left
+    return expression.column
 
 
 def _term(expression: Expression, variable: str, resolve: Resolve) -> Term:

@@ -252,8 +252,3 @@ def _hint_for_range(parser: Parser) -> str:
     if parser.token.kind == "name" and parser.token.text in ("to", "bis", "a", "or", "and", "und", "oder"):
         return "an interval is written low..high, alternatives with |"
     return ""
-
-
-def constant(expression: Expression) -> bool:
-    """Return True if an expression depends on no point."""
-    return isinstance(expression, Number) or not names(expression)
