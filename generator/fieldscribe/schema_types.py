@@ -5,6 +5,7 @@ They are plain classes, compared by identity: the table is made in every run, an
 
 from __future__ import annotations
 
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ class Text:
     """A text: with a greatest length (0: no limit), of a form, or one of some `choices`."""
 
     __slots__ = ("choices", "form", "longest")
+    words, schema_type = "text", "string"
 
     def __init__(self, longest: int = 0, form: Form | None = None, choices: tuple[str, ...] = ()) -> None:
         self.longest, self.form, self.choices = longest, form, choices
@@ -41,21 +43,24 @@ class Whole:
     """A whole number within bounds, or one of some `choices`."""
 
     __slots__ = ("choices", "greatest", "least")
+    words, schema_type = "a whole number", "integer"
 
     def __init__(self, least: int | None = None, greatest: int | None = None, choices: tuple[int, ...] = ()) -> None:
         self.least, self.greatest, self.choices = least, greatest, choices
 
 
 class Plain:
-    """A kind of value without further rules: any number, true or false, or null."""
+    """A kind of value without further rules, with its words in messages, its type in the schema, and in Python."""
 
-    __slots__ = ("word",)
+    __slots__ = ("schema_type", "types", "words")
 
-    def __init__(self, word: str) -> None:
-        self.word = word
+    def __init__(self, words: str, schema_type: str, *types: type) -> None:
+        self.words, self.schema_type, self.types = words, schema_type, types
 
 
-NUMBER, BOOLEAN, NOTHING = Plain("number"), Plain("boolean"), Plain("null")
+NUMBER = Plain("a number", "number", int, Decimal)
+BOOLEAN = Plain("true or false", "boolean", bool)
+NOTHING = Plain("~", "null", type(None))
 YES_NO = BOOLEAN, one_of("yes", "no")
 """For every key that is true or false: people write `yes` and `no`; `true` and `false` mean the same."""
 
@@ -64,6 +69,7 @@ class Items:
     """A list of items of one shape."""
 
     __slots__ = ("item", "least")
+    words, schema_type = "a list", "array"
 
     def __init__(self, item: Shape, least: int = 0) -> None:
         self.item, self.least = item, least
@@ -78,6 +84,7 @@ class Place:
     """
 
     __slots__ = ("by_form", "heading", "least", "may_be", "name", "required", "shape")
+    words, schema_type = "a mapping", "object"
 
     def __init__(  # noqa: PLR0913  # each is given by name where it is used
         self,

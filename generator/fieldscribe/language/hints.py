@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, GROUP
+from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import key_suggestion, suggest_bits, suggest_language
 
@@ -55,7 +56,7 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form |
         hint = "write yes or no"
     if hint is None and Seq in accepted and not isinstance(value, Map):
         hint = f"write a list: [{value}]" if len(str(value)) < 40 else "write a list: […]"
-    return hint or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)
+    return hint or (f"for example {flow_text(example)}" if example is not None else KEYS_PAGE)
 
 
 def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, form: Form | None) -> str | None:
@@ -78,7 +79,7 @@ def _whole_hint(value: Decimal | bool, example: Any) -> str:
     digits, power = str(value).partition("E")[::2]
     if power and "." not in digits:
         return f"write {digits}E{power.lstrip('+')}h if hexadecimal is meant, the digits in full if not"
-    return f"for example {_example(example)}" if isinstance(value, bool) else "write it without a decimal point"
+    return f"for example {flow_text(example)}" if isinstance(value, bool) else "write it without a decimal point"
 
 
 def _number_hint(value: str, fractions: bool) -> str:
@@ -87,14 +88,6 @@ def _number_hint(value: str, fractions: bool) -> str:
     if re.fullmatch(r"[-+]?[0-9]{1,18}", value):
         return f"leave out the quotes: {value}"
     return "write a plain decimal number" if fractions else forms.WHOLE.hint
-
-
-def _example(example: Any) -> str:
-    if isinstance(example, dict):
-        return "{" + ", ".join(f"{key}: {_example(item)}" for key, item in example.items()) + "}"
-    if isinstance(example, list):
-        return "[" + ", ".join(map(_example, example)) + "]"
-    return {True: "true", False: "false"}.get(example, str(example)) if isinstance(example, bool) else str(example)
 
 
 def form_hint(value: str, form: Form) -> str:

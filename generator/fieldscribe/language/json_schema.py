@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
-from fieldscribe.language.keys_page import example_text
-from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Place, Plain, Text, Whole
+from fieldscribe.language.load import flow_text
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Place, Text, Whole
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from fieldscribe.schema_types import Key, Kind, Shape
 
 SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
@@ -92,7 +90,7 @@ class _Definitions:
         types: list[str] = []
         keywords: dict[str, Any] = {}
         for kind in shape.kinds:
-            types.append(kind.word if isinstance(kind, Plain) else _TYPES[type(kind)])
+            types.append(kind.schema_type)
             keywords |= self._kind(kind)
         if "enum" in keywords:
             keywords["enum"] += [True, False] if BOOLEAN in shape.kinds else []
@@ -147,8 +145,8 @@ def _holds_keys(example: Any) -> bool:
 
 def _block(example: Any) -> str:
     if isinstance(example, dict):
-        return "\n".join(f"{key}: {example_text(value)}" for key, value in example.items())
-    return "\n".join(f"- {example_text(item)}" for item in example)
+        return "\n".join(f"{key}: {flow_text(value)}" for key, value in example.items())
+    return "\n".join(f"- {flow_text(item)}" for item in example)
 
 
 def _markdown(text: str) -> str:
@@ -164,9 +162,6 @@ def _in_every_notation(keywords: dict[str, Any]) -> dict[str, Any]:
         return keywords | {"pattern": forms.WHOLE.pattern}
     choices = keywords.pop("enum")
     return keywords | {"anyOf": [{"enum": choices}, {"type": "string", "pattern": forms.WHOLE.pattern}]}
-
-
-_TYPES: Mapping[type, str] = {Text: "string", Whole: "integer", Items: "array", Place: "object"}
 
 
 def _not_empty(**words: Any) -> dict[str, Any]:

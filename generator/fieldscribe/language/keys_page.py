@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
-from fieldscribe.language.load import as_yaml
-from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
+from fieldscribe.language.load import flow_text
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.schema_types import Kind, Shape
 
 _FEW = 2
-_TYPES = {Items: "list", Place: "mapping", Whole: "whole number", Text: "text"}
-_PLAIN: dict[Kind, str] = {NUMBER: "number", BOOLEAN: "`true`, `false`", NOTHING: "`~`"}
 
 
 def keys_markdown() -> str:
@@ -77,19 +75,8 @@ def _type(shape: Shape) -> str:
 def _kind(kind: Kind) -> str:
     if isinstance(kind, Text | Whole) and kind.choices:
         return ", ".join(f"`{choice}`" for choice in kind.choices)
-    return _TYPES.get(type(kind)) or _PLAIN[kind]
+    return "`~`" if kind is NOTHING else kind.words.removeprefix("a ")
 
 
 def _example(shape: Shape) -> str:
-    return f"`{example_text(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""
-
-
-def example_text(value: Any) -> str:
-    """Return an example as YAML."""
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {example_text(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(example_text, value)) + "]"
-    if isinstance(value, str):
-        return value if value in ("yes", "no") or value.startswith("0x") else as_yaml(value)
-    return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)
+    return f"`{flow_text(shape.examples[0])}`".replace("|", "\\|") if shape.examples else ""

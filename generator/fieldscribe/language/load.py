@@ -64,6 +64,17 @@ def as_yaml(text: str) -> str:
     return f'"{escaped}"'
 
 
+def flow_text(value: Any) -> str:
+    """Return a value as YAML on one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {flow_text(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(flow_text, value)) + "]"
+    if isinstance(value, str):
+        return value if value in ("yes", "no") or value.startswith("0x") else as_yaml(value)
+    return str(value).lower() if isinstance(value, bool) else "~" if value is None else str(value)
+
+
 MOST_DEPTH = 40
 MOST_VALUES = 1_000_000
 MOST_DOCUMENTS = 10_000

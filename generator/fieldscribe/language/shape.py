@@ -15,7 +15,7 @@ from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import reversed_hint
 from fieldscribe.language.value_checks import NumberCheck, ShapeCheck, TextCheck, compiled_pattern
-from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Place, Text, Whole, says_yes_or_no
+from fieldscribe.schema_types import Items, Place, Text, Whole, says_yes_or_no
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -23,12 +23,6 @@ if TYPE_CHECKING:
     from fieldscribe.language.value_checks import Check
     from fieldscribe.schema_types import Kind, Shape
 
-_WORDS: dict[type, str] = {Place: "a mapping", Items: "a list", Text: "text", Whole: "a whole number"}
-_PLAIN: dict[Kind, tuple[str, tuple[type, ...]]] = {
-    NUMBER: ("a number", (int, Decimal)),
-    BOOLEAN: ("true or false", (bool,)),
-    NOTHING: ("~", (type(None),)),
-}
 _ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 _NAMING = ("name", "code", "id")
 _MOST_PLANS = 1000
@@ -54,8 +48,7 @@ def _build(shape: Shape) -> ShapeCheck:
             checks.setdefault(python_type, check)
     form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
     yes_no = says_yes_or_no(shape)
-    words = (_WORDS.get(type(kind)) or _PLAIN[kind][0] for kind in shape.kinds)
-    wanted = "yes or no" if yes_no else " or ".join(words)
+    wanted = "yes or no" if yes_no else " or ".join(kind.words for kind in shape.kinds)
     return ShapeCheck(checks or _ANY, wanted, next(iter(shape.examples), None), form, yes_no=yes_no)
 
 
@@ -71,7 +64,7 @@ def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:
         bounded = kind.choices or kind.least is not None or kind.greatest is not None
         yield int, NumberCheck(kind) if bounded else None
     else:
-        yield from dict.fromkeys(_PLAIN[kind][1]).items()
+        yield from dict.fromkeys(kind.types).items()
 
 
 class ListCheck:

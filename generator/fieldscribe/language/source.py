@@ -41,52 +41,31 @@ class Positions(NamedTuple):
 def find_positions(text: str) -> Positions:
     """Return the places in a text, as far as it is YAML."""
     result = Positions({}, {}, {})
-    inside: list[_Mapping | _Sequence] = []
+    # The mappings and lists that are open: the event at the start of each, and those of the values inside.
+    opened: list[tuple[Any, list[Any]]] = []
     for event in _events(text):
         if isinstance(event, yaml.CollectionEndEvent):
-            inside.pop()
+            _add(result, *opened.pop())
         elif isinstance(event, yaml.NodeEvent):
-            if inside:
-                inside[-1].add(event)
+            if opened:
+                opened[-1][1].append(event)
             if isinstance(event, yaml.CollectionStartEvent):
-                inside.append(_opened(event, result))
+                opened.append((event, []))
+    while opened:
+        _add(result, *opened.pop())
     return result
 
 
-def _opened(event: Any, result: Positions) -> _Mapping | _Sequence:
-    mark = event.start_mark
-    result.starts[mark.index] = mark.line + 1, mark.column + 1
-    if isinstance(event, yaml.MappingStartEvent):
-        return _Mapping(result.keys.setdefault(mark.index, {}))
-    return _Sequence(result.items.setdefault(mark.index, []))
-
-
-class _Mapping:
-    """A mapping that is being read: each key, then its value."""
-
-    def __init__(self, places: dict[str, KeyPlaces]) -> None:
-        self._places = places
-        self._key: Any = None
-
-    def add(self, event: Any) -> None:
-        """Note where a key or a value stands; of two equal keys the first counts."""
-        if self._key is None:
-            self._key = event
-            return
-        mark, name = self._key.start_mark, getattr(self._key, "value", "")
-        self._places.setdefault(name, (mark.line + 1, mark.column + 1, *_content_place(event)))
-        self._key = None
-
-
-class _Sequence:
-    """A list that is being read."""
-
-    def __init__(self, places: list[Place]) -> None:
-        self._places = places
-
-    def add(self, event: Any) -> None:
-        """Note where an item stands."""
-        self._places.append(_content_place(event))
+def _add(result: Positions, start: Any, inside: list[Any]) -> None:
+    """Note where a mapping or list stands, and what is inside; of two equal keys the first counts."""
+    offset = start.start_mark.index
+    result.starts[offset] = _place(start)
+    if isinstance(start, yaml.SequenceStartEvent):
+        result.items[offset] = [_content_place(item) for item in inside]
+        return
+    keys = result.keys[offset] = {}
+    for key, value in zip(inside[::2], inside[1::2], strict=False):
+        keys.setdefault(getattr(key, "value", ""), (*_place(key), *_content_place(value)))
 
 
 def _events(text: str) -> Iterator[Any]:
@@ -101,9 +80,13 @@ def _events(text: str) -> Iterator[Any]:
 
 def _content_place(event: Any) -> Place:
     """Return where a value starts, behind the quote if it has one: columns in formulas count from there."""
-    mark = event.start_mark
+    line, column = _place(event)
     quoted = isinstance(event, yaml.ScalarEvent) and event.style in ("'", '"')
-    return mark.line + 1, mark.column + 1 + quoted
+    return line, column + quoted
+
+
+def _place(event: Any) -> Place:
+    return event.start_mark.line + 1, event.start_mark.column + 1
 
 
 MOST_BYTES = 16 * 1024 * 1024
