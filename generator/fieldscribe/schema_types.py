@@ -122,12 +122,21 @@ class Shape:
         self.meaning, self.examples, self.kinds = meaning, examples, kinds
 
 
+class Places:
+    """Places where a key may stand; in the `inherited` ones it applies to all points below."""
+
+    __slots__ = ("all", "inherited")
+
+    def __init__(self, *places: Place, inherited: tuple[Place, ...] = ()) -> None:
+        self.all, self.inherited = places, inherited
+
+
 class Key:
     """One key: its name, the places where it may stand, and the shape of its value.
 
-    `required` are the places that must have it; `needs` are the keys that must stand beside it. In the `inherited`
-    places it applies to all points below. An `own` key identifies a point, so that further sets do not inherit it.
-    `of` says which points it is about: WHOLE_NUMBERS, NUMBERS, TEXTS, or "" for all.
+    `required` are the places that must have it; `needs` are the keys that must stand beside it. An `own` key identifies
+    a point, so that further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS, NUMBERS, TEXTS,
+    or "" for all.
     """
 
     __slots__ = ("inherited", "name", "needs", "of", "own", "places", "required", "shape")
@@ -135,21 +144,24 @@ class Key:
     def __init__(  # noqa: PLR0913  # likewise
         self,
         name: str,
-        places: Place | tuple[Place, ...],
+        places: Place | tuple[Place, ...] | Places,
         meaning: str | Shape,
         examples: Sequence[Any] = (),
         *kinds: Kind,
         required: bool | tuple[Place, ...] = (),
         needs: tuple[str, ...] = (),
-        inherited: tuple[Place, ...] = (),
         own: bool = False,
         of: str = "",
     ) -> None:
         self.name = name
         self.shape = meaning if isinstance(meaning, Shape) else Shape(meaning, examples, *kinds)
-        self.places = places if isinstance(places, tuple) else (places,)
+        if isinstance(places, Place):
+            places = (places,)
+        if isinstance(places, tuple):
+            places = Places(*places)
+        self.places, self.inherited = places.all, places.inherited
         self.required = required if isinstance(required, tuple) else self.places if required else ()
-        self.needs, self.inherited, self.own, self.of = needs, inherited, own, of
+        self.needs, self.own, self.of = needs, own, of
 
 
 WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"

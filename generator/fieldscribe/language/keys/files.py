@@ -6,7 +6,7 @@ from fieldscribe.families import FAMILIES
 from fieldscribe.language.keys import forms, places
 from fieldscribe.language.keys.places import DEVICE, FILES, GROUP
 from fieldscribe.language.keys.shapes import A_NAME, NAME, NAMED, TITLE
-from fieldscribe.schema_types import NUMBER, Items, Key, Place, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import NUMBER, Items, Key, Place, Places, Shape, Text, Whole, by, one_of
 
 _DOCUMENT = Place("", "", "One manual.", [{"title": "ModBus", "language": "de"}])
 _AXIS = Place("", "", "One axis.", [{"values": {"200V": {}}}])
@@ -66,19 +66,14 @@ HEADS = (
     ),
     Key(
         "space",
-        GROUP,
+        Places(GROUP, inherited=(GROUP,)),
         "The address space of the group's points.",
         ["holding"],
         Text(40),
         required=True,
-        inherited=(GROUP,),
     ),
     Key(
-        "telegram",
-        GROUP,
-        "In the space `telegram`: the telegram whose words are the points.",
-        ["visualisation"],
-        NAMED,
+        "telegram", GROUP, "In the space `telegram`: the telegram whose words are the points.", ["visualisation"], NAMED
     ),
     Key(
         "addressing",
@@ -94,9 +89,15 @@ HEADS = (
         [{"modicon": "wire + 1", "reference": "400000 + modicon"}],
         by(forms.NAME, Shape("A formula of `wire` or of a numbering above.", ["wire + 1"], Text(200))),
     ),
-    Key("source", (GROUP, places.BUS), places.SOURCE.shape, inherited=(GROUP,)),
+    Key("source", Places(GROUP, places.BUS, inherited=(GROUP,)), places.SOURCE.shape),
 )
 """The keys at the top of a file: those of the device and of groups."""
+
+
+def _listed(name: str, item: Place, meaning: str) -> Key:
+    """Return the key of a list of such items in a file."""
+    return Key(name, FILES, meaning, [item.shape.examples], Items(item.shape))
+
 
 _WORD = Shape("A word.", ["Parameter"], Text(200))
 
@@ -110,14 +111,7 @@ SECTIONS = (
         required=True,
     ),
     Key("title", _DOCUMENT, "Its title.", ["ModBus Netzwerk Kommunikation"], Text(300), required=True),
-    Key(
-        "language",
-        _DOCUMENT,
-        "Its language, in two letters.",
-        ["de"],
-        Text(form=forms.LANGUAGE),
-        required=True,
-    ),
+    Key("language", _DOCUMENT, "Its language, in two letters.", ["de"], Text(form=forms.LANGUAGE), required=True),
     Key("file", _DOCUMENT, "The file that its text was extracted to.", ["hitachi_l200_modbus.txt"], Text(200)),
     Key(
         "sha256",
@@ -140,10 +134,7 @@ SECTIONS = (
         _DOCUMENT,
         "For the audit: how the manual prints each access.",
         [{"r": ["R/O"], "rw": ["R/W"]}],
-        by(
-            forms.ACCESS,
-            Shape("Its notations.", [["R/W"]], Items(Shape("A notation.", ["R/W"], Text(20)), least=1)),
-        ),
+        by(forms.ACCESS, Shape("Its notations.", [["R/W"]], Items(Shape("A notation.", ["R/W"], Text(20)), least=1))),
     ),
     Key(
         "names",
@@ -213,43 +204,11 @@ SECTIONS = (
         by(forms.NAME, places.RECORD.shape),
     ),
     Key("bus", FILES, places.BUS.shape),
-    Key(
-        "telegrams",
-        FILES,
-        "The cyclic telegrams: layouts of words.",
-        [places.TELEGRAM.shape.examples],
-        Items(places.TELEGRAM.shape),
-    ),
-    Key(
-        "messages",
-        FILES,
-        "The messages: layouts of the bytes of a frame.",
-        [places.MESSAGE.shape.examples],
-        Items(places.MESSAGE.shape),
-    ),
-    Key(
-        "commands",
-        FILES,
-        "The commands: constants that are written under a name.",
-        [places.COMMAND.shape.examples],
-        Items(places.COMMAND.shape),
-    ),
-    Key(
-        "frames", FILES, "The worked examples of the manual.", [places.FRAME.shape.examples], Items(places.FRAME.shape)
-    ),
-    Key(
-        "errata",
-        FILES,
-        "The places where the manual is wrong, unclear or silent.",
-        [places.ERRATUM.shape.examples],
-        Items(places.ERRATUM.shape),
-    ),
-    Key(
-        "looked_through",
-        FILES,
-        "Lines of the manual that hold no facts; the audit ignores them.",
-        [places.LOOKED_THROUGH.shape.examples],
-        Items(places.LOOKED_THROUGH.shape),
-    ),
+    _listed("telegrams", places.TELEGRAM, "The cyclic telegrams: layouts of words."),
+    _listed("messages", places.MESSAGE, "The messages: layouts of the bytes of a frame."),
+    _listed("commands", places.COMMAND, "The commands: constants that are written under a name."),
+    _listed("frames", places.FRAME, "The worked examples of the manual."),
+    _listed("errata", places.ERRATUM, "The places where the manual is wrong, unclear or silent."),
+    _listed("looked_through", places.LOOKED_THROUGH, "Lines of the manual that hold no facts; the audit ignores them."),
 )
 """The sections in which a file declares things."""

@@ -38,10 +38,7 @@ VARIANT = Form(
     "<axis=value>",
 )
 VARIANT_VALUE = Form(
-    "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$",
-    "the name of a variant",
-    "letters, digits and single _: 400V, model_b",
-    "<value>",
+    "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$", "the name of a variant", "letters, digits and single _: 400V, model_b", "<value>"
 )
 WRITTEN = Form(
     "^\\S(.{0,198}\\S)?$",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families import families
 from fieldscribe.language.keys import forms
-from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, TELEGRAM
+from fieldscribe.language.keys.places import COMMAND, ERRATUM, FRAME, LOOKED_THROUGH, TELEGRAM
 from fieldscribe.language.keys.shapes import DIRECTION, LINE_OR_LINES, NAMED, PRINTED_NUMBER
 from fieldscribe.schema_types import BOOLEAN, NOTHING, NUMBER, Items, Key, Shape, Text, Whole, by, one_of
 
@@ -105,7 +105,7 @@ KEYS = (
         one_of("certain", "likely", "unknown"),
         required=True,
     ),
-    Key("document", ERRATUM, "The document, if it is not the first one.", ["manual"], Text()),
+    Key("document", (ERRATUM, LOOKED_THROUGH), "The document, if it is not the first one.", ["manual"], Text()),
     Key(
         "line",
         ERRATUM,

@@ -15,6 +15,7 @@ from fieldscribe.schema_types import (
     YES_NO,
     Items,
     Key,
+    Places,
     Shape,
     Text,
     Whole,
@@ -22,7 +23,7 @@ from fieldscribe.schema_types import (
     one_of,
 )
 
-_GROUPED = (GROUP, *FACTS)
+_GROUPED = Places(GROUP, *FACTS, inherited=(GROUP,))
 
 KEYS = (
     Key(
@@ -33,7 +34,6 @@ KEYS = (
         ["s16", "u32"],
         one_of(*TYPES),
         NOTHING,
-        inherited=(GROUP,),
     ),
     Key(
         "untyped",
@@ -50,24 +50,16 @@ KEYS = (
         [3],
         Whole(1, 125),
     ),
-    Key(
-        "words",
-        _GROUPED,
-        "The order of the words of a value that has several.",
-        ["low first"],
-        WORD_ORDER,
-        inherited=(GROUP,),
-    ),
+    Key("words", _GROUPED, "The order of the words of a value that has several.", ["low first"], WORD_ORDER),
     Key(
         "range",
-        (*_GROUPED, places.PRINTED),
+        Places(GROUP, *FACTS, places.PRINTED, inherited=(GROUP,)),
         "The raw numbers that may be written: an interval, several intervals, or a list; a limit may name another "
         "point.",
         ["0..4000", "-99..-70 | 70..100", "0, 1, 2, 3, 10", "30..A004"],
         Text(500),
         Whole(),
         Items(PRINTED_NUMBER, 1),
-        inherited=(GROUP,),
         of=NUMBERS,
     ),
     Key(
@@ -90,18 +82,10 @@ KEYS = (
         Text(500),
         Items(places.CASE.shape, 1),
         NOTHING,
-        inherited=(GROUP,),
         of=WHOLE_NUMBERS,
     ),
-    Key(
-        "unit",
-        _GROUPED,
-        "The symbol of the unit; `units` declares further ones.",
-        ["Hz", "%"],
-        Text(20),
-        inherited=(GROUP,),
-    ),
-    Key("display", _GROUPED, places.DISPLAY.shape, inherited=(GROUP,)),
+    Key("unit", _GROUPED, "The symbol of the unit; `units` declares further ones.", ["Hz", "%"], Text(20)),
+    Key("display", _GROUPED, places.DISPLAY.shape),
     Key(
         "decimals",
         FACTS,
@@ -123,7 +107,7 @@ KEYS = (
     Key("open", FACTS, "Say `yes` if numbers without a name may be written too.", ["yes"], *YES_NO),
     Key(
         "special",
-        (places.DEVICE, *_GROUPED, places.OF_TYPE),
+        (places.DEVICE, GROUP, *FACTS, places.OF_TYPE),
         "Special codes: raw numbers that are no quantity, with their names; `a..b` is a band. For f32 and f64: bit "
         "patterns.",
         [

@@ -13,11 +13,10 @@ from fieldscribe.language.keys.places import (
     LOOKED_THROUGH,
     OF_TYPE,
     PRINTED,
-    SOURCE,
     SPECIAL_CODE,
     TYPES,
 )
-from fieldscribe.language.keys.shapes import LAST_LINE, LINES_OF, NAMED, PRINTED_NUMBER, in_language
+from fieldscribe.language.keys.shapes import LINES_OF, NAMED, PRINTED_NUMBER, in_words
 from fieldscribe.model import TYPES as WIRE_TYPES
 from fieldscribe.schema_types import NUMBER, YES_NO, Items, Key, Place, Shape, Text, Whole, by
 
@@ -52,17 +51,8 @@ KEYS = (
     Key("writable", SPECIAL_CODE, "The code may be written; by default it is only read.", ["yes"], *YES_NO),
     *(Key(name, TYPES, OF_TYPE.shape) for name in WIRE_TYPES if name not in ("bit", "text")),
     Key("active", FLAG, "The value of the bit that makes the name true; 0 for an inverted bit.", [0], _ONE_BIT),
-    Key(
-        "zero",
-        FLAG,
-        "What 0 means, in words.",
-        [{"en": "not ready"}],
-        Text(2000),
-        by(forms.LANGUAGE, in_language("nicht bereit")),
-    ),
-    Key(
-        "one", FLAG, "What 1 means, in words.", [{"en": "ready"}], Text(2000), by(forms.LANGUAGE, in_language("bereit"))
-    ),
+    Key("zero", FLAG, "What 0 means, in words.", [{"en": "not ready"}], *in_words("nicht bereit")),
+    Key("one", FLAG, "What 1 means, in words.", [{"en": "ready"}], *in_words("bereit")),
     Key(
         "values",
         FLAG,
@@ -84,16 +74,6 @@ KEYS = (
         [{"FF9Eh": -0.98, "0064h": 1.0}],
         by(forms.NUMBER, Shape("The value in the unit.", [-0.98], NUMBER, Text(64)), least=1),
     ),
-    Key("document", SOURCE, "One of the documents that device.yaml names.", ["manual"], Text()),
-    Key(
-        "section",
-        SOURCE,
-        "The section as the manual numbers or names it; quote it if it looks like a number.",
-        ["4.2.10", "Gruppe A"],
-        Text(200),
-    ),
-    Key("page", SOURCE, "The printed page number.", [21], Whole(), Text()),
-    Key("line", SOURCE, "The line in the text extracted from the manual.", [780], Whole(1, LAST_LINE)),
     *(Key(fact, LINES, LINES_OF) for fact in _CITED),
     Key("lines", LOOKED_THROUGH, LINES_OF, required=True),
     Key(
@@ -104,5 +84,4 @@ KEYS = (
         Items(PRINTED_NUMBER, 1),
     ),
     Key("why", LOOKED_THROUGH, "What the lines are about, in a few words.", ["Wiring."], Text(500), required=True),
-    Key("document", LOOKED_THROUGH, "The document, if it is not the first one.", ["manual"], Text()),
 )

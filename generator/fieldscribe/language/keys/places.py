@@ -47,10 +47,7 @@ PART = Place(
     "A part",
     "A document in a file that device.yaml lists under `parts`, or below a `---` in device.yaml itself: one group "
     "(with the keys of the next table), shared facts, or both.",
-    [
-        {"group": "standard_a", "space": "holding", "points": []},
-        {"enums": {"contact": {"0": "open", "1": "closed"}}},
-    ],
+    [{"group": "standard_a", "space": "holding", "points": []}, {"enums": {"contact": {"0": "open", "1": "closed"}}}],
     by_form=_PRIVATE,
     may_be=GROUP,
 )

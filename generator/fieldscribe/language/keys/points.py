@@ -3,46 +3,18 @@
 from __future__ import annotations
 
 from fieldscribe.language.keys import forms, places
-from fieldscribe.language.keys.places import (
-    CITED,
-    DEVICE,
-    FACTS,
-    GROUP,
-    MEMBER,
-    POINT,
-    POINTS,
-    SET,
-    USE,
-    VARIANT,
-)
+from fieldscribe.language.keys.places import CITED, DEVICE, FACTS, GROUP, MEMBER, POINT, POINTS, SET, USE, VARIANT
 from fieldscribe.language.keys.shapes import LAST_LINE, NAME, NAMED, NOTE, TITLE
-from fieldscribe.schema_types import (
-    BOOLEAN,
-    NOTHING,
-    YES_NO,
-    Items,
-    Key,
-    Shape,
-    Text,
-    Whole,
-    by,
-    one_of,
-)
+from fieldscribe.schema_types import BOOLEAN, NOTHING, YES_NO, Items, Key, Places, Shape, Text, Whole, by, one_of
 
 _TITLED = (places.FLAG, places.RECORD, places.CODE, *CITED)
 _NAMED = (places.ENTRY, places.FLAG, places.SPECIAL_CODE, places.CODE, *CITED)
+_CITING = Places(*POINTS, USE, *CITED, places.ERRATUM, places.SOURCE, inherited=(USE,))
 
 WHICH = (
     Key("name", (POINT, USE, *_NAMED), NAME, required=True, own=True),
-    Key("code", (*POINTS, USE), "The manual's own short name.", ["A020"], Text(40), inherited=(USE,), own=True),
-    Key(
-        "record",
-        (POINT, USE),
-        "The name of one of `records`; `at` is its base.",
-        ["trip"],
-        NAMED,
-        own=True,
-    ),
+    Key("code", Places(*POINTS, USE, inherited=(USE,)), "The manual's own short name.", ["A020"], Text(40), own=True),
+    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", ["trip"], NAMED, own=True),
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
@@ -136,39 +108,23 @@ WHICH = (
     Key("was", POINT, "Former names; each stays usable as a deprecated alias.", [["main_frequency"]], Items(NAME, 1)),
     Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
+    Key("document", places.SOURCE, "One of the documents that device.yaml names.", ["manual"], Text()),
     Key(
         "line",
-        (*POINTS, USE, *_NAMED, places.BUS),
+        Places(*POINTS, USE, *_NAMED, places.BUS, places.SOURCE, inherited=(USE,)),
         "The line in the text extracted from the manual.",
         [780],
         Whole(1, LAST_LINE),
-        inherited=(USE,),
     ),
-    Key(
-        "section",
-        (*POINTS, USE, *CITED, places.ERRATUM),
-        "The section of the manual; quote it if it looks like a number.",
-        ["4.2.10"],
-        Text(200),
-        inherited=(USE,),
-    ),
-    Key(
-        "page",
-        (*POINTS, USE, *CITED, places.ERRATUM),
-        "The printed page number.",
-        [21],
-        Whole(),
-        Text(),
-        inherited=(USE,),
-    ),
-    Key("lines", (*FACTS, USE, places.CODE, *CITED, places.ERRATUM), places.LINES.shape, inherited=(USE,)),
+    Key("section", _CITING, "The section of the manual; quote it if it looks like a number.", ["4.2.10"], Text(200)),
+    Key("page", _CITING, "The printed page number.", [21], Whole(), Text()),
+    Key("lines", Places(*FACTS, USE, places.CODE, *CITED, places.ERRATUM, inherited=(USE,)), places.LINES.shape),
     Key("printed", POINTS, places.PRINTED.shape, own=True),
     Key("format", POINT, "The name of one of `formats`.", ["percent_tenth"], NAMED),
 )
 """The keys that identify a point and cite the manual."""
 
-_USED = (GROUP, *POINTS)
-_EVERYWHERE = (*_USED, USE)
+_EVERYWHERE = Places(GROUP, *POINTS, USE, inherited=(GROUP, USE))
 
 USING = (
     Key(
@@ -177,7 +133,6 @@ USING = (
         "What a master may do: read, write, both, or nothing over this bus.",
         ["rw"],
         one_of("r", "w", "rw", "none"),
-        inherited=(GROUP, USE),
     ),
     Key(
         "keeps",
@@ -187,7 +142,6 @@ USING = (
         ["yes"],
         BOOLEAN,
         one_of("no", "yes", "choice"),
-        inherited=(GROUP, USE),
     ),
     Key(
         "keep_with",
@@ -195,7 +149,6 @@ USING = (
         "The command that stores a written value so that it survives power-off; given in place of `keeps`.",
         ["enter"],
         NAMED,
-        inherited=(GROUP, USE),
     ),
     Key(
         "changes",
@@ -203,7 +156,6 @@ USING = (
         "How often the value changes by itself; polling and run-time factors depend on it.",
         ["never"],
         one_of("never", "rarely", "always"),
-        inherited=(GROUP, USE),
     ),
     Key(
         "conditions",
@@ -211,7 +163,6 @@ USING = (
         "What must be true before a write.",
         [["stopped"]],
         Items(Shape("One condition in one or two words.", ["stopped"], Text(80)), 1),
-        inherited=(GROUP, USE),
     ),
     Key(
         "when",
@@ -219,31 +170,9 @@ USING = (
         "The point exists only if this is true: comparisons joined by and, or, not.",
         ["phases >= 2 and meter != none"],
         Text(500),
-        inherited=(GROUP, USE),
     ),
-    Key(
-        "since",
-        _EVERYWHERE,
-        "The first firmware that has the point.",
-        ["firmware 2.1.0"],
-        Text(80),
-        inherited=(GROUP, USE),
-    ),
-    Key(
-        "until",
-        _EVERYWHERE,
-        "The last firmware that has the point.",
-        ["firmware 3.7"],
-        Text(80),
-        inherited=(GROUP, USE),
-    ),
-    Key(
-        "reserved",
-        _USED,
-        "The maker reserves this address.",
-        ["yes"],
-        *YES_NO,
-        inherited=(GROUP,),
-    ),
+    Key("since", _EVERYWHERE, "The first firmware that has the point.", ["firmware 2.1.0"], Text(80)),
+    Key("until", _EVERYWHERE, "The last firmware that has the point.", ["firmware 3.7"], Text(80)),
+    Key("reserved", Places(GROUP, *POINTS, inherited=(GROUP,)), "The maker reserves this address.", ["yes"], *YES_NO),
 )
 """The keys that say how a point may be used, and when it exists."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.language.keys import forms
-from fieldscribe.schema_types import NUMBER, Items, Shape, Text, Whole, by, one_of
+from fieldscribe.schema_types import NUMBER, Items, Place, Shape, Text, Whole, by, one_of
 
 LAST_LINE = 1_000_000_000
 
@@ -28,15 +28,20 @@ def in_language(example: str) -> Shape:
     return Shape("The text in this language.", [example], Text(2000))
 
 
+def in_words(example: str, *required: str) -> tuple[Text, Place]:
+    """Return the kinds of a text: in English, or by language; `required` are the languages that it must have."""
+    return Text(2000), by(forms.LANGUAGE, in_language(example), required=required)
+
+
 TITLE = Shape(
     "A title: one English text, or a text for each language, with English among them.",
     [{"en": "Base frequency", "de": "Basisfrequenz"}, "Base frequency"],
-    *(Text(2000), by(forms.LANGUAGE, in_language("Basisfrequenz"), required=("en",))),
+    *in_words("Basisfrequenz", "en"),
 )
 NOTE = Shape(
     "A remark of your own, in English or for each language.",
     [{"en": "Takes some time."}, "Takes some time."],
-    *(Text(2000), by(forms.LANGUAGE, in_language("Takes some time."), required=("en",))),
+    *in_words("Takes some time.", "en"),
 )
 LINE_OR_LINES = (Whole(1, LAST_LINE), Text(form=forms.LINES))
 LINES_OF = Shape(
