@@ -16,9 +16,9 @@ from fieldscribe.lowered.template_keys import TemplateKeys
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.model import Device, Linear, Point
+    from fieldscribe.model import Device, Enum, Linear, Point, Shape
 
-__all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "plan_of"]
+__all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "named_numbers", "plan_of"]
 
 
 class Lowered:
@@ -28,6 +28,7 @@ class Lowered:
         self.device = device
         self.points: Mapping[str, Point] = _by_name(device)
         self._rules: dict[Linear, Rule] = {}
+        self._errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
 
     def rule(self, linear: Linear) -> Rule:
         """Return the lowered rule, shared by all points that have the same."""
@@ -35,6 +36,10 @@ class Lowered:
         if lowered is None:
             lowered = self._rules[linear] = rule_of(linear, self.points)
         return lowered
+
+    def errata_of(self, point: Point) -> list[str]:
+        """Return the errata of a point that change a fact; others are in the documentation only."""
+        return [erratum for erratum in point.errata if erratum in self._errata]
 
     @cached_property
     def template_keys(self) -> Mapping[int, int]:
@@ -52,6 +57,11 @@ def lower(device: Device) -> Lowered:
     if not _kept or _kept[0].device is not device:
         _kept[:] = [Lowered(device)]
     return _kept[0]
+
+
+def named_numbers(shape: Shape) -> Enum | None:
+    """Return the enum that names the numbers of points, or each of their digits."""
+    return shape.enum if shape.digits is None else shape.digits.enum
 
 
 def _by_name(device: Device) -> dict[str, Point]:

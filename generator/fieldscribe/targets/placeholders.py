@@ -7,7 +7,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Hashable, Iterable, Sequence
 
 _PLACEHOLDERS = tuple(map(chr, range(0xFDD0, 0xFDF0)))
 """Unicode noncharacters: the encoders of `text` strip them, so no text of a description holds one."""
@@ -34,6 +34,20 @@ class TextTemplate:
         parts = self._parts.copy()
         parts[1::2] = self._chosen(fields)
         return "".join(parts)
+
+
+class TextTemplates:
+    """Texts that are laid out once for each key, and filled with fields."""
+
+    def __init__(self) -> None:
+        self._templates: dict[Hashable, TextTemplate] = {}
+
+    def fill(self, key: Hashable, fields: Sequence[str], lay_out: Callable[[], str]) -> str:
+        """Return the text of a key with these fields; `lay_out` returns the text with placeholders."""
+        template = self._templates.get(key)
+        if template is None:
+            template = self._templates[key] = TextTemplate(lay_out())
+        return template.fill(fields)
 
 
 def _chooser(numbers: list[int]) -> Callable[[Sequence[str]], Sequence[str]]:

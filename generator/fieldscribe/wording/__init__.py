@@ -178,6 +178,13 @@ def resolution_text(point: Point) -> str:
     return ", ".join(parts)
 
 
+def count_text(point: Point) -> str:
+    """Return the unit of one count of a scaled point: `0.01 Hz`; empty if it has no counts."""
+    if point.form != "scaled" or point.decimals is None:
+        return ""
+    return with_unit(exact(1, 10**point.decimals), point)
+
+
 def width_texts(point: Point) -> tuple[str, ...]:
     """Return what a scaled point lacks because its numbers are too wide: sentences without a full stop."""
     if point.form != "scaled" or not point.generated:

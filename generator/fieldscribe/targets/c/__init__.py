@@ -33,9 +33,9 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     texts = {name: section.text(render) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
     if tests:
-        from fieldscribe.targets.c.conformance import adapters_text, conformance_view
+        from fieldscribe.targets.c.conformance import adapters_text, suite_context
 
-        suite = {**context, "suite": conformance_view(device, points, scope)}
+        suite = {**context, "suite": suite_context(device, points, scope)}
         adapters = {"adapters": adapters_text(points, scope, sections.values(), render)}
         program = framed(render, f"c/{device.family}_conformance.c.j2", suite, adapters)
         yield f"c/conformance/{device.id}_conformance.c", program

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.layout import Function, called, function
-from fieldscribe.targets.c.limits import check, known, refused
+from fieldscribe.targets.c.layout import INLINE, STATUS, Function, called, function
+from fieldscribe.targets.c.limits import check, either, known, refused
 from fieldscribe.targets.c.literals import VALUE_BOUNDS, bare, float_order, raw_kind, sign_and_size, unsigned
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
-
-STATUS = "FIELDSCRIBE_STATUS"
-INLINE = "static inline"
 
 
 def value_type(point: Point) -> str:
@@ -37,11 +34,11 @@ def is_rechecked(point: Point) -> bool:
 class Writer:
     """Writes the functions of one point."""
 
-    def __init__(self, point: Point, view: PointView, scope: HeaderScope) -> None:
-        self.point, self.fields, self.special, self.scope = point, view.fields, view.special, scope
+    def __init__(self, view: PointView, scope: HeaderScope) -> None:
+        self.point, self.fields, self.special, self.scope = view.point, view.fields, view.special, scope
         self.rule, self.scale = view.rule, view.scale
         self.name, self.macro = view.function, view.macro
-        self.type, self.kind = view.raw_type, raw_kind(point)
+        self.type, self.kind = view.raw_type, raw_kind(view.point)
 
     # ---- for points of every form
 
@@ -61,7 +58,7 @@ class Writer:
 
     def _encode(self, tail: str, parameter: str, *body: str, floating: bool = False) -> Function:
         parameters = [parameter, *self.scope.parameters(self.point, self.point.arguments), f"{self.type} *raw"]
-        return function(STATUS, f"{self.name}_{tail}", parameters, *body)._replace(floating=floating)
+        return function(STATUS, f"{self.name}_{tail}", parameters, *body, floating=floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
         """Return the statement that stores `number` if `inside` holds and it may be written, else returns `outside`."""
@@ -83,15 +80,13 @@ class Writer:
         raw = f"{self.type} raw"
         if self.special is None and not fits:
             body = f"return {number};"
-            return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body)._replace(floating=floating)
+            return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body, floating=floating)
         to = "count" if tail == "decode_count" else "value"
         keep = f"fieldscribe_keep_{_KEPT[kind]}({no_code(self.special)}, {number}, {to})"
         if fits:
             keep = f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW"
             keep = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {keep}" if self.special is not None else keep
-        return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};")._replace(
-            floating=floating
-        )
+        return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};", floating=floating)
 
     # ---- points whose raw number is the value
 
@@ -115,7 +110,7 @@ class Writer:
             )
             return f"return {known(point, f'fieldscribe_encode_{self.kind}(value, {ends}, raw)')};"
         self.scope.takes(point.arguments)
-        number = fixed_number(point, self.macro, self.scope, "value") if fixes(point) else self._of_value(kind)
+        number = fixed_number(point, "value") if fixes(point) else self._of_value(kind)
         within = {"int32_t": "within", "int64_t": "within_wide", "uint64_t": "within_u64"}[kind]
         inside = f"fieldscribe_{within}(value, {literal(low)}, {literal(high)})"
         return self._kept("" if (low, high) == VALUE_BOUNDS[kind] else inside, number, refused(point))
@@ -216,7 +211,7 @@ class Writer:
         if self.special is not None:
             body = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {body}"
         parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
-        return function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};")._replace(floating=floating)
+        return function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};", floating=floating)
 
     # ---- points that are bit patterns of floating-point numbers
 
@@ -241,14 +236,8 @@ def _spans(point: Point) -> str:
     bits = point.info.bits
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
-    tests = [
-        f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})"
-        for low, high in spans or [(1 - infinity, infinity - 1)]
-    ]
-    status = tests[-1]
-    for test in reversed(tests[:-1]):
-        status = f"fieldscribe_either({test}, {status})"
-    return status
+    spans = spans or [(1 - infinity, infinity - 1)]
+    return either([f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})" for low, high in spans])
 
 
 _KEPT = {

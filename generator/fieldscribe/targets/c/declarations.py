@@ -13,15 +13,14 @@ from fieldscribe.text import c_comment
 from fieldscribe.wording import (
     codes_text,
     condition_text,
+    count_text,
     default_text,
     display_text,
     range_text,
     raw_range_text,
     resolution_text,
     width_texts,
-    with_unit,
 )
-from fieldscribe.wording.exact import exact
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -74,8 +73,7 @@ def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
         yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
-    errata = [erratum for erratum in point.errata if erratum in scope.errata]
-    if errata:
+    if errata := scope.lowered.errata_of(point):
         yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
 
 
@@ -94,8 +92,7 @@ def _steps(point: Point) -> Iterator[str]:
     """Yield the unit of one count, and the steps of the device where they are coarser."""
     if point.form != "scaled":
         return
-    count = "" if point.decimals is None else with_unit(exact(1, 10**point.decimals), point)
-    step = resolution_text(point)
+    count, step = count_text(point), resolution_text(point)
     if step and step != count:
         yield f"in steps of {step}"
     if count:

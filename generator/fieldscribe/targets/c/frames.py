@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
+from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
 from fieldscribe.names import upper
-from fieldscribe.targets.c.header import old_items
-from fieldscribe.targets.c.layout import folded
-from fieldscribe.targets.c.literals import hexadecimal, raw_kind
-from fieldscribe.targets.c.point_templates import TemplateTexts
+from fieldscribe.targets.c.layout import WIDTH, folded
+from fieldscribe.targets.c.literals import hexadecimal, wire_kind
+from fieldscribe.targets.c.point_templates import texts_of
 from fieldscribe.targets.c.views import AliasView
+from fieldscribe.targets.c.word_functions import constant_bits
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -20,12 +21,10 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.point_templates import GeneratedPoint, PointTemplate
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
-
-_LINE = 120
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +40,7 @@ class Descriptor:
     @property
     def parted(self) -> bool:
         """True if one line would be too long."""
-        return len(f"static const {self.type} {self.name} = {self.value};") > _LINE
+        return len(f"static const {self.type} {self.name} = {self.value};") > WIDTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,44 +52,42 @@ class Frame:
 
 
 class Frames:
-    """The frames of points in their order, made for the first point of each template."""
+    """The frames of points in their order, made once for each view."""
 
     def __init__(self, points: Sequence[GeneratedPoint], make: Callable[[Point, PointView], Frame | None]) -> None:
         self._points = points
-        nothing = Frame((), ())
-        templates = dict.fromkeys(each.template for each in points)
-        self._made = {template: make(template.point, template.view) or nothing for template in templates}
+        views = dict.fromkeys(each.view for each in points)
+        self._made = {view: make(view.point, view) or Frame((), ()) for view in views}
 
     @property
     def is_empty(self) -> bool:
         """True if no request reads or writes any of the points."""
         return not any(frame.descriptors for frame in self._made.values())
 
-    def cases(self, template: PointTemplate) -> tuple[str, ...]:
+    def cases(self, view: PointView) -> tuple[str, ...]:
         """Return the macros of the conformance program for the frames of a point."""
-        return self._made[template].cases if template in self._made else ()
+        return self._made[view].cases if view in self._made else ()
 
     def text(self, render: Render) -> str:
         """Return the descriptors of all points."""
-        texts = TemplateTexts(lambda template: folded("".join(self._constants(template, render))))
-        return "".join(map(texts.of, self._points))
+        return "".join(texts_of(self._points, lambda view: self._constants(view, render)))
 
     def names(self) -> Iterator[Named]:
         """Yield the identifiers of the descriptors."""
-        for point, template, _ in self._points:
-            yield Owner("point", point.item), [descriptor.name for descriptor in self._made[template].descriptors]
+        for point, view, _ in self._points:
+            yield Owner("point", point.item), [descriptor.name for descriptor in self._made[view].descriptors]
 
     def aliases(self, scope: HeaderScope) -> Iterator[AliasView]:
         """Yield the descriptors of renamed points under their old names."""
-        for point, template, _ in self._points:
-            for old, item in old_items(point) if point.was else ():
-                for descriptor in self._made[template].descriptors:
+        for point, view, _ in self._points:
+            for old, item in zip(point.was, point.old_items, strict=True) if point.was else ():
+                for descriptor in self._made[view].descriptors:
                     name = f"{scope.prefix}_{item}{descriptor.tail}"
                     yield AliasView(old, item, point.item, name, descriptor.name, "OBJECT")
 
-    def _constants(self, template: PointTemplate, render: Render) -> Iterator[str]:
-        for descriptor in self._made[template].descriptors:
-            yield render("c/constant.h.j2", {"one": descriptor})
+    def _constants(self, view: PointView, render: Render) -> str:
+        texts = (render("c/constant.h.j2", {"one": descriptor}) for descriptor in self._made[view].descriptors)
+        return folded("".join(texts))
 
 
 class CFamily(Protocol):
@@ -115,16 +112,9 @@ def frames_of(device: Device) -> CFamily:
     return offered
 
 
-def kind_of(point: Point) -> str:
-    """Return the type of a point's raw number, as in the names of the runtime's functions: `u16`."""
-    kind = raw_kind(point)
-    return "bit" if kind == "bool" else kind
-
-
 def lies(point: Point) -> str:
     """Return the facts of a layout that conformance checks: whether the word is shared, and its constant bits."""
-    fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
-    return f"{'true' if shares(point) else 'false'}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
+    return f"{'true' if shares(point) else 'false'}, {constant_bits(point)}"
 
 
 def shares(point: Point) -> bool:
@@ -141,14 +131,13 @@ class Layouts:
 
     def of(self, point: Point, high_first: Sequence[int]) -> str:
         """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
-        kind, mask, low = kind_of(point), _mask(point), point.bits[1] if point.bits is not None else 0
+        kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
-        fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
-        name = f"{self._prefix}_layout_{kind}{_tail(point, order, mask, fixed)}"
+        name = f"{self._prefix}_layout_{kind}{_tail(point, order, mask)}"
         shared = "true" if shares(point) else "false"
         value = (
             f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
-            f"{hexadecimal(mask)}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
+            f"{hexadecimal(mask)}, {constant_bits(point)}"
         )
         self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}")
         return f"&{name}"
@@ -178,22 +167,21 @@ def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:
 def _mask(point: Point) -> int:
     """Return the mask of the bits of one or several words that hold the raw number."""
     if point.bits is not None:
-        high, low = point.bits
-        return ((1 << (high - low + 1)) - 1) << low
+        return group_mask(point)
     if point.info.bits == 1:
         return 1 if point.space in ("coil", "discrete") else 0xFFFF
-    return (1 << point.info.bits) - 1
+    return mask_of(point.info.bits)
 
 
-def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
+def _tail(point: Point, order: str, mask: int) -> str:
     """Return the part of a layout's name that tells it from others of its type."""
     parts = [f"order_{order.lower()}"] if point.words > 1 else []
     if point.bits is not None:
         parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
     elif point.info.bits == 1 and mask > 1:
         parts.append("word")
-    if fixed[0]:
-        parts.append(f"fixed_{fixed[0]:04x}_{fixed[1]:04x}")
+    if point.fixed is not None:
+        parts.append(f"fixed_{point.fixed.mask:04x}_{point.fixed.bits:04x}")
     return "".join(f"_{part}" for part in parts)
 
 

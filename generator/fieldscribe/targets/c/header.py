@@ -8,12 +8,13 @@ from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Version
 from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import folded, framed
-from fieldscribe.targets.c.point_templates import TemplateTexts, fields_of
-from fieldscribe.targets.c.point_views import computes_in_double, functions_of, named_numbers, symbols_of
+from fieldscribe.targets.c.point_templates import fields_of, texts_of
+from fieldscribe.targets.c.point_views import functions_of, symbols_of
 from fieldscribe.targets.c.views import AliasView, HeaderView, TelegramView
 from fieldscribe.targets.heads import command
 from fieldscribe.text import c_comment
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.point_templates import GeneratedPoint, PointTemplate
+    from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import Define, PointFields, PointView
 
@@ -41,8 +42,6 @@ def device_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderS
     return HeaderView(
         head=head_lines(device),
         title=c_comment(f"{device.vendor} {device.model}"),
-        file=f"{device.id}.h",
-        guard=f"{scope.upper}_H",
         prefix=scope.prefix,
         upper=scope.upper,
         version=device.version,
@@ -56,15 +55,15 @@ def device_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderS
         aliases=(
             *(
                 alias
-                for point, template, _ in points
+                for point, view, _ in points
                 if point.was
-                for old, item in old_items(point)
-                for alias in _aliases(point, template.view, AliasView(old, item, point.item), scope)
+                for old, item in zip(point.was, point.old_items, strict=True)
+                for alias in _aliases(view, AliasView(old, item, point.item), scope)
             ),
             *_aliases_of_structs(points, scope),
         ),
         statuses=STATUSES,
-        double=any(computes_in_double(template.view) for template in dict.fromkeys(each.template for each in points)),
+        double=any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
     )
 
 
@@ -83,30 +82,24 @@ def _points_by_group(
     device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
 ) -> dict[str, list[str]]:
     """Return the texts of each group's points."""
-    texts = TemplateTexts(lambda template: _point_text(template, scope, render))
+    texts = texts_of(points, lambda view: _point_text(view, scope, render))
     by_group: dict[str, list[str]] = {group.name: [] for group in device.groups}
-    generated = iter(points)
     for point in device.points:
         terms = point.terms
-        text = texts.of(next(generated)) if terms.generated else folded(_remark(point, scope, render))
+        text = next(texts) if terms.generated else folded(_remark(point, scope, render))
         by_group.setdefault(terms.group, []).append(text)
     return by_group
 
 
-def _point_text(template: PointTemplate, scope: HeaderScope, render: Render) -> str:
+def _point_text(view: PointView, scope: HeaderScope, render: Render) -> str:
     """Return the part of the header that is one point."""
-    functions = list(functions_of(template.point, template.view, scope))
+    functions = list(functions_of(view, scope))
     context = {
-        "p": template.view,
+        "p": view,
         "functions": [function.text for function in functions if not function.floating],
         "floats": [function.text for function in functions if function.floating],
     }
     return folded(render("c/point.h.j2", context))
-
-
-def old_items(point: Point) -> Iterator[tuple[str, str]]:
-    """Yield the point's old names, each with the item that it had then: variants keep their suffix."""
-    yield from ((old, replace(point, name=old).item) for old in point.was)
 
 
 def _title(group: str, scope: HeaderScope) -> str:
@@ -127,15 +120,16 @@ def head_lines(device: Device) -> tuple[str, ...]:
     )
 
 
-def _aliases(point: Point, view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
+def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:
     """Yield the old names of everything that a renamed point has in the header."""
+    point = view.point
     fields = view.fields._replace(item=old.old_item, macro=upper(old.old_item))
     function = f"{scope.prefix}_{fields.item}"
     for (name, _), (new, _) in zip(defines(point, fields, scope), view.defines, strict=True):
         yield replace(old, old=name, new=new, sort="NUMBER")
     for name, sort in symbols_of(view):
         yield replace(old, old=function + name.removeprefix(view.function), new=name, sort=sort)
-    enum = named_numbers(point)
+    enum = named_numbers(point.shape)
     if view.enum is not None and enum is not None and enum.was:
         before = enum.was[point.was.index(old.was)]
         yield replace(old, old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
@@ -148,7 +142,7 @@ def _aliases_of_structs(points: Iterable[GeneratedPoint], scope: HeaderScope) ->
 
     Fields are in the order of their names: a struct has no old name under which it would have another order.
     """
-    structs = {each.template.view.struct: sorted(each.point.arguments) for each in points if each.template.view.struct}
+    structs = {view.struct: sorted(point.arguments) for point, view, _ in points if view.struct}
     for struct, names in structs.items():
         for chosen in islice(product(*[_names_of(name, scope) for name in names]), 1, _MOST_OLD_NAMES):
             renamed, old = next(name for name in chosen if name.was), [name.old_item for name in chosen]
@@ -160,7 +154,7 @@ def _names_of(name: str, scope: HeaderScope) -> Iterator[AliasView]:
     """Yield the name of a point as a member of a struct, then its old names."""
     point = scope.points[name]
     yield AliasView("", name, point.item)
-    for old, item in old_items(point):
+    for old, item in zip(point.was, point.old_items, strict=True):
         yield AliasView(old, old if name == point.name else item, point.item)
 
 

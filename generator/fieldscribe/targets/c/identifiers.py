@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import named_numbers
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, header_names, old_names_of
 from fieldscribe.targets.c.header import STATUSES, device_view, remark_defines
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_templates import fields_of, generated_points
-from fieldscribe.targets.c.point_views import named_numbers, names_of, symbols_of
+from fieldscribe.targets.c.point_views import names_of, symbols_of
 from fieldscribe.targets.c.scope import scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.identifiers import Names, Owner
@@ -67,7 +68,7 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
     generated = iter(points)
     for point in device.points:
         if point.generated:
-            yield from _of_point(next(generated).template.view, point, scope)
+            yield from _of_point(next(generated).view, scope)
         else:
             yield (
                 Owner("point", point.item),
@@ -75,16 +76,16 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
             )
 
 
-def _of_point(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
-    owner = Owner("point", view.fields.item)
+def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
+    point, owner = view.point, Owner("point", view.fields.item)
     names = [*(name for name, _ in view.defines), *(name for name, _ in symbols_of(view))]
-    parts = list(_of_parts(view, point, owner)) if point.flags or point.specials else []
+    parts = list(_of_parts(view, owner)) if point.flags or point.specials else []
     for _, names_of_part in parts:
         for name in names_of_part:
             names.remove(name)  # only once: another use of the name in the same point is a clash
     yield owner, names
     yield from parts
-    yield from _of_shared(view, point, scope)
+    yield from _of_shared(view, scope)
     if view.special is not None and view.special.codes is not None and point.shared_codes:
         codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
@@ -93,16 +94,17 @@ def _of_point(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Nam
                 Owner("code", special.name, shared),
                 _code_names(special, f"{scope.upper}_{shared.name.upper()}", point),
             )
-    enum = named_numbers(point)
+    enum = named_numbers(point.shape)
     if view.enum is not None and enum is not None:
-        whole = Owner("enum", names_of(point, view.fields)[0])
+        whole = Owner("enum", names_of(enum, point, view.fields)[0])
         yield whole, (view.enum.function, view.enum.table)
         for entry, (name, _, _) in zip(enum.entries, view.enum.entries, strict=True):
             yield Owner("entry", entry.name, whole), (name,)
 
 
-def _of_shared(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Named]:
+def _of_shared(view: PointView, scope: HeaderScope) -> Iterator[Named]:
     """Yield the identifiers that hold a checksum of a content; the owner is that content, so equal checksums clash."""
+    point = view.point
     if view.struct:
         yield Owner("struct", ", ".join(sorted(point.arguments))), (view.struct,)
     if view.rule is not None:
@@ -111,8 +113,9 @@ def _of_shared(view: PointView, point: Point, scope: HeaderScope) -> Iterator[Na
         yield Owner("table of ranges", repr(point.allowed.fixed)), (table,)
 
 
-def _of_parts(view: PointView, point: Point, owner: Owner) -> Iterator[Named]:
+def _of_parts(view: PointView, owner: Owner) -> Iterator[Named]:
     """Yield the identifiers for the point's flags, and for special codes of its own."""
+    point = view.point
     for flag in point.flags:
         defines = [name for name, _ in flag_defines(flag, point, view.macro)]
         yield (

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 WIDTH = 120
 """No line is longer."""
 
+INLINE = "static inline"
+STATUS = "FIELDSCRIBE_STATUS"
+"""The heads of functions: of one that cannot fail, without its result, and of one that returns a status."""
+
 _LAST = 100
 """Added to the depth of a break behind an opening bracket, so that it is the last choice."""
 
@@ -35,7 +39,7 @@ class Function(NamedTuple):
     floating: bool = False
 
 
-def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> Function:
+def function(head: str, name: str, parameters: Sequence[str], *statements: str, floating: bool = False) -> Function:
     """Return a function whose body is one or two statements."""
     start = f"{head}{'' if head.endswith('*') else ' '}{name}("
     signature = f"{start}{', '.join(parameters) or 'void'})"
@@ -43,11 +47,11 @@ def function(head: str, name: str, parameters: Sequence[str], *statements: str) 
     if len(signature) > WIDTH:
         signature = "\n".join((start, *filled(parameters, ", ", "    ", ")")))
     elif len(signature) + 1 + len(body) <= WIDTH:
-        return Function(name, f"{signature} {body}")
+        return Function(name, f"{signature} {body}", floating)
     if len(statements) == 1 and len(body) <= WIDTH:
-        return Function(name, f"{signature}\n{body}")
+        return Function(name, f"{signature}\n{body}", floating)
     lines = [line for statement in statements for line in wrapped(statement, "    ")]
-    return Function(name, "\n".join((signature, "{", *lines, "}")))
+    return Function(name, "\n".join((signature, "{", *lines, "}")), floating)
 
 
 def called(name: str, *arguments: str) -> str:

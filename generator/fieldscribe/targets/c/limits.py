@@ -54,11 +54,7 @@ def _checked(point: Point, fields: PointFields, low: int, high: int) -> str:
 def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     intervals = point.allowed.intervals
     if point.allowed.moves:
-        parts = [_between(interval, point, scope) for interval in intervals]
-        status = parts[-1]
-        for part in reversed(parts[:-1]):
-            status = f"fieldscribe_either({part}, {status})"
-        return status
+        return either([_between(interval, point, scope) for interval in intervals])
     if len(intervals) == 1:
         low, high = point.allowed.fixed[0]
         least, greatest = _bounds_without_codes(point)
@@ -70,6 +66,12 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     bounds = point.held
     test = any_of([interval_test("raw", *ends, bounds, literal) for ends in point.allowed.fixed])
     return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
+
+
+def either(statuses: list[str]) -> str:
+    """Return the status of a number that may satisfy any of several tests."""
+    first, *others = statuses
+    return f"fieldscribe_either({first}, {either(others)})" if others else first
 
 
 def has_ranges_table(point: Point) -> bool:
@@ -232,16 +234,8 @@ def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) ->
 
 def _codes(rule: Rule, scope: HeaderScope) -> str:
     """Return a test that the point of some factor holds a special code; empty if none can."""
-    tests = [_is_code(name, *band, scope) for name, band in rule.coded]
+    tests = [interval_test(scope.raw(name), *band, scope.points[name].held, bare) for name, band in rule.coded]
     return f"({' || '.join(f'({test})' if ' && ' in test else test for test in tests)})" if tests else ""
-
-
-def _is_code(point: str, low: int, high: int, scope: HeaderScope) -> str:
-    (least, greatest), raw = scope.points[point].held, scope.raw(point)
-    if low == high:
-        return f"({raw} == {bare(low)})"
-    tests = [f"({raw} >= {bare(low)})"] if low > least else []
-    return " && ".join(tests + ([f"({raw} <= {bare(high)})"] if high < greatest else []))
 
 
 def _fits(rule: Rule) -> bool:

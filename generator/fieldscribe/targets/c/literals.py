@@ -16,31 +16,24 @@ if TYPE_CHECKING:
 VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
 """The bounds of the types in which values and counts are passed."""
 
-_RAW_TYPES = {
-    "bit": "bool",
-    **{f"u{bits}": f"uint{bits}_t" for bits in (8, 16, 32, 64)},
-    **{f"s{bits}": f"int{bits}_t" for bits in (8, 16, 32, 64)},
-    "f32": "uint32_t",
-    "f64": "uint64_t",
-    "text": "uint16_t",
-}
-
-_WIDTHS = (8, 16, 32, 64)
-_KINDS = {
-    "bool": "bool",
-    **{f"uint{bits}_t": f"u{bits}" for bits in _WIDTHS},
-    **{f"int{bits}_t": f"s{bits}" for bits in _WIDTHS},
-}
+_PATTERNS = {"f32": "u32", "f64": "u64", "text": "u16"}
+"""The types that hold floating-point patterns, and one word of a text."""
 
 
-def raw_type(point: Point) -> str:
-    """Return the C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
-    return _RAW_TYPES[point.type]
+def wire_kind(point: Point) -> str:
+    """Return the type of a point's raw number (of a text: of one word), as the runtime names layouts: `u16`, `bit`."""
+    return _PATTERNS.get(point.type, point.type)
 
 
 def raw_kind(point: Point) -> str:
-    """Return the type of a point's raw number, as in the names of the runtime's cores: `u16`."""
-    return _KINDS[_RAW_TYPES[point.type]]
+    """Return the type of a point's raw number, as in the names of the runtime's cores: `u16`, `bool`."""
+    return "bool" if point.type == "bit" else wire_kind(point)
+
+
+def raw_type(point: Point) -> str:
+    """Return the C type of a point's raw number (of a text: of one word)."""
+    kind = raw_kind(point)
+    return kind if kind == "bool" else f"{'int' if kind[0] == 's' else 'uint'}{kind[1:]}_t"
 
 
 def cast(kind: str, number: str) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 from zlib import crc32
 
-from fieldscribe.lowered import lower
+from fieldscribe.lowered import lower, named_numbers
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
 
@@ -26,15 +26,14 @@ _LONGEST = 80
 class HeaderScope:
     """The state while the header of a device is built.
 
-    `errata` are the ids of errata that change a fact, `digits` the names of enums of decimal digits, `spaces` the space
-    of each group whose points all have the same. `shared` are the names of what several points share, each with the
+    `digits` are the names of enums of decimal digits, `spaces` the space of each group whose points all have the same.
+    `shared` are the names of what several points share, each with the
     first of them. `spelling` is how the function being written spells the raw number of another point.
     """
 
     prefix: str
     upper: str
     lowered: Lowered
-    errata: frozenset[str]
     digits: frozenset[str]
     spaces: Mapping[str, str | None]
     spelling: str = "{}_raw"
@@ -52,6 +51,12 @@ class HeaderScope:
     def is_first(self, point: str, name: str) -> bool:
         """Return True if that point is the first that needs something shared: its text then holds it."""
         return self.shared.setdefault(name, point) == point
+
+    def brings(self, point: Point) -> tuple[bool, bool]:
+        """Return whether a point is the first with the names of its numbers, and with its shared codes."""
+        item, enum, codes = point.item, named_numbers(point.shape), point.shape.shared_codes
+        names = enum is not None and self.is_first(item, f"names of {enum.name}")
+        return names, bool(codes) and self.is_first(item, f"codes of {codes}")
 
     def struct(self, names: Iterable[str]) -> str:
         """Return the struct for the raw numbers of several points, named after them in alphabetical order."""
@@ -84,8 +89,7 @@ def scope_of(device: Device) -> HeaderScope:
     """Return a fresh scope for a device."""
     shapes = {id(point.shape): point.shape for point in device.points}.values()
     digits = frozenset(shape.digits.enum.name for shape in shapes if shape.digits is not None)
-    known = frozenset(erratum.id for erratum in device.errata if erratum.facts)
-    return HeaderScope(device.id, upper(device.id), lower(device), known, digits, _spaces(device))
+    return HeaderScope(device.id, upper(device.id), lower(device), digits, _spaces(device))
 
 
 def _spaces(device: Device) -> dict[str, str | None]:

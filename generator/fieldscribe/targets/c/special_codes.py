@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.names import upper
-from fieldscribe.targets.c.layout import Function, function
+from fieldscribe.targets.c.layout import INLINE, function
 from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import CodesView, SpecialView
@@ -98,7 +98,7 @@ def _codes(point: Point, name: str, scope: HeaderScope) -> CodesView:
     )
 
 
-def _functions(point: Point, name: str) -> Iterator[Function]:
+def _functions(point: Point, name: str) -> Iterator[str]:
     raw = (f"{raw_type(point)} raw",)
     is_special = _test(point, point.specials)
     no_value = _test(point, (special for special in point.specials if special.no_value))
@@ -106,9 +106,9 @@ def _functions(point: Point, name: str) -> Iterator[Function]:
         f"{bracketed(_test(point, (special,)))} ? {c_string(special.name)} : " for special in point.specials
     )
     is_no_value = (f"return {no_value};",) if no_value else ("(void)raw;", "return false;")
-    yield function("static inline bool", f"{name}_is_special", raw, f"return {is_special};")
-    yield function("static inline bool", f"{name}_is_no_value", raw, *is_no_value)
-    yield function("static inline const char *", f"{name}_special_name", raw, f"return {names}NULL;")
+    yield function(f"{INLINE} bool", f"{name}_is_special", raw, f"return {is_special};").text
+    yield function(f"{INLINE} bool", f"{name}_is_no_value", raw, *is_no_value).text
+    yield function(f"{INLINE} const char *", f"{name}_special_name", raw, f"return {names}NULL;").text
 
 
 def _literal(raw: int, special: Special, point: Point) -> str:

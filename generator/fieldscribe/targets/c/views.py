@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Version
-    from fieldscribe.targets.c.layout import Function
+    from fieldscribe.model import Point, Version
     from fieldscribe.targets.c.scales import Scaled
 
 Define = tuple[str, str]
@@ -59,23 +58,13 @@ class EnumView:
 
 
 @dataclass(frozen=True, slots=True)
-class TableView:
-    """A constant array: its type, name, length (empty where the rows say it), and rows."""
-
-    type: str
-    name: str
-    length: str
-    rows: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class CodesView:
     """A set of special codes: its functions, and its macros if several points share it."""
 
     comment: str
     defines: tuple[Define, ...]
     name: str
-    functions: tuple[Function, ...]
+    functions: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,42 +90,41 @@ class RuleView:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class PointView:
-    """A generated point; in a template, its fields are placeholders.
+    """A generated point; or the first of several with one text, whose fields are then placeholders.
 
-    `struct` holds the raw numbers of other points, if functions need several; `members` are its members if no earlier
-    point has it. `scale` are the expressions of a scale that is known at compile time. `splits` says that functions
-    split the raw number into words and join them.
+    `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
+    need several; `members` are its members if no earlier point has it. `shape` is the form of the functions: `plain`,
+    `scaled`, `ruled`, `float`, `text` or `digits`. `scale` has the expressions of a scale without run-time factors.
     """
 
+    point: Point
     fields: PointFields
     function: str
     macro: str
     defines: tuple[Define, ...]
     enum: EnumView | None
-    tables: tuple[TableView, ...]
+    tables: tuple[tuple[str, tuple[str, ...]], ...]
     struct: str
     members: tuple[tuple[str, str], ...]
     rule: RuleView | None
     shape: str
     raw_type: str
-    counts: bool
-    encodes: bool
-    readable: bool
-    writable: bool
     special: SpecialView | None
     scale: Scaled | None
-    scale_arguments: tuple[str, ...]
-    limit_arguments: tuple[str, ...]
-    splits: bool
-    bits: bool
-    flags: tuple[str, ...]
 
     @property
-    def takes_others(self) -> bool:
-        """True if functions take raw numbers of other points."""
-        return bool(self.scale_arguments or self.limit_arguments)
+    def is_counted(self) -> bool:
+        """True if functions convert counts beside values."""
+        return self.shape in ("scaled", "ruled") and self.point.decimals is not None
+
+    @property
+    def computes_in_double(self) -> bool:
+        """True if the value is a double even where values are float by choice."""
+        if self.scale is not None:
+            return self.scale.wide
+        return self.shape == "ruled" or (self.shape == "float" and self.raw_type == "uint64_t")
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,8 +159,6 @@ class HeaderView:
 
     head: tuple[str, ...]
     title: str
-    file: str
-    guard: str
     prefix: str
     upper: str
     version: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.targets.c.layout import Function, function
+from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.special_codes import codes_first
 
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import SpecialView
-
-STATUS = "FIELDSCRIBE_STATUS"
 
 
 def text_functions(point: Point, name: str) -> Iterator[Function]:
@@ -30,7 +28,7 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
     if point.readable:
         body = f"return fieldscribe_text_of_words(words, {point.words}U, text);"
         parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
-        yield function("static inline size_t", f"{name}_decode", parameters, body)
+        yield function(f"{INLINE} size_t", f"{name}_decode", parameters, body)
 
 
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
@@ -52,7 +50,7 @@ def digits_functions(point: Point, name: str, special: SpecialView | None, scope
         yield function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store)
     if point.readable and special is None:
         body = f"fieldscribe_digits_of(raw, digits, {count}U);"
-        yield function("static inline void", f"{name}_decode", ("uint16_t raw", digits), body)
+        yield function(f"{INLINE} void", f"{name}_decode", ("uint16_t raw", digits), body)
     elif point.readable and special is not None:
         body = f"return fieldscribe_quantity_digits({special.test}(raw), raw, digits, {count}U);"
         yield function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body)
@@ -79,8 +77,8 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         joined = f"fieldscribe_join{info.bits}({', '.join(f'words[{place}]' for place in places)})"
         joined = f"fieldscribe_signed{info.bits}({joined})" if info.signed else joined
     words = f"uint16_t words[{point.words}]"
-    yield function("static inline void", f"{name}_to_words", (f"{kind} raw", words), split)
-    yield function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
+    yield function(f"{INLINE} void", f"{name}_to_words", (f"{kind} raw", words), split)
+    yield function(f"{INLINE} {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
 
 
 def places_of(point: Point) -> list[int]:
@@ -105,16 +103,16 @@ def bits_functions(point: Point, name: str) -> Iterator[Function]:
     number = "raw ? 1U : 0U" if kind == "bool" else "(uint16_t)raw" if point.info.signed else "raw"
     insert = f"fieldscribe_insert(word, {place}, {number})"
     if point.fixed is not None:
-        insert = f"fieldscribe_fix({insert}, {_constant_bits(point)})"
-    yield function(f"static inline {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};")
+        insert = f"fieldscribe_fix({insert}, {constant_bits(point)})"
+    yield function(f"{INLINE} {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};")
     parameters = ("uint16_t word", f"{kind} raw")
-    yield function("static inline uint16_t", f"{name}_insert", parameters, f"return {insert};")
+    yield function(f"{INLINE} uint16_t", f"{name}_insert", parameters, f"return {insert};")
 
 
-def _constant_bits(point: Point) -> str:
-    """Return the mask of the constant bits, and their values."""
-    assert point.fixed is not None
-    return f"{hexadecimal(point.fixed.mask)}, {hexadecimal(point.fixed.bits)}"
+def constant_bits(point: Point) -> str:
+    """Return the mask of the constant bits, and their values: zeros if there are none."""
+    mask, bits = (0, 0) if point.fixed is None else (point.fixed.mask, point.fixed.bits)
+    return f"{hexadecimal(mask)}, {hexadecimal(bits)}"
 
 
 def fixes(point: Point) -> bool:
@@ -122,11 +120,11 @@ def fixes(point: Point) -> bool:
     return point.fixed is not None and point.bits is None
 
 
-def fixed_number(point: Point, _macro: str, _scope: HeaderScope, name: str) -> str:
+def fixed_number(point: Point, name: str) -> str:
     """Return an expression for the number `name` with the constant bits of the word set, in the point's raw type."""
     info = point.info
     width = max(16, info.bits)
-    fixed = f"fieldscribe_fix{width if width > 16 else ''}((uint{width}_t){name}, {_constant_bits(point)})"
+    fixed = f"fieldscribe_fix{width if width > 16 else ''}((uint{width}_t){name}, {constant_bits(point)})"
     if not info.signed:
         return fixed if info.bits > 8 else f"({fixed} != 0U)" if info.bits == 1 else f"({raw_type(point)}){fixed}"
     if info.bits > 16:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import request_and_answer
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, kind_of, lies, shares
-from fieldscribe.targets.c.literals import hexadecimal
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, lies, shares
+from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -187,7 +187,7 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, arrays: Sequence
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
     ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
     name = f"{view.function}_frame"
-    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{kind_of(point)}, {view.raw_type}")
+    what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{wire_kind(point)}, {view.raw_type}")
     cases = []
     if read and read_answer:
         cases.append(f"READ{'_TEXT' if text else ''}({what})")
@@ -203,7 +203,7 @@ def _cyclic(point: Point, view: PointView, layouts: Layouts) -> Frame:
         parts, case = [f"{{{view.function}_addresses, {point.words}U}}"], f"RECEIVED_TEXT({name}, {view.macro})"
     else:
         parts = [layouts.of(point, range(point.words)), f"{{{view.fields.start}, {view.fields.end}}}"]
-        case = f"RECEIVED({name}, {kind_of(point)}, {view.raw_type})"
+        case = f"RECEIVED({name}, {wire_kind(point)}, {view.raw_type})"
     return _frame(point, view, "h", parts, [case])
 
 

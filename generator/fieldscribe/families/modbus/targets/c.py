@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import SPACES, profile_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, kind_of, lies, shares
-from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, lies, shares
+from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -146,7 +146,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
 def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
     """Yield the macros by which the conformance program runs the exchanges of a point."""
     name, text = f"{view.function}_frame", point.text is not None
-    what = f"{name}, {point.words}U" if text else f"{name}, {kind_of(point)}, {view.raw_type}"
+    what = f"{name}, {point.words}U" if text else f"{name}, {wire_kind(point)}, {view.raw_type}"
     if not text:
         yield f"LIES({name}, {lies(point)})"
     for letter, way in (("r", "READ"), ("w", "WRITE"), ("u", "UPDATE")):
