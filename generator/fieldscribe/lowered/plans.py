@@ -9,7 +9,7 @@ from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Linear, Point
+    from fieldscribe.model import Linear, Shape
 
 EXACT_FLOAT = 1 << 24
 """Every integer up to this one is a binary32 number."""
@@ -18,87 +18,68 @@ EXACT_FLOAT = 1 << 24
 class Plan(NamedTuple):
     """The integers of a scale: `to_raw` leads from counts to raw numbers, `to_count` and `to_value` back.
 
-    `direct` says that each raw number is its count. `raws` are the raw numbers of the type. `counts` are the counts
-    whose raw numbers lie in the outer limits, `numerator` is the largest integer on the way from a raw number to its
-    value. `beyond` are the raw numbers whose counts fit, None for all. Each `_wide` says that 32 bits are not enough.
-    `fits_float` says that binary32 holds every integer on the way to and from values.
-    """
-
-    rule: Linear
-    to_raw: Line
-    to_count: Line
-    to_value: Line
-    direct: bool
-    raws: tuple[int, int]
-    count_wide: bool
-    encode_wide: bool
-    decode_wide: bool
-    numerator: int
-    counts: tuple[int, int]
-    beyond: tuple[int, int] | None
-    fits_float: bool
-
-
-def plan_of(point: Point, low: int, high: int) -> Plan:
-    """Return the plan of a scale without run-time factors; `low` and `high` are the outer raw limits."""
-    rule = point.shape.fixed_scale
-    assert rule is not None
-    return _plan(rule, point.decimals or 0, point.held, low, high)
-
-
-class _Unlimited(NamedTuple):
-    """The parts of a plan that do not depend on the limits."""
-
-    to_raw: Line
-    to_count: Line
-    to_value: Line
-    direct: bool
-    count_wide: bool
-    decode_wide: bool
-    numerator: int
-    beyond: tuple[int, int] | None
-    fits_float: bool
-
-
-def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
-    """Prove the widths: compute the integers that occur for the extreme arguments.
+    `raws` are the raw numbers of the type. `numerator` is the largest integer on the way from a raw number to its
+    value. `beyond` are the raw numbers whose counts fit 64 bits, None for all. Each `_wide` says that 32 bits are not
+    enough. `fits_float` says that binary32 holds every integer on the way to and from values.
 
     Every step is linear in its argument, so each intermediate is largest at one end of the arguments. Code divides with
     rounding, for which it adds up to half the divisor to the size of the numerator: each proof leaves room for all of
-    the divisor. Encoding is only ever asked for `counts`, for a count outside is refused before anything is computed;
-    decoding for any raw number that the type holds.
+    the divisor. Decoding is asked for any raw number that the type holds.
     """
-    fixed = _unlimited(rule, decimals, raws)
-    to_raw = fixed.to_raw
-    counts = _usable(to_raw, _counts(to_raw, low, high), INT64 if fixed.count_wide else INT32)
-    encode_wide = to_raw.largest(*counts) + to_raw.divisor > INT32[1]
-    return Plan(rule=rule, raws=raws, counts=counts, encode_wide=encode_wide, **fixed._asdict())
+
+    rule: Linear
+    raws: tuple[int, int]
+    to_raw: Line
+    to_count: Line
+    to_value: Line
+    count_wide: bool
+    decode_wide: bool
+    numerator: int
+    beyond: tuple[int, int] | None
+    fits_float: bool
+
+    @property
+    def direct(self) -> bool:
+        """True if each raw number is its count."""
+        return self.to_raw.does_nothing
+
+    def counts(self, low: int, high: int) -> tuple[int, int]:
+        """Return the counts whose raw numbers lie in low..high, as far as they can be computed.
+
+        They fit their type, and their numerators fit 64 bits; only special codes lie beyond.
+        """
+        least, greatest = INT64 if self.count_wide else INT32
+        most = (INT64[1] - abs(self.to_raw.add)) // abs(self.to_raw.factor)
+        first, last = _counts(self.to_raw, low, high)
+        return max(first, least, -most), min(last, greatest, most)
+
+    def encode_wide(self, counts: tuple[int, int]) -> bool:
+        """Return True if encoding these counts needs 64 bits; all others are refused before anything is computed."""
+        return self.to_raw.largest(*counts) + self.to_raw.divisor > INT32[1]
 
 
-@lru_cache(maxsize=4096)
-def _unlimited(rule: Linear, decimals: int, raws: tuple[int, int]) -> _Unlimited:
-    to_raw, to_value = count_line(rule, decimals), value_line(rule)
+@lru_cache(maxsize=1024)
+def plan_of(shape: Shape) -> Plan:
+    """Return the plan of a scale without run-time factors."""
+    rule, raws = shape.fixed_scale, shape.held
+    assert rule is not None
+    to_raw, to_value = count_line(rule, shape.decimals or 0), value_line(rule)
     to_count = to_raw.inverse
     ends = [nearest(raw * to_count.factor + to_count.add, to_count.divisor) for raw in raws]
     numerator = to_value.largest(*raws)
     largest = max(abs(rule.ratio.numerator), rule.ratio.denominator, to_value.divisor, numerator)
-    return _Unlimited(
+    return Plan(
+        rule,
+        raws,
         to_raw,
         to_count,
         to_value,
-        to_raw.does_nothing,
         count_wide=not (INT32[0] <= min(ends) and max(ends) <= INT32[1]),
         decode_wide=to_count.largest(*raws) + to_count.divisor > INT32[1],
         numerator=numerator,
         beyond=_countable(to_raw, raws),
         fits_float=largest <= EXACT_FLOAT,
     )
-
-
-def _usable(to_raw: Line, counts: tuple[int, int], limits: tuple[int, int]) -> tuple[int, int]:
-    """Return the counts that fit their type and whose numerators fit 64 bits; only special codes lie beyond."""
-    most = (INT64[1] - abs(to_raw.add)) // abs(to_raw.factor)
-    return max(counts[0], limits[0], -most), min(counts[1], limits[1], most)
 
 
 def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:

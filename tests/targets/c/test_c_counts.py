@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.targets.c.scales import Numbers, _met, reciprocal
+from fieldscribe.targets.c.scales import Numbers, reciprocal
 from support.c_device import SANITIZERS, WARNINGS, program, write_headers
 from support.models import device_of, point, scaled
 from support.toolchains import compiled
@@ -109,15 +109,3 @@ def test_what_is_not_exact_is_not_taken() -> None:
     """Careful hand-written code takes v * 12583 / 2^21 + v / 4 for v * 32 / 125, which 522 counts are too many for."""
     assert reciprocal(Numbers(-128001, 127998, 32, 125), INT32) == (131, 4719, 16, 9)
     assert reciprocal(Numbers(0, 1 << 30, 1, 3), INT32) is None
-
-
-@pytest.mark.parametrize("ratio", [(125, 32), (32, 125), (1, 3), (3, 1000), (1000, 7)])
-def test_a_reciprocal_does_not_depend_on_those_before(ratio: tuple[int, int]) -> None:
-    spans = [(0, 900), (-40, 70000), (0, 65535), (5, 17920), (-32768, 32767), (0, 901), (-1, 1 << 30)]
-    for low, high in (*spans, *reversed(spans)):
-        numbers = Numbers(low, high, *ratio)
-        among_others = reciprocal(numbers, INT32)
-        _met.cache_clear()
-        assert reciprocal(numbers, INT32) == among_others
-        for earlier_low, earlier_high in spans:
-            reciprocal(Numbers(earlier_low, earlier_high, *ratio), INT32)

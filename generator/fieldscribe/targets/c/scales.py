@@ -29,11 +29,12 @@ class Scaled:
     """
 
     def __init__(self, point: Point, low: int, high: int) -> None:
-        self._point, self._plan = point, plan_of(point, low, high)
-        self.count_type = "int64_t" if self._plan.count_wide else "int32_t"
-        self.counts, self.direct, self.wide = self._plan.counts, self._plan.direct, not self._plan.fits_float
-        open_ended = self.counts == (INT64 if self._plan.count_wide else INT32)
-        self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if self._plan.count_wide else ''}"
+        plan = plan_of(point.shape)
+        self._point, self._plan, self.counts = point, plan, plan.counts(low, high)
+        self.direct, self.wide = plan.direct, not plan.fits_float
+        self.count_type = "int64_t" if plan.count_wide else "int32_t"
+        open_ended = self.counts == (INT64 if plan.count_wide else INT32)
+        self.inside = "" if open_ended else f"fieldscribe_within{'_wide' if plan.count_wide else ''}"
 
     @cached_property
     def count_fits(self) -> str:
@@ -48,7 +49,7 @@ class Scaled:
     @cached_property
     def raw_of_count(self) -> str:
         """The raw number of a `count` that is inside."""
-        return cast(raw_type(self._point), _raw_of_count(self._plan))
+        return cast(raw_type(self._point), _raw_of_count(self._plan, self.counts))
 
     @property
     def count_of_raw(self) -> str:
@@ -109,20 +110,21 @@ def linear(name: str, factor: int, add: int, cast: str) -> str:
     return f"{start} {'-' if add < 0 else '+'} {abs(add)}"
 
 
-def _raw_of_count(plan: Plan) -> str:
-    """Return the raw number of a count that lies in the limits."""
+def _raw_of_count(plan: Plan, counts: tuple[int, int]) -> str:
+    """Return the raw number of a `count` that is one of these."""
     factor, add, divisor = plan.to_raw
-    wider = "int64_t" if plan.encode_wide and not plan.count_wide else ""
+    encode_wide = plan.encode_wide(counts)
+    wider = "int64_t" if encode_wide and not plan.count_wide else ""
     line = linear("count", factor, add, wider)
     if divisor == 1:
         return line
     if add == 0:
-        numbers = Numbers(*plan.counts, factor, divisor)
+        numbers = Numbers(*counts, factor, divisor)
         narrow, wide = ("(int32_t)count", "count") if plan.count_wide else ("count", "(int64_t)count")
         quotient = _quotient(narrow, numbers, wide=False) or _quotient(wide, numbers, wide=True)
     else:
-        numbers = _numerators(plan.counts, plan.to_raw)
-        quotient = "" if plan.encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
+        numbers = _numerators(counts, plan.to_raw)
+        quotient = "" if encode_wide or plan.count_wide else _quotient(line, numbers, wide=False)
         quotient = quotient or _quotient(line, numbers, wide=True)
     return quotient or f"fieldscribe_divide({line}, {divisor})"
 
@@ -190,33 +192,9 @@ class Numbers(NamedTuple):
         return max(abs(self.low), abs(self.high), 1)
 
 
-def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
-    """Return the exact reciprocal with the fewest bits; None if intermediate results would exceed `most`.
-
-    A reciprocal that fails for some numbers fails for more: the first one found for fewer numbers is tried first.
-    """
-    met = _met(numbers.num, numbers.den, most)
-    for factors, fewer in met.items():
-        if numbers.low <= fewer.low and fewer.high <= numbers.high and (not factors or _serves(factors, numbers, most)):
-            return factors
-    first = _fewest(numbers, most)
-    met[first] = numbers
-    return first
-
-
 @lru_cache(maxsize=4096)
-def _met(_num: int, _den: int, _most: int) -> dict[Reciprocal | None, Numbers]:
-    """Return the reciprocals of a ratio that were found, with the numbers for which they were."""
-    return {}
-
-
-def _serves(factors: Reciprocal, numbers: Numbers, most: int) -> bool:
-    """Return True if a reciprocal is exact for all numbers, and no intermediate exceeds `most`."""
-    whole = numbers.size * (factors.much + 1) + (1 << factors.bits) <= most
-    return whole and numbers.size * factors.little <= most and _is_exact(factors, numbers)
-
-
-def _fewest(numbers: Numbers, most: int) -> Reciprocal | None:
+def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
+    """Return the exact reciprocal with the fewest bits; None if intermediate results would exceed `most`."""
     for bits in range(1, most.bit_length()):
         much = (numbers.num << bits) // numbers.den
         if numbers.size * (much + 1) + (1 << bits) > most:
