@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.conditions import absent
-from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders
+from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
@@ -87,7 +87,7 @@ class Attributes:
         self._scope = scope
         self._render = render
         self._keys = scope.lowered.template_keys
-        self._templates: dict[tuple[int, tuple[int, ...]], TextTemplate] = {}
+        self._texts = TextTemplates()
         self._limits: dict[tuple[int, int], LimitTexts] = {}
         self._remarks: dict[int, tuple[str, list[str]]] = {}
 
@@ -101,28 +101,24 @@ class Attributes:
         if len(fields) > MOST_FIELDS:
             return self.text(self._view(point, _named(fields, point)))
         whole = key, tuple(map(len, fields[_FREE:]))
-        template = self._templates.get(whole)
-        if template is None:
-            view = self._view(point, _named(placeholders(fields), point))
-            template = self._templates[whole] = TextTemplate(self.text(view))
-        return template.fill(fields)
+        return self._texts.fill(
+            whole, fields, lambda: self.text(self._view(point, _named(placeholders(fields), point)))
+        )
 
     def by_variant(self, points: Mapping[Variant, Point]) -> str:
         """Return the attribute of points that have one name in different variants."""
-        self._scope.used.add("ByVariant")
         variant, first = next(iter(points.items()))
         chosen = [f"{python_string(variant.value)}: {attribute(point.item)}" for variant, point in points.items()]
         arguments = (python_string(variant.axis), laid_out(Group("{", tuple(chosen), "}"), BODY))
-        doc = wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it."))
+        doc = docstring(wrapped(python_doc(f"{first.title['en']}, as the device's {variant.axis} has it.")))
         old_names = tuple(dict.fromkeys(name for point in points.values() for name in point.was))
-        return self.text(
-            AttributeView(attribute(first.name), "ByVariant", arguments, "\n".join(docstring(doc)), old_names)
-        )
+        maker = self._scope.runtime("ByVariant")
+        return self.text(AttributeView(attribute(first.name), maker, arguments, doc, old_names))
 
     def text(self, view: AttributeView) -> str:
         """Return the text of an attribute."""
         if view.old_names:
-            self._scope.used.add("renamed")
+            self._scope.runtime("renamed")
         return self._render("python/attribute.py.j2", {"attribute": view})
 
     def _fields(self, point: Point, key: int, limits: LimitTexts) -> tuple[str, ...]:
@@ -147,8 +143,7 @@ class Attributes:
         )
 
     def _view(self, point: Point, fields: AttributeFields) -> AttributeView:
-        maker = self._family.maker(point)
-        self._scope.used.add(maker)
+        maker = self._scope.runtime(self._family.maker(point))
         old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
         arguments = tuple([laid_out(argument, BODY) for argument in _arguments(point, fields, self._scope)])
         return AttributeView(fields.name, maker, arguments, fields.docstring, old_names)
@@ -175,7 +170,7 @@ def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:
     """Return the lines of a docstring: title, limits, remarks, and the errata that change facts."""
     text = f"{title}: {limits}" if limits else title
     lines = wrapped(python_doc(f"{text}{'' if text.endswith('.') else '.'}{remarks}"))
-    return "\n".join(docstring(lines + errata))
+    return docstring(lines + errata)
 
 
 def _remarks(point: Point, scope: PackageScope) -> str:
@@ -190,7 +185,7 @@ def _remarks(point: Point, scope: PackageScope) -> str:
 
 
 def _errata(point: Point, scope: PackageScope) -> list[str]:
-    changing = [erratum for erratum in point.errata if erratum in scope.errata]
+    changing = scope.lowered.errata_of(point)
     return ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
 
 
@@ -242,10 +237,12 @@ def _existence(point: Point, scope: PackageScope) -> Iterator[Node]:
     if point.variant is not None:
         yield Group("variant=(", (python_string(point.variant.axis), python_string(point.variant.value)))
         yield f"name={python_string(point.name)}"
+    others = set() if point.when is None else {*point.when.names}
     if choice := _only_for(point, scope.variants):
         yield Group("only_for=(", (python_string(choice[0]), Group("(", tuple(map(python_string, choice[1])))))
-    if _is_uncertain(point, scope.variants):
-        yield "uncertain=True"
+        others.remove(choice[0])
+    if others or point.since is not None or point.until is not None:
+        yield "uncertain=True"  # another axis, a point or the firmware decides too
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
@@ -256,10 +253,3 @@ def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[st
         if left != values:
             return axis, left
     return None
-
-
-def _is_uncertain(point: Point, variants: Mapping[str, tuple[str, ...]]) -> bool:
-    """Return True if the point's existence depends on more than one axis, on points or on the firmware."""
-    narrowed = _only_for(point, variants)
-    others = set() if point.when is None else {*point.when.names} - ({narrowed[0]} if narrowed else set())
-    return bool(others) or point.since is not None or point.until is not None

@@ -2,50 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
 from fieldscribe.targets.python.families import RUNTIME, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
+from fieldscribe.targets.python.identifiers import attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
-
-
-@dataclass(frozen=True, slots=True)
-class Axis:
-    """One variant axis: its key, the constructor's parameter, the type of its values, and their literals."""
-
-    key: str
-    parameter: str
-    type: str
-    values: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class DeviceClass:
-    """A device class: its name, its base class in the runtime, its transport, and an example of its use."""
-
-    name: str
-    base: str
-    transport: str
-    example: str
-    uses: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class DeviceModule:
-    """The device module: the lines of its imports, its classes, their variants, and further settings of the bus."""
-
-    module: str
-    imports: tuple[str, ...]
-    classes: tuple[DeviceClass, ...]
-    axes: tuple[Axis, ...]
-    settings: tuple[tuple[str, str], ...]
+    from fieldscribe.targets.python.identifiers import Identifiers
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
@@ -98,19 +66,40 @@ def _is_quantity(point: Point) -> bool:
     return point.form in ("scaled", "float") and not point.specials
 
 
-def device_view(device: Device, names: Identifiers) -> DeviceModule:
-    """Return the classes of the device."""
+def device_context(device: Device, names: Identifiers) -> dict[str, object]:
+    """Return the context of the device module: its classes with examples of their use, and the variants' axes."""
     family = in_python(device)
-    axes = tuple(
-        Axis(python_string(axis), parameter(axis), f"{pascal(axis)}Choice", tuple(map(python_string, values)))
-        for axis, values in device.variants.items()
-    )
-    blocking, awaiting = family.blocking, family.awaiting
-    classes = tuple(
-        DeviceClass(name, flavour.device, flavour.transport, f"{wait}drive.point.read()", uses(device, name, wait))
-        for name, flavour, wait in ((names.device_class, blocking, ""), (names.async_class, awaiting, "await "))
-    )
-    used = {blocking.device, awaiting.device}
-    if axes:  # only then does the class have a constructor of its own
-        used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
-    return DeviceModule(family.module, imported(family.module, sorted_imports(used)), classes, axes, family.settings)
+    classes = ((names.device_class, "", ""), (names.async_class, "Async", "await "))
+    return {
+        "module": family.module,
+        "imports": imports_of(device),
+        "settings": family.settings,
+        "axes": [
+            {
+                "key": python_string(axis),
+                "parameter": parameter(axis),
+                "type": f"{pascal(axis)}Choice",
+                "choices": [python_string(value) for value in values],
+            }
+            for axis, values in device.variants.items()
+        ],
+        "classes": [
+            {
+                "name": name,
+                "base": kind + family.device,
+                "transport": kind + family.transport,
+                "example": f"{wait}drive.point.read()",
+                "uses": uses(device, name, wait),
+            }
+            for name, kind, wait in classes
+        ],
+    }
+
+
+def imports_of(device: Device) -> tuple[str, ...]:
+    """Return the lines that import the base classes; and what the constructor names, which only variants need."""
+    family = in_python(device)
+    used = {family.device, f"Async{family.device}"}
+    if device.variants:
+        used |= {family.transport, f"Async{family.transport}", *(kind for _, kind in family.settings)}
+    return imported(family.module, sorted_imports(used))

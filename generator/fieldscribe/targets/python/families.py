@@ -21,12 +21,9 @@ RUNTIME = "fieldscribe_runtime"
 _MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
 
 
-@dataclass(frozen=True, slots=True)
-class Flavour:
-    """A device class of the runtime, and its transport."""
-
-    device: str
-    transport: str
+def usual_maker(point: Point) -> str:
+    """Return the function for the attribute of a point; only its access decides."""
+    return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,20 +50,21 @@ class Line:
 class PythonFamily:
     """What generated modules import for a family, and the facts about the bus of a device.
 
-    `module` of the runtime has the names in `exports` and the classes of `flavours`. `settings` are further parameters
-    of a device's constructor (name, class). `maker` gives the function that makes a point's attribute, `line` the
-    transport that most people have.
+    `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
+    before their names. `line` gives the transport that most people have, `maker` the function that makes a point's
+    attribute. `settings` are further parameters of a device's constructor (name, class). `blocks` plans reads of
+    groups.
     """
 
     module: str
     exports: frozenset[str]
-    blocking: Flavour
-    awaiting: Flavour
-    settings: tuple[tuple[str, str], ...]
+    device: str
+    transport: str
     profile: Callable[[Device, PackageScope], Node]
-    blocks: Callable[[Device, PackageScope], Node | None]
-    maker: Callable[[Point], str]
     line: Callable[[Device], Line]
+    maker: Callable[[Point], str] = usual_maker
+    blocks: Callable[[Device, PackageScope], Node | None] = lambda _device, _scope: None
+    settings: tuple[tuple[str, str], ...] = ()
 
 
 def in_python(device: Device) -> PythonFamily:
@@ -75,26 +73,11 @@ def in_python(device: Device) -> PythonFamily:
     return part
 
 
-def usual_maker(point: Point) -> str:
-    """Return the function for the attribute of a point; only its access decides."""
-    return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
-
-
-def no_blocks(device: Device, scope: PackageScope) -> None:
-    """For families that plan no reads of blocks."""
-    del device, scope
-
-
 def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
     """Return the telegrams of a device."""
     nodes = []
     for telegram in named_telegrams:
-        scope.used.add("Telegram")
         message = () if telegram.message is None else (python_string(telegram.message),)
-        nodes.append(
-            call(
-                "Telegram",
-                (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message),
-            )
-        )
+        facts = (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message)
+        nodes.append(call(scope.runtime("Telegram"), facts))
     return tuple(nodes)

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from fieldscribe.lowered import named_numbers
 from fieldscribe.names import pascal
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.lowered import Lowered
     from fieldscribe.model import Command, Device, Point, Shape
@@ -115,7 +116,7 @@ class Identifiers:
 
     def numbers_class(self, shape: Shape) -> str:
         """Return the class that names the numbers of a shape, or each of its digits; empty if nothing does."""
-        enum = shape.digits.enum if shape.digits is not None else shape.enum
+        enum = named_numbers(shape)
         return "" if enum is None else self._enums[enum.name]
 
     def word_class(self, point: Point) -> str:
@@ -163,14 +164,15 @@ class Identifiers:
 
 @dataclass(frozen=True, slots=True)
 class PackageScope:
-    """Final names, points by name, variants and the errata that change facts.
-
-    It collects the used names of the runtime and the shared codes.
-    """
+    """Final names, the lowered model and the variants; it collects used names of the runtime, and shared codes."""
 
     names: Identifiers
     lowered: Lowered
     variants: Mapping[str, tuple[str, ...]]
-    errata: Collection[str]
     used: set[str] = field(default_factory=set)
     codes: dict[str, Node] = field(default_factory=dict)
+
+    def runtime(self, name: str) -> str:
+        """Return a name of the runtime, which the module then imports."""
+        self.used.add(name)
+        return name

@@ -85,12 +85,12 @@ def wrapped(text: str) -> list[str]:
     return [text] if len(text) <= DOC else textwrap.wrap(text, DOC, break_long_words=False, break_on_hyphens=False)
 
 
-def docstring(lines: Sequence[str]) -> tuple[str, ...]:
-    """Return the lines of a docstring inside a class."""
+def docstring(lines: Sequence[str]) -> str:
+    """Return a docstring inside a class."""
     first, *others = lines
     if not others:
-        return (f'    """{first}"""',)
-    return (f'    """{first}', *(f"    {line}" if line else "" for line in others), '    """')
+        return f'    """{first}"""'
+    return "\n".join([f'    """{first}', *(f"    {line}" if line else "" for line in others), '    """'])
 
 
 def imported(module: str, names: Sequence[str]) -> tuple[str, ...]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal, upper
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.python.device import device_view
+from fieldscribe.targets.python.device import imports_of
+from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
 
 if TYPE_CHECKING:
@@ -53,10 +54,10 @@ def identifiers(device: Device) -> Iterator[Names]:
 
 def _of_device(device: Device, names: Identifiers) -> Iterator[Names]:
     """Yield the names in the device module, in the constructor of its classes, and in the exports of the package."""
-    module, constructor, view = "Python, the device module", "Python, the constructor", device_view(device, names)
-    yield Names(module, _OWN, ("Literal", "Points", *view.imports))
+    module, constructor = "Python, the device module", "Python, the constructor"
+    yield Names(module, _OWN, ("Literal", "Points", *imports_of(device)))
     yield Names(module, Owner("device", device.id), (names.device_class, names.async_class))
-    yield Names(constructor, _OWN, ("transport", "unit", "self", *(name for name, _ in view.settings)))
+    yield Names(constructor, _OWN, ("transport", "unit", "self", *(name for name, _ in in_python(device).settings)))
     for axis in device.variants:
         yield Names(module, Owner("variant", axis), (f"{pascal(axis)}Choice",))
         yield Names(constructor, Owner("variant", axis), (parameter(axis),))

@@ -26,32 +26,26 @@ def form(point: Point, named: str, scope: PackageScope) -> Node:
     inner = _plain_form(point, named, scope)
     if not point.specials:
         return inner
-    around = (
-        "WithWritableCodes" if any(special.writable for special in point.specials) and point.writable else "WithCodes"
-    )
-    scope.used.add(around)
+    writes = point.writable and any(special.writable for special in point.specials)
+    around = scope.runtime("WithWritableCodes" if writes else "WithCodes")
     return call(around, (inner, _codes(point, scope)))
 
 
 def _codes(point: Point, scope: PackageScope) -> Node:
     """Return the special codes of a point; shared ones by the name of their constant."""
-    scope.used.add("Codes")
+    codes = call(scope.runtime("Codes"), _code_arguments(point))
     if not point.shared_codes:
-        return call("Codes", _code_arguments(point))
+        return codes
     name = f"{point.shared_codes.upper()}_CODES"
-    scope.codes.setdefault(name, assigned(name, call("Codes", _code_arguments(point))))
+    scope.codes.setdefault(name, assigned(name, codes))
     return name
 
 
 def _code_arguments(point: Point) -> Iterator[Node]:
-    numbers = [
-        (special, tuple(_code_number(end, special) for end in (special.low, special.high)))
-        for special in point.specials
-    ]
-    texts = [
-        f"{python_string(special.name)}: {low if special.low == special.high else f'({low}, {high})'}"
-        for special, (low, high) in numbers
-    ]
+    texts = []
+    for special in point.specials:
+        low, high = (_code_number(end, special) for end in (special.low, special.high))
+        texts.append(f"{python_string(special.name)}: {low if low == high else f'({low}, {high})'}")
     yield Group("{", tuple(texts), "}")
     for key in ("no_value", "writable"):
         names = [python_string(special.name) for special in point.specials if getattr(special, key)]
@@ -64,57 +58,49 @@ def _code_number(raw: int, special: Special) -> str:
 
 
 def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
+    """Return the form of values that are no special codes."""
+    kind = scope.runtime(_FORMS[point.form])
     if point.form == "bit":
-        scope.used.add("Bit")
-        return "Bit()"
-    if point.form == "text":
-        return _text(point, scope)
-    scope.used.add(point.type.upper())
-    if point.form in _NAMED:
-        scope.used.update((_NAMED[point.form], "enums"))
-        return call(_NAMED[point.form], (point.type.upper(), f"enums.{named}", *_named_facts(point)))
-    return _FORMS[point.form](point, point.type.upper(), scope)
-
-
-def _integer(point: Point, wire: str, scope: PackageScope) -> Node:
-    del point
-    scope.used.add("Integer")
-    return f"Integer({wire})"
-
-
-def _floating(point: Point, wire: str, scope: PackageScope) -> Node:
-    scope.used.add("Floating")
-    pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
-    return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
-
-
-def _scaled(point: Point, wire: str, scope: PackageScope) -> Node:
-    scope.used.update(("Rule", "Scaled"))
-    arguments = [wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"]
-    if not point.encodes_values:
-        arguments.append("encodes=False")
-    if point.most_raw is not None:
-        arguments.append(f"most={point.most_raw}")
-    return call("Scaled", tuple(arguments))
-
-
-def _named_facts(point: Point) -> Iterator[str]:
-    """Yield what a form with a class of names says about it."""
+        return f"{kind}()"
+    if point.text is not None:
+        encoding = () if point.text.encoding == "ascii" else (python_string(point.text.encoding),)
+        return call(kind, (str(point.text.characters), *encoding))
+    arguments: list[Node] = [scope.runtime(point.type.upper())]
+    if named:
+        scope.runtime("enums")
+        arguments.append(f"enums.{named}")
     if point.digits is not None:
-        yield f"count={point.digits.count}"
+        arguments.append(f"count={point.digits.count}")
     elif point.enum is not None and point.enum.closed:
-        yield "closed=True"
+        arguments.append("closed=True")
+    elif point.form == "scaled":
+        arguments += _scaled(point, scope)
+    elif point.allowed.units:
+        pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
+        arguments.append(Group("units=(", pairs))
+    return call(kind, arguments)
 
 
-_NAMED = {"flags": "Flags", "enum": "Named", "digits": "Digits"}
-_FORMS = {"integer": _integer, "float": _floating, "scaled": _scaled}
+_FORMS = {
+    "bit": "Bit",
+    "text": "Text",
+    "integer": "Integer",
+    "float": "Floating",
+    "scaled": "Scaled",
+    "flags": "Flags",
+    "enum": "Named",
+    "digits": "Digits",
+}
+"""The classes of the runtime for the forms of points."""
 
 
-def _text(point: Point, scope: PackageScope) -> Node:
-    scope.used.add("Text")
-    if point.text is None or point.text.encoding == "ascii":
-        return f"Text({0 if point.text is None else point.text.characters})"
-    return call("Text", (str(point.text.characters), python_string(point.text.encoding)))
+def _scaled(point: Point, scope: PackageScope) -> Iterator[Node]:
+    yield _scale(point.scale or (), scope)
+    yield f"decimals={point.decimals}"
+    if not point.encodes_values:
+        yield "encodes=False"
+    if point.most_raw is not None:
+        yield f"most={point.most_raw}"
 
 
 def _only_named(point: Point) -> bool:
@@ -129,18 +115,10 @@ def _only_named(point: Point) -> bool:
 def _scale(cases: tuple[ScaleCase, ...], scope: PackageScope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
         return rule(cases[0].rule, scope, of_scale=True)
-    scope.used.add("Case")
-    items = [
-        call(
-            "Case",
-            (
-                "None" if case.point is None else python_string(case.point),
-                str(case.raw),
-                rule(case.rule, scope, of_scale=True),
-            ),
-        )
-        for case in cases
-    ]
+    items = []
+    for case in cases:
+        of = "None" if case.point is None else python_string(case.point)
+        items.append(call(scope.runtime("Case"), (of, str(case.raw), rule(case.rule, scope, of_scale=True))))
     return Group("(", tuple(items))
 
 
@@ -155,13 +133,12 @@ def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node
     if offset:
         arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
     if linear.factors:
-        scope.used.add("Factor")
-        operands = scope.lowered.rule(linear).operands
-        arguments.append(Group("factors=(", tuple([_factor(operand, of_scale=of_scale) for operand in operands])))
-    return call("Rule", arguments)
+        factors = [_factor(operand, scope, of_scale=of_scale) for operand in scope.lowered.rule(linear).operands]
+        arguments.append(Group("factors=(", tuple(factors)))
+    return call(scope.runtime("Rule"), arguments)
 
 
-def _factor(operand: Operand, *, of_scale: bool) -> Node:
+def _factor(operand: Operand, scope: PackageScope, *, of_scale: bool) -> Node:
     arguments: list[Node] = [python_string(operand.point)]
     if operand.slope != 1:
         arguments.append(f"slope={operand.slope}")
@@ -175,7 +152,7 @@ def _factor(operand: Operand, *, of_scale: bool) -> Node:
         arguments.append("ten_to=({}, {})".format(*operand.exponents))
     if of_scale and operand.codes:
         arguments.append(Group("codes=(", tuple([f"({low}, {high})" for low, high in operand.codes])))
-    return call("Factor", arguments)
+    return call(scope.runtime("Factor"), arguments)
 
 
 def is_limited(point: Point) -> bool:
@@ -196,21 +173,13 @@ def allowed(point: Point, ends: tuple[str, ...], scope: PackageScope) -> Node:
 def _bound(bound: Bound, scope: PackageScope) -> Node:
     if isinstance(bound, int):
         return str(bound)
-    scope.used.update(("Limit", "Rule"))
     unless = [
         Group(f"{python_string(name)}: (", tuple([f"({low}, {high})" for low, high in codes]))
         for name, codes in bound.unless
         if codes
     ]
-    return call(
-        "Limit",
-        (
-            rule(bound.rule, scope),
-            f"least={bound.least}",
-            f"greatest={bound.greatest}",
-            Group("unless={", tuple(unless), "}"),
-        ),
-    )
+    ends = (f"least={bound.least}", f"greatest={bound.greatest}")
+    return call(scope.runtime("Limit"), (rule(bound.rule, scope), *ends, Group("unless={", tuple(unless), "}")))
 
 
 def addresses_of(addresses: tuple[int, ...], *, numbered: bool) -> list[str]:
@@ -223,9 +192,8 @@ def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scop
     beside = (f"index={index}",) if index else ()
     if point.space not in NUMBERED:
         return _place(keyword, point.space, addresses, beside, scope)
-    scope.used.add(point.space)
     telegram = () if point.telegram is None else (python_string(point.telegram),)
-    return call(f"{keyword}={point.space}", (*telegram, *addresses, *beside))
+    return call(f"{keyword}={scope.runtime(point.space)}", (*telegram, *addresses, *beside))
 
 
 def place_of_command(command: Command, scope: PackageScope) -> Node:
@@ -235,11 +203,9 @@ def place_of_command(command: Command, scope: PackageScope) -> Node:
 
 
 def _place(keyword: str, space: str, addresses: Iterable[str], beside: tuple[str, ...], scope: PackageScope) -> Node:
-    maker = _PLACES.get(space)
-    scope.used.add(maker or "Place")
-    if maker is not None:
-        return call(f"{keyword}={maker}", (*addresses, *beside))
-    return call(f"{keyword}=Place", (python_string(space), Group("(", tuple(addresses)), *beside))
+    maker = scope.runtime(_PLACES.get(space, "Place"))
+    where = (python_string(space), Group("(", tuple(addresses))) if maker == "Place" else addresses
+    return call(f"{keyword}={maker}", (*where, *beside))
 
 
 def number(value: Fraction, binary: bool = False) -> str:

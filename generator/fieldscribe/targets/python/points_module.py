@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import lower
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
-from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
-from fieldscribe.targets.python.identifiers import (
-    Identifiers,
-    PackageScope,
-    attribute,
-    command_attributes,
-    sorted_imports,
-)
+from fieldscribe.targets.python.families import RUNTIME, in_python
+from fieldscribe.targets.python.identifiers import PackageScope, attribute, command_attributes, sorted_imports
 from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
 from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, place_of_command
 from fieldscribe.text import python_doc, python_string
@@ -25,84 +18,56 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Command, Device, Point, Variant
     from fieldscribe.render import Render
+    from fieldscribe.targets.python.families import PythonFamily
+    from fieldscribe.targets.python.identifiers import Identifiers
 
 
-@dataclass(slots=True)
-class GroupView:
-    """The points of one group: its title, and the texts of their attributes."""
-
-    title: str
-    attributes: list[str] = field(default_factory=list)
-
-    @property
-    def text(self) -> str:
-        """The texts of all attributes."""
-        return "".join(self.attributes)
-
-
-@dataclass(frozen=True, slots=True)
-class PointsView:
-    """The points module.
+def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:
+    """Return the context of the points module: all points, group by group.
 
     `imports` are modules of the runtime with the names imported from each, `open_points` the lines about points whose
-    type or scale the manual does not settle, `codes` the special codes that several points share.
+    type or scale the manual does not settle, `codes` the special codes that several points share. A group is its title
+    and the text of its attributes.
     """
-
-    imports: list[tuple[str, list[str]]]
-    open_points: tuple[str, ...]
-    uses_enums: bool
-    profile: str
-    blocks: str
-    variants: str
-    documented: str
-    groups: list[GroupView]
-    commands: str
-    codes: tuple[str, ...]
-
-
-def points_view(device: Device, names: Identifiers, render: Render) -> PointsView:
-    """Return all points, group by group."""
     family = in_python(device)
-    errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
-    scope = PackageScope(names, lower(device), device.variants, errata, {"PointTable"})
+    scope = PackageScope(names, lower(device), device.variants, {"PointTable"})
     attributes = Attributes(device, scope, render)
-    groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
+    titles = {group.name: comment(f"{group.name}: {group.title['en']}") for group in device.groups}
+    groups: dict[str, list[str]] = {group: [] for group in titles}
     by_name: dict[str, dict[Variant, Point]] = {}
     for point in device.points:
-        terms = point.terms
-        group = groups.get(terms.group) or groups.setdefault(terms.group, GroupView(comment(terms.group)))
-        if not terms.generated:
+        texts = groups.setdefault(point.terms.group, [])
+        if not point.terms.generated:
             continue
-        group.attributes.append(attributes.of_point(point))
+        texts.append(attributes.of_point(point))
         if point.variant is not None:
             by_name.setdefault(point.name, {})[point.variant] = point
     for same in by_name.values():
-        groups[next(iter(same.values())).group].attributes.append(attributes.by_variant(same))
-    command_texts = "".join([attributes.text(command) for command in _commands(device, scope)])
+        groups[next(iter(same.values())).group].append(attributes.by_variant(same))
+    commands = "".join([attributes.text(command) for command in _commands(device, scope)])
     documented = tuple(_documented(point, scope) for point in device.points if not point.terms.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
-    return PointsView(
-        imports=_imports(scope.used - {"enums"}, family),
-        open_points=tuple(_open_points(device)),
-        uses_enums="enums" in scope.used,
-        profile=laid_out(profile, 4),
-        blocks="" if blocks is None else laid_out(blocks, 4),
-        variants=laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
-        documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
-        groups=[group for group in groups.values() if group.attributes],
-        commands=command_texts,
-        codes=tuple(laid_out(special_codes, 0) for special_codes in scope.codes.values()),
-    )
+    return {
+        "imports": _imports(scope.used - {"enums"}, family),
+        "open_points": list(_open_points(device)),
+        "uses_enums": "enums" in scope.used,
+        "profile": laid_out(profile, 4),
+        "blocks": "" if blocks is None else laid_out(blocks, 4),
+        "variants": laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
+        "documented": laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
+        "groups": [(titles.get(group, comment(group)), "".join(texts)) for group, texts in groups.items() if texts],
+        "commands": commands,
+        "codes": [laid_out(special_codes, 0) for special_codes in scope.codes.values()],
+    }
 
 
 def _documented(point: Point, scope: PackageScope) -> Group:
     """Return why the point has no attribute, and the addresses of its words, if they can be reached."""
-    scope.used.add("Documented")
     index, addresses = "" if point.index is None else str(point.index), _shown_addresses(point)
     where = list(places(point, addresses, index, scope)) if point.raw_only else []
     why = python_string(point.reason or "no reason given")
     code = [f"code={python_string(point.code)}"] if point.code else []
-    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where, *code))
+    return call(f"{python_string(attribute(point.item))}: {scope.runtime('Documented')}", (why, *where, *code))
 
 
 def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]]:
@@ -148,11 +113,10 @@ def _variants(device: Device) -> Group:
 def _commands(device: Device, scope: PackageScope) -> Iterable[AttributeView]:
     """Yield the attributes of the commands."""
     for command, name in command_attributes(device):
-        scope.used.add("Command")
         where = place_of_command(command, scope)
         value = () if command.value is None else (f"value={command.value}",)
-        doc = "\n".join(docstring((_command_doc(command),)))
-        yield AttributeView(name, "Command", (laid_out(where, BODY), *value), doc)
+        doc = docstring((_command_doc(command),))
+        yield AttributeView(name, scope.runtime("Command"), (laid_out(where, BODY), *value), doc)
 
 
 def _command_doc(command: Command) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import identifier_bits
-from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily, telegrams
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 def _profile(device: Device, scope: PackageScope) -> Node:
     """Return the profile: the messages and telegrams of the device."""
-    scope.used.add("Profile")
     bus = device.bus
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
@@ -25,29 +24,29 @@ def _profile(device: Device, scope: PackageScope) -> Node:
     ]
     if device.telegrams:
         arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
-    return call("Profile", arguments)
+    return call(scope.runtime("Profile"), arguments)
 
 
 def _message(message: Message, scope: PackageScope) -> Node:
-    scope.used.update(("Message", "Role"))
+    roles = [_role(role, scope) for role in message.roles]
     arguments: list[Node] = [
         python_string(message.name),
         python_string(message.direction),
         f"0x{message.identifier:X}",
-        Group("roles=(", tuple([_role(role) for role in message.roles])),
+        Group("roles=(", tuple(roles)),
     ]
     if message.adds_unit:
         arguments.append("adds_unit=True")
     if message.answers is not None:
         arguments.append(f"answers={python_string(message.answers)}")
-    return call("Message", arguments)
+    return call(scope.runtime("Message"), arguments)
 
 
-def _role(role: Role) -> Node:
+def _role(role: Role, scope: PackageScope) -> Node:
     if role.kind in ("unit", "multiplexer") and role.number == 0:
-        return call("Role", (python_string(role.kind),))
+        return call(scope.runtime("Role"), (python_string(role.kind),))
     number = f"0x{role.number:02X}" if role.kind in ("constant", "xor") else str(role.number)
-    return call("Role", (python_string(role.kind), number))
+    return call(scope.runtime("Role"), (python_string(role.kind), number))
 
 
 _BUS = 'can.Bus("can0", interface="socketcan")'
@@ -60,11 +59,8 @@ def _line(_: Device) -> Line:
 IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.can",
     exports=frozenset({"Message", "Profile", "Role", "Telegram"}),
-    blocking=Flavour("CanDevice", "CanTransport"),
-    awaiting=Flavour("AsyncCanDevice", "AsyncCanTransport"),
-    settings=(),
+    device="CanDevice",
+    transport="CanTransport",
     profile=_profile,
-    blocks=no_blocks,
-    maker=usual_maker,
     line=_line,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
-from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 def _profile(device: Device, scope: PackageScope) -> Node:
     """Return the profile: the requests that the device accepts."""
-    scope.used.add("Profile")
     bus, profile = device.bus, profile_of(device.bus)
     arguments: list[Node] = [
         Group("functions={", tuple([f"0x{function:02X}: {most}" for function, most in profile.most.items()]), "}"),
@@ -32,18 +31,20 @@ def _profile(device: Device, scope: PackageScope) -> Node:
     if bus.exceptions:
         exceptions = [f"0x{code.number:02X}: {python_string(code.name)}" for code in bus.exceptions]
         arguments.append(Group("exceptions={", tuple(exceptions), "}"))
-    return call("Profile", arguments)
+    return call(scope.runtime("Profile"), arguments)
 
 
 def _blocks(device: Device, scope: PackageScope) -> Node | None:
     """Return the planned reads of each group."""
     if not device.blocks:
         return None
-    scope.used.add("Block")
-    groups = []
+    block_class, groups = scope.runtime("Block"), []
     for group, blocks in device.blocks.items():
-        numbers = [(f"0x{block.function:02X}", f"0x{block.address:04X}", str(block.count)) for block in blocks]
-        calls = [call("Block", (python_string(block.space), *row)) for block, row in zip(blocks, numbers, strict=True)]
+        rows = [
+            (python_string(block.space), f"0x{block.function:02X}", f"0x{block.address:04X}", str(block.count))
+            for block in blocks
+        ]
+        calls = [call(block_class, row) for row in rows]
         groups.append(Group(f"{python_string(group)}: (", tuple(calls)))
     return Group("{", tuple(groups), "}")
 
@@ -54,11 +55,9 @@ NETWORK = Line("tcp", 'TcpLine("192.168.0.20")', 'AsyncTcpLine("192.168.0.20")')
 IN_PYTHON = PythonFamily(
     module=RUNTIME,  # the Modbus names come from the runtime itself
     exports=frozenset({"Block", "Profile"}),
-    blocking=Flavour("Device", "Transport"),
-    awaiting=Flavour("AsyncDevice", "AsyncTransport"),
-    settings=(),
+    device="Device",
+    transport="Transport",
     profile=_profile,
     blocks=_blocks,
-    maker=usual_maker,
     line=lambda device: SERIAL if "rtu" in device.bus.framings else NETWORK,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss import of_bus
-from fieldscribe.targets.python.families import RUNTIME, Flavour, Line, PythonFamily, no_blocks, telegrams, usual_maker
+from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily, telegrams, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
@@ -20,7 +20,6 @@ _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 
 def _profile(device: Device, scope: PackageScope) -> Node:
     """Return the profile: the tasks and telegrams that the device accepts."""
-    scope.used.add("Profile")
     bus, (low, high) = device.bus, of_bus(device.bus).pzd
     arguments: list[Node] = [
         f"units=({bus.units[0]}, {bus.units[1]})",
@@ -42,7 +41,7 @@ def _profile(device: Device, scope: PackageScope) -> Node:
     ]
     if fewer:
         arguments.append(Group("variant_pzd={", tuple(fewer), "}"))
-    return call("Profile", arguments)
+    return call(scope.runtime("Profile"), arguments)
 
 
 def _numbers(head: str, numbers: Iterable[int]) -> Group:
@@ -71,11 +70,10 @@ def _line(device: Device) -> Line:
 IN_PYTHON = PythonFamily(
     module=f"{RUNTIME}.uss",
     exports=frozenset({"Profile", "Stored", "StoredWriteOnly", "Telegram"}),
-    blocking=Flavour("UssDevice", "UssTransport"),
-    awaiting=Flavour("AsyncUssDevice", "AsyncUssTransport"),
-    settings=(("link", "Link"),),
+    device="UssDevice",
+    transport="UssTransport",
     profile=_profile,
-    blocks=no_blocks,
-    maker=_maker,
     line=_line,
+    maker=_maker,
+    settings=(("link", "Link"),),
 )
