@@ -52,6 +52,23 @@ def error(function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
     raise AssertionError(f"no error, but {result!r}")
 
 
+def status(function: Callable[..., Any], *arguments: Any) -> tuple[str, str]:
+    """The status and the message of the error that a call raises; `ok` if it raises none."""
+    try:
+        function(*arguments)
+    except Exception as raised:
+        return getattr(raised, "status", ""), str(raised)
+    return "ok", ""
+
+
+def assert_formatted(package: Path) -> None:
+    """Hold a package against ruff's defaults, at a line length that is harder than ours."""
+    for words in (("check", str(package.parent)), ("format", "--diff", str(package))):
+        command = [sys.executable, "-m", "ruff", *words, "--isolated", "--no-cache", "--config", "line-length=88"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
 def typed_findings(program: str, folder: Path, package: str, work: Path) -> str:
     """What mypy finds, strictly, in a package and a program that uses it, but for the lines that end in `# E: code`.
 

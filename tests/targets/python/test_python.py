@@ -2,68 +2,19 @@
 
 from __future__ import annotations
 
-import asyncio
 import math
-import subprocess
 import sys
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.model import Fixed, Flag
-from support.models import HERTZ, changed, entry, point, sample_device, titles, trip_device
-from support.python_package import AsyncSlave, Slave, imported, write_package
+from support.models import entry, point, sample_device, titles, trip_device
+from support.python_package import Slave, assert_formatted, imported, status, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_package(sample_device(), tmp_path_factory.mktemp("python"))
-
-
-@pytest.fixture(scope="module")
-def package(folder: Path) -> Iterator[Any]:
-    yield from imported(folder, "sample_drive")
-
-
-@pytest.fixture
-def slave() -> Slave:
-    return Slave()
-
-
-@pytest.fixture
-def drive(package: Any, slave: Slave) -> Any:
-    return package.SampleDrive(slave, unit=5, voltage_class="400V")
-
-
-def status(function: Any, *arguments: Any) -> tuple[str, str]:
-    """The status and message of the error that a call raises."""
-    try:
-        function(*arguments)
-    except Exception as error:
-        return getattr(error, "status", ""), str(error)
-    return "ok", ""
-
-
-def test_class_is_a_codec(package: Any) -> None:
-    point_ = package.SampleDrive.base_frequency
-    assert (point_.encode(50.0), point_.decode(500), point_.encode_count(500), point_.decode_count(500)) == (
-        500,
-        50.0,
-        500,
-        500,
-    )
-    assert (point_.facts.code, point_.facts.unit, point_.facts.at.addresses, point_.facts.default) == (
-        "A020",
-        "Hz",
-        (0x1028,),
-        50,
-    )
-    point_.check(4000)
 
 
 @pytest.fixture(scope="module")
@@ -124,42 +75,6 @@ def test_errors_say_what_is_wrong(
     assert status(package.SampleDrive.POINTS[item].encode, value, raws) == expected
 
 
-def test_values_of_the_wrong_type_are_refused_by_name(package: Any) -> None:
-    for item, label in (
-        ("base_frequency", "A020 base_frequency"),
-        ("float_setpoint", "float_setpoint"),
-        ("frequency_source", "A001 frequency_source"),
-        ("voltage_ratio", "voltage_ratio"),
-        ("run_command", "run_command"),
-    ):
-        for value in (None, "40", b"", [1]):
-            found, text = status(package.SampleDrive.POINTS[item].encode, value)
-            assert (found, text.partition(":")[0]) == ("wrong_type", label), (item, value)
-        if item != "run_command":
-            taken = "FrequencySource.TERMINAL" if item == "frequency_source" else "a number"
-            assert status(package.SampleDrive.POINTS[item].encode, True) == (
-                "wrong_type",
-                f"{label}: takes {taken}, not True",
-            )
-    with pytest.raises(TypeError):
-        package.SampleDrive.base_frequency.encode(None)
-    assert package.SampleDrive.run_command.encode(True) == package.SampleDrive.run_command.encode(1) == 1
-    package.SampleDrive.run_command.check(True)
-    assert status(package.SampleDrive.base_frequency.check, True)[0] == "wrong_type"
-
-
-def test_numbers_without_limits(tmp_path: Path) -> None:
-    points = (point("anything", 1, "f32", unit=HERTZ), point("everything", 3, "f64"))
-    folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="unlimited"), tmp_path)
-    for package in imported(folder, "unlimited"):
-        anything, everything = package.Unlimited.anything, package.Unlimited.everything
-        assert status(anything.encode, math.inf) == ("out_of_range", "anything: inf Hz is no finite binary32")
-        assert status(anything.encode, -1e39) == ("out_of_range", "anything: -1e+39 Hz is no finite binary32")
-        assert status(anything.check, 0x7F800000) == ("out_of_range", "anything: raw 2139095040 is no finite binary32")
-        assert status(everything.encode, 10**400)[1].endswith(" is no finite binary64")
-        assert anything.decode(anything.encode(-40.0)) == -40.0
-
-
 def test_unknown_numbers_survive(package: Any) -> None:
     drive = package.SampleDrive
     assert drive.frequency_source.decode(10) is package.FrequencySource.LOGIC
@@ -170,14 +85,6 @@ def test_unknown_numbers_survive(package: Any) -> None:
     assert status(drive.temperature.decode_count, 0x7FFF)[0] == "special"
     assert drive.frequency_source.name_of(1) == "terminal"
     assert drive.frequency_source.name_of(77) is None
-
-
-def test_flags_read_by_name(package: Any) -> None:
-    word = package.SampleDrive.status_word.decode(0x0031)
-    assert (word.ready, word.fault, word.mode) == (True, True, package.StatusWordMode.RUN)
-    assert package.StatusWord(0x0018).fault is False
-    assert package.StatusWord(0x0010).mode == 1
-    assert package.StatusWord.mode.place(3) == package.StatusWord.MODE
 
 
 def test_flags_are_shown_and_composed_by_meaning(tmp_path: Path) -> None:
@@ -212,8 +119,7 @@ def test_flags_are_shown_and_composed_by_meaning(tmp_path: Path) -> None:
         assert status(package.Flagged.command.encode, package.Status(1))[0] == "unknown_value"
         with pytest.raises(ValueError, match="2 bits"):
             word.of(set=4)
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "flagged")
+    assert_formatted(folder / "flagged")
 
 
 def test_points_that_are_only_documented_have_an_address(tmp_path: Path) -> None:
@@ -234,8 +140,7 @@ def test_points_that_are_only_documented_have_an_address(tmp_path: Path) -> None
         ]
         assert any("`read_at` and `write_at`" in line for line in lines)
         assert package.OpenEnds(Slave(), unit=1).read_at("holding", 0x1980) == (0,)
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "open_ends")
+    assert_formatted(folder / "open_ends")
 
 
 def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
@@ -262,15 +167,6 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
         }
 
 
-def test_a_factor_that_needs_a_variant_says_so(package: Any, slave: Slave) -> None:
-    drive = package.SampleDrive(slave, unit=5)
-    assert status(drive.point, "dc_level") == (
-        "no_access",
-        "dc_level depends on voltage_class: pass it when the device is made",
-    )
-    assert status(drive.read_many, ["nothing"]) == ("no_access", "nothing is no point of this device")
-
-
 def test_read_and_write(drive: Any, slave: Slave) -> None:
     slave.words[0x1028] = 500
     assert drive.base_frequency.read() == 50.0
@@ -284,59 +180,6 @@ def test_read_and_write(drive: Any, slave: Slave) -> None:
     assert drive.base_frequency.read_raw() == 601
     assert status(drive.base_frequency.write_raw, 4001)[0] == "out_of_range"
     assert status(drive.base_frequency.write, 400.06)[0] == "out_of_range"
-
-
-def test_bit_groups_keep_their_neighbours(drive: Any, slave: Slave) -> None:
-    slave.words[0x2012] = 0xFFFF
-    drive.signed_byte.write(-9)
-    assert slave.words[0x2012] == 0xFDFF
-    assert (drive.signed_byte.read(), drive.delay_class.read()) == (-9, 3)
-
-
-def test_swapped_words_and_floats(drive: Any, slave: Slave) -> None:
-    slave.words.update({0x2000: 0x5678, 0x2001: 0x1234})
-    assert drive.swapped_count.read() == 0x12345678
-    drive.float_setpoint.write(1.5)
-    assert (slave.words[0x2014], slave.words[0x2015]) == (0, 0x3FC0)
-    assert drive.float_setpoint.read() == 1.5
-    assert status(type(drive).swapped_count.from_words, (1,))[0] == "wrong_length"
-
-
-def test_other_points_are_read_as_needed(drive: Any, slave: Slave) -> None:
-    slave.words.update({0x200B: 0, 0x200D: 50, 0x200C: 8192})
-    assert drive.setpoint.read() == 25.0
-    drive.setpoint.write(50.0)
-    assert slave.words[0x200C] == 16384
-    slave.words[0x105A] = 100
-    assert status(drive.upper_limit.write, 5.0)[0] == "out_of_range"
-    slave.words[0x105A] = 0  # "inactive" lifts the limit
-    drive.upper_limit.write(5.0)
-    assert slave.words[0x1059] == 50
-
-
-def test_remembered_until_forgotten(tmp_path: Path) -> None:
-    points = tuple(
-        changed(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
-    )
-    folder = write_package(replace(sample_device(points), id="keeping_drive"), tmp_path)
-    slave = Slave()
-    slave.words.update({0x2007: 400, 0x2008: 230})
-    for package in imported(folder, "keeping_drive"):
-        drive = package.KeepingDrive(slave, unit=1)
-        asked = 0
-        for action, count in (
-            (drive.voltage_setpoint.read, 2),
-            (drive.voltage_setpoint.read, 1),
-            (partial(drive.voltage_setpoint.write, 1.0), 2),  # what is written must not follow from old numbers
-            (drive.voltage_setpoint.read, 1),
-            (drive.forget, 0),
-            (drive.voltage_setpoint.read, 2),
-            (partial(drive.voltage_ratio.write, 200), 1),
-            (drive.voltage_setpoint.read, 2),
-        ):
-            action()
-            assert len(slave.log) == asked + count
-            asked = len(slave.log)
 
 
 def test_variants(package: Any, drive: Any, slave: Slave) -> None:
@@ -371,51 +214,6 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     assert "is a point of another device" in refused[1]
 
 
-def test_async_twin(package: Any, slave: Slave) -> None:
-    async def work() -> tuple[Any, ...]:
-        drive = package.SampleDriveAsync(AsyncSlave(slave), unit=5, voltage_class="200V")
-        await drive.base_frequency.write(50.0)
-        await drive.signed_byte.write_raw(1)
-        await drive.enter.send()
-        await drive.write_at("holding", 0x3000, 7)
-        both = await asyncio.gather(drive.base_frequency.read(), drive.dc_level.read_raw())
-        many = await drive.read_many(["base_frequency"])
-        return (*both, many, await drive.read_at("holding", 0x3000))
-
-    assert asyncio.run(work()) == (50.0, 0, {"base_frequency": 50.0}, (7,))
-
-
-def test_tcp_commands_and_refusals(package: Any) -> None:
-    slave = Slave("tcp")
-    drive = package.SampleDrive(slave, unit=5)
-    drive.enter.send()
-    assert slave.log == [(6, 0x900, 1)]
-    assert slave.words[0x900] == 1  # any number does; it is the same in all languages
-    slave.refuses[0x1028] = 0x21
-    assert status(drive.base_frequency.read) == (
-        "exception",
-        "A020 base_frequency: the device answered exception 21h (value_out_of_range)",
-    )
-    with pytest.raises(AttributeError):
-        drive.base_frequency = 5
-    with pytest.raises(ValueError, match="the device speaks rtu and tcp"):
-        package.SampleDrive(Slave("ascii"), unit=5)
-
-
-def test_broadcast_writes_wait_for_nobody(package: Any, slave: Slave) -> None:
-    everyone = package.SampleDrive(slave, unit=0)
-    everyone.base_frequency.write(50.0)
-    assert slave.words[0x1028] == 500
-    assert status(everyone.base_frequency.read)[0] == "bad_unit"
-
-
-def test_old_names_warn(package: Any, drive: Any) -> None:
-    with pytest.warns(DeprecationWarning, match="main_frequency is now called base_frequency") as caught:
-        assert drive.main_frequency.encode(50.0) == 500
-    assert caught[0].filename == __file__
-    assert "main_frequency" not in package.SampleDrive.POINTS
-
-
 def test_errata_are_ids_of_those_that_change_a_fact(tmp_path: Path) -> None:
     device = sample_device()
     wire = replace(device.errata[0], facts=(("wire", "4137"),))
@@ -433,10 +231,3 @@ def test_what_is_documented_only_is_said_once(package: Any, folder: Path) -> Non
     for name in package.SampleDrive.DOCUMENTED:
         assert text.count(f'"{name}": Documented(') == 1
         assert f"# {name}" not in text
-
-
-def ruff(*arguments: object) -> None:
-    """Runs ruff with its own defaults; the narrow line length is the harder one."""
-    command = [sys.executable, "-m", "ruff", *map(str, arguments), "--isolated", "--no-cache", "--config"]
-    done = subprocess.run([*command, "line-length=88"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import asyncio
 import importlib
 import sys
-import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +13,7 @@ from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.user_errors import Options
 from support import wrong_bytes
 from support.described import made
-from support.python_families import AsyncCanUnit, CanUnit, can_device
+from support.python_families import CanUnit, can_device
 from support.python_package import error, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
@@ -103,23 +101,6 @@ def hear_kitchen(text: str) -> FrameResult:
     return decode(made("kitchen_can"), {}, [text], Options())[0]
 
 
-def test_parameters(mpu: Any, unit: CanUnit) -> None:
-    unit.parameters[508] = 7
-    assert mpu.transformer.read() == 7
-    mpu.transformer.write(500)
-    assert unit.log == ["33F#ff0501fc0000fef9", "33F#ee0501fc01f4ee0d"]
-    mpu.level.write(99)
-    assert unit.parameters[600] == 99
-    assert error(mpu.level.write, 100).status == "out_of_range"
-    assert mpu.read_at("parameter", 507, 3) == (0, 500, 0)
-    mpu.write_at("parameter", 1, 0xFFFF)
-    assert unit.parameters[1] == 0xFFFF
-    assert error(mpu.read_at, "telegram", 1).status == "bad_space"
-    assert error(mpu.write_at, "telegram", 1, 1).status == "bad_space"
-    assert error(mpu.read_at, "parameter", 0x10000).status == "bad_address"
-    assert error(mpu.write_at, "parameter", 1, 0x10000).status == "bad_value"
-
-
 def test_bits_keep_their_neighbours_and_constants(mpu: Any, package: Any, unit: CanUnit) -> None:
     unit.parameters[19] = 0x3FF6
     mpu.controller.write(package.Switch.ON)
@@ -192,35 +173,6 @@ def test_points_of_other_variants(package: Any, unit: CanUnit) -> None:
     assert package.SampleCan.spare.facts.only_for == ("size", ("large",))
 
 
-def test_factors_are_kept_until_what_changes_them_is_written(mpu: Any, unit: CanUnit) -> None:
-    unit.parameters.update({507: 200, 510: 100})
-    assert mpu.voltage_setpoint.read() == 200.0
-    assert mpu.voltage_setpoint.read() == 200.0
-    assert len(unit.log) == 3  # the factor was read once
-    mpu.transformer.write(1)
-    unit.parameters[507] = 400
-    assert mpu.voltage_setpoint.read() == 100.0
-    assert len(unit.log) == 6
-    mpu.write_at("parameter", 508, 2)
-    assert mpu.voltage_setpoint.read() == 100.0
-    assert len(unit.log) == 9
-
-
-def test_factors_are_read_anew_before_each_write(mpu: Any, unit: CanUnit) -> None:
-    unit.parameters.update({507: 200, 510: 100})
-    assert mpu.voltage_setpoint.read() == 200.0
-    unit.parameters[507] = 100  # somebody turns a knob
-    mpu.voltage_setpoint.write(100.0)
-    assert unit.parameters[510] == 25
-    assert len(unit.log) == 4
-    assert mpu.voltage_setpoint.read() == 100.0
-    assert len(unit.log) == 5  # and the new one is kept
-    unit.parameters[507] = 300
-    mpu.limited.write(600)
-    assert error(mpu.limited.write_raw, 601).status == "out_of_range"
-    assert len(unit.log) == 8
-
-
 def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
     unit.waiting = [unit.words(1, 7), unit.words(0, 5000, 25, 0x0200), unit.words(3, 1, 2)]
     assert mpu.frequency.read() == 50.0
@@ -234,92 +186,14 @@ def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
     assert not hasattr(mpu.frequency, "write")
 
 
-def test_old_words_do_not_count(mpu: Any, unit: CanUnit) -> None:
-    mpu.fresh_for = -1.0
-    mpu.take(unit.words(0, 1))
-    unit.waiting = [unit.words(0, 2)]
-    mpu.fresh_for = 0.0
-    assert mpu.frequency.read() == 0.02
-
-
-def test_counters_over_two_frames_are_not_torn(mpu: Any, unit: CanUnit) -> None:
-    high_1, high_2 = unit.words(1, 0, 0, 1), unit.words(1, 0, 0, 2)
-    unit.waiting = [high_1, unit.words(2, 0xFFFF), high_2, unit.words(2, 0), high_2]
-    assert mpu.hours.read() == 2 << 16
-    mpu.take(high_1)
-    failure = error(mpu.hours.read)
-    assert (failure.status, type(failure.__cause__).__name__, failure.__cause__.status) == (
-        "timeout",
-        "TelegramError",
-        "torn",
-    )
-    assert isinstance(failure, TimeoutError)
-
-
-def test_frames_of_others_are_passed_on(mpu: Any, unit: CanUnit, can: Any) -> None:
-    unit.others = [
-        unit.words(0, 5000),
-        can.Frame(0x325, b"\xff\x05\x01\xfd\x00\x01\xfe\xf9"),  # for another parameter
-        can.Frame(0x326, b"\xff\x06\x01\xfc\x00\x01\xfe\xfb"),  # of another unit
-        can.Frame(0x325, b"\xff"),
-    ]
-    unit.parameters[508] = 3
-    assert mpu.transformer.read() == 3
-    assert mpu.frequency.read() == 50.0
-    assert unit.log == ["33F#ff0501fc0000fef9"]
-    assert not unit.waiting
-
-
-def test_words_of_a_telegram_by_place(mpu: Any, unit: CanUnit) -> None:
-    mpu.take(unit.words(2, 7, 8, 9))
-    assert mpu.read_at("measurements", 6, 3) == (7, 8, 9)
-    assert error(mpu.write_at, "measurements", 1, 1).status == "bad_space"
-
-
-def test_receiver(can: Any, package: Any, unit: CanUnit) -> None:
-    receiver = can.Receiver(package.SampleCan.PROFILE, "measurements", 5)
-    assert error(receiver.word, 0).status == "missing"
-    assert receiver.take(unit.words(0, 1, 2, 3))
-    assert [receiver.word(position) for position in (0, 1, 2)] == [1, 2, 3]
-    assert error(receiver.word, 11).status == "bad_address"
-    frame = unit.words(0, 9)
-    for wrong in (
-        can.Frame(frame.id ^ 1, frame.data),
-        can.Frame(frame.id, frame.data[:7]),
-        can.Frame(frame.id, b"\xdc" + frame.data[1:]),
-        unit.words(4, 9),
-    ):
-        assert not receiver.take(wrong)
-    assert receiver.word(0) == 1
-    assert error(can.Receiver, package.SampleCan.PROFILE, "nothing", 5).status == "no_access"
-    assert [receiver.take(unit.words(slot, 5, 6, 7)) for slot in (1, 2)] == [True, True]
-    assert receiver.words((2, 3, 4, 5, 6)) == (3, 5, 6, 7, 5)  # no counter
-
-
-def test_receiver_without_a_multiplexer(can: Any) -> None:
-    words = (can.Role("unit"), *(can.Role("word", number) for number in (1, 0)), *(can.Role("constant"),) * 5)
-    message = can.Message("beat", "cyclic", 0x700, words, adds_unit=True)
-    profile = can.Profile((0, 9), 11, (message,), (can.Telegram("beats", "cyclic", 1, "beat"),))
-    receiver = can.Receiver(profile, "beats", 5)
-    assert receiver.take(can.Frame(0x705, b"\x05\x34\x12\0\0\0\0\0"))
-    assert receiver.word(0) == 0x1234
-    assert not receiver.take(can.Frame(0x705, b"\x06\x34\x12\0\0\0\0\0"))
-
-
-def test_async_twin(package: Any, unit: CanUnit) -> None:
-    async def work() -> tuple[Any, ...]:
-        mpu = package.SampleCanAsync(AsyncCanUnit(unit), 5, voltage="100V")
-        await mpu.fault_text.write("Oil")
-        await mpu.controller.write_raw(3)
-        await mpu.write_at("parameter", 508, 4)
-        unit.others = [unit.words(0, 5000, 1, 0x0100)]
-        both = await asyncio.gather(mpu.transformer.read(), mpu.fault_text.read())
-        many = await mpu.read_many(["frequency", "power"])
-        unit.silent, unit.others = True, []
-        late: Any = (await asyncio.gather(mpu.transformer.read(), return_exceptions=True))[0]
-        return (*both, many, await mpu.frequency.read(), late.status)
-
-    assert asyncio.run(work()) == (4, "Oil", {"frequency": 50.0, "power": 10.0}, 50.0, "timeout")
+def test_another_answer_is_told_in_the_form_of_the_point(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters[507], unit.most[510], unit.most[737] = 200, 5, 1
+    failure = error(mpu.voltage_setpoint.write, 100.0)
+    assert str(failure) == "voltage_setpoint: 100 V was written, and the device answered 10 V"
+    failure = error(mpu.voltage_setpoint.write_raw, 6)
+    assert str(failure) == "voltage_setpoint: raw 6 was written, and the device answered raw 5"
+    failure = error(mpu.fault_text.write, "Low oil")
+    assert (failure.status, failure.point, failure.answered) == ("echo_mismatch", "fault_text", (1,))
 
 
 TYPED = """
@@ -365,40 +239,14 @@ def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> Non
     assert typed_findings(TYPED, folder, "sample_can", tmp_path) == ""
 
 
-def test_over_a_bus_of_python_can(package: Any, can: Any) -> None:
-    """All that a transport over python-can takes; the virtual bus stands for the wire."""
-    python_can = pytest.importorskip("can")
-
-    class BusTransport:
-        def __init__(self, bus: Any) -> None:
-            self.bus = bus
-
-        def send(self, frame: Any) -> None:
-            self.bus.send(python_can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False))
-
-        def receive(self) -> Any:
-            message = self.bus.recv(1.0)
-            if message is None:
-                raise TimeoutError("no frame within 1 s")
-            return can.Frame(message.arbitration_id, bytes(message.data))
-
-    unit = CanUnit(can.Frame, 5)
-    with (
-        python_can.Bus(interface="virtual", channel="fieldscribe") as master,
-        python_can.Bus(interface="virtual", channel="fieldscribe") as slave,
-    ):
-        far_end = BusTransport(slave)
-
-        def answer() -> None:
-            far_end.send(unit.words(0, 5000))
-            for _ in range(2):
-                unit.send(far_end.receive())
-                far_end.send(unit.receive())
-
-        thread = threading.Thread(target=answer)
-        thread.start()
-        mpu = package.SampleCan(BusTransport(master), 5)
-        mpu.transformer.write(7)
-        assert (mpu.transformer.read(), mpu.frequency.read()) == (7, 50.0)
-        thread.join()
-        assert error(package.SampleCan(BusTransport(master), 6).transformer.read).status == "timeout"
+def test_any_bytes_are_safe(can: Any, package: Any) -> None:
+    profile = package.SampleCan.PROFILE
+    for message in profile.messages:
+        for size in range(10):
+            for byte in (0x00, 0xDD, 0xEE, 0xFF):
+                frame = can.Frame(message.identifier(5), bytes((byte,)) * size)
+                if (message.name, size, byte) == ("measurements", 8, 0xDD):
+                    assert can.parse(message, 5, frame) == (0, 0)
+                else:
+                    failure = error(can.parse, message, 5, frame)
+                    assert failure.status in ("wrong_length", "wrong_constant", "wrong_unit", "wrong_check")

@@ -43,11 +43,6 @@ def conformance(folder: Path, text: str, device: str = "sample_drive") -> tuple[
     return done.returncode, done.stdout
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_package(sample_device(), tmp_path_factory.mktemp("python"))
-
-
 def with_enums(device: Device) -> Device:
     """The device with the enums that only digits name."""
     enums = {one.name: one for one in (*device.enums, *(point.digits.enum for point in device.points if point.digits))}

@@ -132,18 +132,6 @@ def test_any_bytes_are_safe(modbus: Any, profile: Any, framing: str) -> None:
             modbus.parse(request, bytes(reply), profile, framing)
 
 
-def test_reply_size_has_limits(modbus: Any) -> None:
-    assert modbus.reply_size(bytes([5, 3, 251])) == 256
-    assert modbus.reply_size(bytes([0, 0, 0, 0, 0, 254]), "tcp") == 260
-    for head, framing in ((bytes([5, 3, 252]), "rtu"), (bytes([0, 0, 0, 0, 0, 255]), "tcp")):
-        with pytest.raises(sys.modules["fieldscribe_runtime"].FrameError) as caught:
-            modbus.reply_size(head, framing)
-        assert caught.value.status == "long_frame"
-    for function in (0x07, 0x2B, 0x87):
-        assert modbus.reply_size(bytes([5, function, 1])) is None
-    assert modbus.reply_size(bytes([5, 0x83, 2])) == 5
-
-
 @pytest.mark.parametrize("values", [(), (1,) * 2100])
 @pytest.mark.parametrize("function", [5, 6, 8, 15, 16])
 def test_answers_to_requests_that_cannot_be_sent(modbus: Any, profile: Any, function: int, values: tuple[int]) -> None:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import ast
-import asyncio
 import importlib
 import inspect
 import pydoc
-import subprocess
 import sys
 from dataclasses import replace
-from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -21,40 +18,18 @@ from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD
 from fieldscribe.targets.python.namespaces import LIBRARIES
 from support.models import STATUS_FLAGS, changed, plain_points, point, sample_device, titles
 from support.python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
-from support.python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
+from support.python_package import (
+    AsyncSlave,
+    Slave,
+    assert_formatted,
+    error,
+    imported,
+    typed_findings,
+    write_package,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_package(sample_device(), tmp_path_factory.mktemp("python"))
-
-
-@pytest.fixture(scope="module")
-def package(folder: Path) -> Iterator[Any]:
-    yield from imported(folder, "sample_drive")
-
-
-@pytest.fixture
-def slave() -> Slave:
-    return Slave()
-
-
-@pytest.fixture
-def drive(package: Any, slave: Slave) -> Any:
-    return package.SampleDrive(slave, unit=5, voltage_class="400V")
-
-
-def status(function: Any, *arguments: Any) -> tuple[str, str]:
-    """The status and message of the error that a call raises."""
-    try:
-        function(*arguments)
-    except Exception as error:
-        return getattr(error, "status", ""), str(error)
-    return "ok", ""
 
 
 def test_names_that_are_taken(tmp_path: Path) -> None:
@@ -114,20 +89,11 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
     folder = write_package(hostile, tmp_path)
     for package in imported(folder, "sample_drive"):
         assert package.SampleDrive.base_frequency.encode(50.0) == 500
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "sample_drive")
-
-
-def ruff(*arguments: object) -> None:
-    """Runs ruff with its own defaults; the narrow line length is the harder one."""
-    command = [sys.executable, "-m", "ruff", *map(str, arguments), "--isolated", "--no-cache", "--config"]
-    done = subprocess.run([*command, "line-length=88"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert_formatted(folder / "sample_drive")
 
 
 def test_generated_code_is_formatted(folder: Path) -> None:
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "sample_drive")
+    assert_formatted(folder / "sample_drive")
 
 
 MISUSE = """
@@ -199,24 +165,6 @@ def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> Non
     assert typed_findings(MISUSE, folder, "sample_drive", tmp_path) == ""
 
 
-def test_writes_go_only_to_spaces_that_can_be_written(drive: Any, slave: Slave) -> None:
-    for space in ("discrete", "input", "holdings"):
-        assert status(drive.write_at, space, 1, 1)[0] == "bad_space"
-    assert status(drive.read_at, "holdings", 1)[0] == "bad_space"
-    assert not slave.log
-    drive.write_at("coil", 1, 1)
-    drive.write_at("holding", 1, 7)
-    assert slave.log == [(5, 1, 1), (6, 1, 1)]
-
-
-def test_unknown_variants_are_refused(package: Any) -> None:
-    with pytest.raises(ValueError, match="voltage_class is one of 200V, 400V, not '100V'"):
-        package.SampleDrive(Slave(), unit=1, voltage_class="100V")
-    bare = type("Bare", (sys.modules["fieldscribe_runtime"].Device,), {"PROFILE": package.SampleDrive.PROFILE})
-    with pytest.raises(ValueError, match="no variants by 'colour'"):
-        bare(Slave(), 1, {"colour": "red"})
-
-
 def test_what_a_point_cannot_do_is_said(package: Any) -> None:
     drive = package.SampleDrive(Slave(), 5)
     for asked, words in (
@@ -278,59 +226,10 @@ def test_help_and_repr_say_what_there_is(package: Any) -> None:
     assert "unit='Hz'" in repr(package.SampleDrive.base_frequency.facts)
 
 
-def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any) -> None:
-    for made in (package.SampleDrive, package.SampleDriveAsync):
-        for unit in (33, -1, 256, "5", None):
-            failure = error(made, Slave(), unit)
-            assert (failure.status, str(failure)) == ("bad_unit", f"the device can be unit 1 to 32, not {unit!r}")
-        assert made(Slave(), 0).unit == 0  # all units
-        assert error(made, Slave("ascii"), 5).status == "bad_framing"
-        limited = type("Limited", (made,), {"PROFILE": made.PROFILE.replaced(framings=("rtu",))})
-        failure = error(limited, Slave("tcp"), 5)
-        assert (failure.status, str(failure).partition(";")[0]) == ("bad_framing", "the device speaks rtu, not 'tcp'")
-        assert limited(Slave(), 5).unit == 5
-    limited = type("Limited", (package.SampleDrive,), {"PROFILE": package.SampleDrive.PROFILE.replaced(framings=())})
-    slave = Slave("pdu")  # whose transport frames as it likes
-    drive = limited(slave, 5)
-    drive.base_frequency.write(50.0)
-    assert drive.base_frequency.read() == 50.0
-    slave.refuses = dict.fromkeys(slave.words, 2)
-    assert error(drive.base_frequency.read).code == 2
-
-
-def test_nothing_is_cut_off_silently(package: Any) -> None:
-    drive = package.SampleDrive
-    for function, number, expected in (
-        (drive.base_frequency.to_words, 65536, "out_of_range"),
-        (drive.signed_one.to_words, 32768, "out_of_range"),
-        (drive.signed_byte.to_words, -129, "out_of_range"),
-        (drive.base_frequency.from_words, (65536,), "out_of_range"),
-        (drive.base_frequency.from_words, (-1,), "out_of_range"),
-        (drive.base_frequency.from_words, (1.5,), "out_of_range"),
-        (drive.base_frequency.check, 12.5, "out_of_range"),
-        (drive.base_frequency.encode_count, 12.5, "out_of_range"),
-        (drive.voltage_ratio.encode, 60.5, "out_of_range"),
-        (drive.base_frequency.encode, 10**400, "out_of_range"),
-        (drive.base_frequency.encode, 10**5000, "out_of_range"),
-        (drive.base_frequency.check, 10**5000, "out_of_range"),
-        (drive.float_setpoint.encode, 10**400, "out_of_range"),
-        (drive.base_frequency.encode, Decimal("sNaN"), "not_a_number"),
-        (drive.float_setpoint.encode, Decimal("sNaN"), "not_a_number"),
-    ):
-        assert status(function, number)[0] == expected, (function, number)
-
-
-def test_members_of_other_enums_are_refused(package: Any) -> None:
-    point_ = package.SampleDrive.frequency_source
-    assert status(point_.encode, package.StatusWordMode.STOP)[0] == "unknown_value"
-    assert point_.encode(package.FrequencySource.TERMINAL) == point_.encode(1) == 1
-
-
 def test_long_names_of_words_are_formatted(tmp_path: Path) -> None:
     word = point("a_word_with_an_unusually_long_name_of_its_own", 1, flags=STATUS_FLAGS)
     folder = write_package(replace(sample_device((word,)), errata=(), blocks={}), tmp_path)
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "sample_drive")
+    assert_formatted(folder / "sample_drive")
 
 
 def test_separate_places(tmp_path: Path) -> None:
@@ -372,7 +271,7 @@ def test_help_shows_how_a_device_is_used(folder: Path) -> None:
         assert all(f"Place: {point_.facts.where}." in told for point_ in drive.POINTS.values())
         assert "What may be written: 0..400 Hz." in pydoc.plain(pydoc.render_doc(drive.base_frequency))
         assert "a command: it writes any number (1 if none is given)" in drive.enter.__doc__
-    ruff("check", folder)
+    assert_formatted(folder / "sample_drive")
 
 
 def test_devices_without_points_have_help_too(tmp_path: Path) -> None:
@@ -380,34 +279,7 @@ def test_devices_without_points_have_help_too(tmp_path: Path) -> None:
     for package in imported(folder, "bare"):
         assert package.__doc__.splitlines()[2].startswith("A transport sends bytes")
         assert package.Bare.__doc__.strip() == "Acme S1 over a transport: `drive.point.read()`."
-    ruff("check", folder)
-    ruff("format", "--diff", folder / "bare")
-
-
-def test_documented_points_are_found_by_code(package: Any, drive: Any) -> None:
-    documented = {name: facts.code for name, facts in package.SampleDrive.DOCUMENTED.items() if facts.code}
-    assert documented
-    for name, code in documented.items():
-        assert status(drive.point, code)[1].startswith(f"{code} is documented only, as {name}: ")
-        assert status(drive.point, name)[1].startswith(f"{name} is documented only: ")
-
-
-def test_an_async_device_works_in_one_loop_after_the_other(package: Any, slave: Slave) -> None:
-    slave.words[0x1028] = 500
-    drive = package.SampleDriveAsync(AsyncSlave(slave), unit=5, voltage_class="200V")
-
-    async def both() -> list[float]:
-        return [*await asyncio.gather(drive.base_frequency.read(), drive.base_frequency.read())]
-
-    assert [asyncio.run(both()) for _ in range(2)] == [[50.0, 50.0]] * 2
-
-
-def test_reads_of_groups_say_what_failed(drive: Any, slave: Slave) -> None:
-    slave.refuses[0x1028] = 2
-    failure = error(drive.read_many, "main")
-    assert (failure.group, failure.status) == ("main", "exception")
-    assert "A020 base_frequency" in failure.point
-    assert str(failure).startswith(f"group main: {failure.point}: the device answered exception 02h")
+    assert_formatted(folder / "bare")
 
 
 def test_no_device_may_have_the_name_of_a_library_that_the_runtime_imports() -> None:

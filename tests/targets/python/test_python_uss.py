@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import random
 import struct
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -153,13 +155,6 @@ def test_factors_that_are_numbers(drive: Any, package: Any, line: UssDrive) -> N
     assert len(line.log) == 10  # the one that changes with it was read again
 
 
-def test_process_data_can_be_dropped(drive: Any, line: UssDrive) -> None:
-    drive.control_word.write_raw(0x0401)
-    drive.drop_process_data()
-    drive.drive_status.read()
-    assert line.task == (0, 0)
-
-
 def test_bits_bring_the_constants_of_their_word(tmp_path: Path) -> None:
     fixed = word("task", "command", 0, access="w", fixed=Fixed(0x0400, 0x0400))
     part = word("task", "part", 0, type_name="u8", access="w", bits=(2, 1))
@@ -171,73 +166,6 @@ def test_bits_bring_the_constants_of_their_word(tmp_path: Path) -> None:
         drive = package.TwoInOne(line, 3, sys.modules["fieldscribe_runtime.uss"].Link(4, 2))
         drive.part.write(2)
         assert line.task == (0x0404, 0)
-
-
-def test_words_without_a_point(package: Any, uss: Any) -> None:
-    line = UssDrive(pkw=127, pzd=4)
-    drive = package.SampleUss(line, 3, uss.Link(127, 4))
-    drive.write_at("task", 2, 7, 8)
-    assert line.task == (0, 0, 7, 8)
-    line.answer = (1, 2, 3, 4)
-    assert drive.read_at("answer", 3) == (4,)
-    assert drive.read_at("task", 3) == (8,)
-    assert error(drive.read_at, "answer", 4).status == "bad_link"
-    assert error(drive.write_at, "answer", 0, 1).status == "bad_space"
-    assert str(error(drive.read_at, "reply", 0)) == "there is no space 'reply', only parameter, task, answer"
-
-
-def test_process_data_comes_with_refusals(drive: Any, line: UssDrive) -> None:
-    line.answer = (0x0FA8, 0x1234, 0, 0)
-    line.refuses[700] = 17
-    assert error(drive.command_source.write, 1).words == (0x0FA8, 0x1234)
-    line.refuses.clear()
-    line.change = changed(3, 0x90)
-    failure = error(drive.command_source.read)
-    assert (failure.status, failure.words) == ("no_rights", (0x0FA8, 0x1234))
-    line.change = bytes
-    line.late, drive.repeats = 9, 0
-    failure = error(drive.command_source.read)
-    assert (failure.status, failure.words) == ("no_answer", (0x0FA8, 0x1234))
-
-
-def test_broadcast(drive: Any, package: Any, uss: Any, line: UssDrive) -> None:
-    calls: list[bytes] = []
-
-    def exchange(request: bytes) -> bytes:
-        if request[2] != 0x20:
-            return UssDrive.exchange(line, request)
-        calls.append(request)
-        if len(calls) > 1:
-            raise TimeoutError
-        return b""
-
-    line.exchange = exchange  # type: ignore[method-assign]  # a line that dies
-    word = package.ControlWord
-    drive.broadcast((6, 0xFFFF, 0, 0), (word.of(start=True), 0x3333))
-    assert calls[-1].hex()[6:-2] == "0006ffff" + "00000000" + "04013333"
-    drive.control_word.write(word.of(start=True))
-    drive.write_at("task", 1, 0x1000)
-    drive.broadcast((6, 0x0401, 0, 0))
-    assert calls[-1].hex()[6:-2] == "00060401" + "00000000" + "04011000"
-    drive.drive_status.read()
-    assert line.task == (0, 0)  # what was broadcast, a stop perhaps, is not taken back
-    sent = len(calls)
-    for mask, words in (
-        ((6, 0xFBFF, 0, 0), (0x0401, 0)),  # the constant bit has to count
-        ((2, 0xFFFF, 0, 0), (1, 0)),  # and to be there
-        ((6, 0xFFFF, 0, 0), None),  # nothing was written
-    ):
-        assert error(drive.broadcast, mask, words).status == "bad_value"
-    assert error(drive.broadcast, (6, 0, 0), (0x0400, 0)).status == "bad_link"
-    assert error(drive.broadcast, (6, 0, 0, 0), (0x0400,)).status == "bad_link"
-    assert len(calls) == sent
-
-    async def work() -> None:
-        other = package.SampleUssAsync(AsyncUssDrive(line), 3, uss.Link(4, 2))
-        await other.broadcast((4, 0x0400, 0, 0), (0, 5))
-
-    asyncio.run(work())
-    assert calls[-1].hex()[6:-2] == "00040400" + "00000000" + "00000005"
 
 
 def test_groups_leave_out_what_the_link_does_not_carry(package: Any, uss: Any) -> None:
@@ -296,18 +224,6 @@ def test_needs_that_depend_on_a_variant(tmp_path: Path) -> None:
         assert str(error(drive.read_many, ["main_actual_value"])).startswith("main_actual_value needs normalisation")
 
 
-def changed(at: int, bits: int) -> Any:
-    """A reply with some bits of a byte turned, and the right check."""
-
-    def change(reply: bytes) -> bytes:
-        data = bytearray(reply)
-        data[at] ^= bits
-        data[-1] ^= bits
-        return bytes(data)
-
-    return change
-
-
 def test_requests_that_are_of_no_device(package: Any, uss: Any) -> None:
     """A task that the device has not, and a link of one word, end in errors of ours."""
     profile = package.SampleUss.PROFILE
@@ -320,23 +236,6 @@ def test_requests_that_are_of_no_device(package: Any, uss: Any) -> None:
         assert error(uss.parse, uss.Request(3, task), short, profile, uss.Link(pkw=1, pzd=0)).status == "wrong_length"
 
 
-def test_printed_examples(package: Any, uss: Any) -> None:
-    """Whole telegrams as the MICROMASTER 4's manual prints their parts."""
-    profile = package.SampleUss.PROFILE
-    link = uss.Link(127, 2)
-    sent = uss.build(uss.Request(3, 1, 700, words=(0x047F, 0x3333)), profile, link)
-    assert sent.hex() == "020e0312bc000000000000047f3333da"
-    reply = uss.parse(uss.Request(3, 1, 700), bytes.fromhex("020c0312bc00000002fa3100006a"), profile, link)
-    assert (reply.response, reply.width, reply.value, reply.words) == (1, 1, 2, (0xFA31, 0))
-    all_units = uss.broadcast((6, 0xFFFF, 0, 0), (0x047F, 0x3333), profile, link)
-    assert all_units.hex() == "020e200006ffff00000000047f333351"
-    assert uss.reply_size(all_units[:2]) == len(all_units)
-    assert uss.reply_size(b"\x02") is None
-    assert error(uss.broadcast, (6, 0, 0), (1, 2), profile, link).status == "bad_link"
-    assert error(uss.broadcast, (6, 0, 0, 0), (1,), profile, link).status == "bad_link"
-    assert error(uss.broadcast, (6, 0, 0, 0x10000), (1, 2), profile, link).status == "bad_value"
-
-
 def test_the_example_of_the_class_says_what_a_link_is(package: Any, uss: Any) -> None:
     for kind in (package.SampleUss, package.SampleUssAsync):
         said = [line.strip() for line in kind.__doc__.splitlines()]
@@ -344,29 +243,6 @@ def test_the_example_of_the_class_says_what_a_link_is(package: Any, uss: Any) ->
         [made] = [line for line in said if line.startswith(f"drive = {kind.__name__}(")]
         link = eval(made[made.index("Link(") : made.index(")") + 1], {"Link": uss.Link})
         assert kind(UssDrive(), 3, link).link == link
-
-
-def test_single_words_first(package: Any, uss: Any) -> None:
-    profile, request = package.SampleUss.PROFILE, uss.Request(3, 2, 700, 0, 1, 5)
-    assert uss.build(request, profile, uss.Link(4, 0)).hex()[6:-2] == "22bc000000000005"
-    assert uss.build(request, profile, uss.Link(4, 0, single_first=True)).hex()[6:-2] == "22bc000000050000"
-    assert uss.build(request, profile, uss.Link(3, 0)).hex()[6:-2] == "22bc00000005"
-
-
-def test_async_twin(package: Any, uss: Any, line: UssDrive) -> None:
-    async def work() -> tuple[Any, ...]:
-        drive = package.SampleUssAsync(AsyncUssDrive(line), 3, uss.Link(4, 2))
-        await drive.maximum_frequency.write(40.0, keep=True)
-        await drive.unlock.write_raw(5, keep=True)
-        await drive.control_word.write_raw(0x0400)
-        await drive.write_at("parameter", 700, 3)
-        both = await asyncio.gather(drive.maximum_frequency.read(), drive.command_source.read())
-        line.refuses[52] = 0
-        refused: Any = (await asyncio.gather(drive.drive_status.read(), return_exceptions=True))[0]
-        return (*both, await drive.read_at("parameter", 700), refused.status)
-
-    assert asyncio.run(work()) == (40.0, 3, (3,), "refused")
-    assert line.eeprom == {(1082, 0): f32(40.0), (900, 0): (5,)}
 
 
 TYPED = """
@@ -410,3 +286,44 @@ async def use_async(drive: SampleUssAsync) -> None:
 
 def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
     assert typed_findings(TYPED, folder, "sample_uss", tmp_path) == ""
+
+
+def test_a_cancelled_command_is_not_repeated(package: Any, uss: Any, line: UssDrive) -> None:
+    class Slow(AsyncUssDrive):
+        slow = False
+
+        async def exchange(self, request: bytes) -> bytes:
+            reply = await super().exchange(request)
+            if self.slow:
+                await asyncio.sleep(60)
+            return reply
+
+    async def work() -> None:
+        transport = Slow(line)
+        drive = package.SampleUssAsync(transport, 3, uss.Link(4, 2))
+        await drive.control_word.write_raw(0x0401)
+        transport.slow = True
+        with suppress(asyncio.TimeoutError):
+            await asyncio.wait_for(drive.control_word.write_raw(0x0400), 0.01)
+        transport.slow = False
+        await drive.drive_status.read()
+
+    asyncio.run(work())
+    assert line.task == (0, 0)
+
+
+def test_any_bytes_are_safe(package: Any, uss: Any) -> None:
+    rng = random.Random(1)
+    profile = package.SampleUss.PROFILE
+    failure = sys.modules["fieldscribe_runtime"].FrameError
+    for _ in range(3000):
+        link = uss.Link(rng.choice((0, 3, 4, 127)), rng.randint(0, 4), rng.random() < 0.2)
+        request = uss.Request(3, rng.choice(list(profile.tasks)), rng.choice((0, 700, 2010)))
+        reply = bytearray(rng.randbytes(rng.randint(0, 24)))
+        if len(reply) > 3 and rng.random() < 0.9:
+            reply[:3] = (2, len(reply) - 2, 3)
+            reply[-1] = 0
+            for byte in bytes(reply[:-1]):
+                reply[-1] ^= byte
+        with suppress(failure):
+            uss.parse(request, bytes(reply), profile, link)
