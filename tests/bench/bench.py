@@ -11,7 +11,6 @@ import argparse
 import os
 import shutil
 import statistics
-import sys
 import tempfile
 import time
 from dataclasses import dataclass, field
@@ -20,15 +19,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from python_bench import print_python
-from stream_bench import print_streams
+from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
 from synthetic import write_dbc, write_device
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).resolve().parents[2]
-FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
-CANTOOLS = str(Path(sys.executable).with_name("cantools"))
 MANY, FEW = 10_000, 1_000
 STREAMED = 50_000
 CODE = "c,python,rust"
@@ -50,7 +47,7 @@ class Command:
         """Run it once; the first run of a command only warms up."""
         self.before()
         start = time.perf_counter()
-        environment = {**os.environ, "XDG_CACHE_HOME": str(self.cache)}
+        environment = {**os.environ, **KEEPS_BYTECODE, "XDG_CACHE_HOME": str(self.cache)}
         silent = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
         process = os.posix_spawn(self.words[0], self.words, environment, file_actions=silent)
         _, status, usage = os.wait4(process, 0)

@@ -22,6 +22,11 @@ if TYPE_CHECKING:
 
 FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
 CANTOOLS = str(Path(sys.executable).with_name("cantools"))
+KEEPS_BYTECODE = {
+    "PYTHONDONTWRITEBYTECODE": "",
+    "PYTHONPYCACHEPREFIX": str(Path(__file__).resolve().parents[2] / ".cache/python"),
+}
+"""Lets a measured command find its bytecode, also where the environment turns that off, as it is for users."""
 SLOTS = 23
 EXPONENTS = {1: 0x0100, 10: 0, 14: 0}
 """Words that scale others, by the multiplexer whose first word they are."""
@@ -94,7 +99,8 @@ def measured(words: list[str], file: Path) -> tuple[float, float]:
         (os.POSIX_SPAWN_OPEN, 0, str(file), os.O_RDONLY, 0),
         *((os.POSIX_SPAWN_OPEN, stream, os.devnull, os.O_WRONLY, 0) for stream in (1, 2)),
     ]
-    _, _, usage = os.wait4(os.posix_spawn(words[0], words, os.environ, file_actions=actions), 0)
+    environment = {**os.environ, **KEEPS_BYTECODE}
+    _, _, usage = os.wait4(os.posix_spawn(words[0], words, environment, file_actions=actions), 0)
     return usage.ru_utime, usage.ru_maxrss / 1024
 
 

@@ -34,7 +34,7 @@ def load_text(tmp_path: Path, text: str | bytes) -> Report:
 
 PATHS = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str)]
 TEXTS = b"".join(file.read_bytes() for file in sorted(BAD.glob("[a-f]*.yaml"))[::6])
-MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "240"))
+MUTANTS = int(os.environ.get("FIELDSCRIBE_MUTANTS", "80"))
 PARTS = 8
 SEED = 20261122
 

@@ -10,6 +10,7 @@ import signal
 import sys
 import tempfile
 import time
+import traceback
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ TIME, BROKE_DOWN = "time", "break-down"
 
 
 class StoppedError(Exception):
-    """The child did not come to its end: TIME or BROKE_DOWN, and what it had told."""
+    """The child did not come to its end: TIME or BROKE_DOWN, and what it had told; its traceback is a note."""
 
     def __init__(self, why: str, told: list[Any]) -> None:
         super().__init__(why)
@@ -35,20 +36,24 @@ def in_child(work: Callable[[Callable[[Any], None]], None], seconds: int) -> lis
 
     The seconds are those of a processor; by the clock it may take four times as long, as machines are shared.
     """
-    with tempfile.TemporaryFile() as told:
+    with tempfile.TemporaryFile() as told, tempfile.TemporaryFile() as complaints:
         sys.stdout.flush()
         process = os.fork()
         if not process:
-            _be_child(work, told.fileno(), seconds)
+            _be_child(work, told.fileno(), complaints.fileno(), seconds)
         stopped = _wait(process, time.monotonic() + 4 * seconds)
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(process, signal.SIGKILL)  # what the child started
         told.seek(0)
+        complaints.seek(0)
+        traceback_of_child = complaints.read().decode(errors="replace")
         answers = [json.loads(line) for line in told.read().splitlines() if line.endswith((b"}", b'"'))]
     if stopped is None or (os.WIFSIGNALED(stopped) and os.WTERMSIG(stopped) in (signal.SIGXCPU, signal.SIGKILL)):
         raise StoppedError(TIME, answers)
     if stopped != 0:
-        raise StoppedError(BROKE_DOWN, answers)
+        error = StoppedError(BROKE_DOWN, answers)
+        error.add_note(traceback_of_child or f"wait status {stopped}")
+        raise error
     return answers
 
 
@@ -66,7 +71,7 @@ def _wait(process: int, end: float) -> int | None:
     return None
 
 
-def _be_child(work: Callable[[Callable[[Any], None]], None], told: int, seconds: int) -> None:
+def _be_child(work: Callable[[Callable[[Any], None]], None], told: int, complaints: int, seconds: int) -> None:
     code = 1
     try:
         os.setsid()
@@ -77,6 +82,8 @@ def _be_child(work: Callable[[Callable[[Any], None]], None], told: int, seconds:
             os.dup2(silent, stream)
         work(lambda one: _tell(told, one))
         code = 0
+    except BaseException:  # whatever ends it, the parent says
+        os.write(complaints, traceback.format_exc().encode())
     finally:
         os._exit(code)
 

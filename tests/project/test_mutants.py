@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from mutants.changes import Change, places_of
+from mutants.children import BROKE_DOWN, StoppedError, in_child
 from mutants.equivalents import FILE, named
 from mutants.judges import KILLED, LEFT_OUT, SURVIVED, OfC
 from mutants.sources import mutant_of, sources_of
@@ -16,6 +17,7 @@ from support.places import TESTS
 from support.toolchains import tool
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 C = """\
@@ -187,6 +189,19 @@ def test_the_compiler_changes_where_it_says_what_to_do() -> None:
     assert {after for _, after in found["part of a condition"]} == {"(name in ('x', f'{first}y'))", "(second)"}
     assert {"statement", "named constant"}.isdisjoint(found)
     assert not any("Later" in before for some in found.values() for before, _ in some)
+
+
+def test_the_error_that_ends_a_child_is_told() -> None:
+    """`make mutants` ended with the word break-down alone, and nobody knew why."""
+
+    def work(tell: Callable[[Any], None]) -> None:
+        tell({"seen": 1})
+        raise KeyError("missing")
+
+    with pytest.raises(StoppedError, match=BROKE_DOWN) as caught:
+        in_child(work, 10)
+    assert caught.value.told == [{"seen": 1}]
+    assert "KeyError: 'missing'" in caught.value.__notes__[0]
 
 
 JUDGED = """\

@@ -27,6 +27,7 @@ from support.models import (
     units,
     value_of,
 )
+from support.toolchains import compiled, succeed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,8 +43,12 @@ SANITIZERS = {
     "gcc": ("-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
     "clang": ("-fsanitize=address,undefined,integer,implicit-conversion", "-fno-sanitize-recover=all"),
 }
-SANITIZING = ("clang", pytest.param("gcc", marks=pytest.mark.full(seconds=1)))
-"""Both compilers; the core suite takes the one that has more sanitizers and compiles twice as fast with them."""
+WAYS = {
+    "quick": ("clang", ("-O0",)),
+    **{compiler: (compiler, ("-O1", *flags)) for compiler, flags in SANITIZERS.items()},
+}
+"""How a program is built: the core suite takes the quick way, which costs a third of one with sanitizers."""
+SANITIZING = tuple(way if way == "quick" else pytest.param(way, marks=pytest.mark.full(seconds=1)) for way in WAYS)
 STANDARDS = {
     "c99": ("-std=c99",),
     "c11": ("-std=c11",),
@@ -73,6 +78,14 @@ def write_headers(device: Device, out: Path) -> Path:
 def program(name: str) -> str:
     """Return one of the C programs of the tests."""
     return (PROGRAMS / f"{name}.c").read_text("utf-8")
+
+
+def run_program(text: str, way: str, includes: Path, out: Path, *flags: str, standard: str = "c99") -> None:
+    """Build a program in one of WAYS without a warning and run it: the test fails unless it ends with 0."""
+    compiler, how = WAYS[way]
+    (out / "program.c").write_text(text, encoding="utf-8")
+    words = (*STANDARDS[standard], *how, *WARNINGS, f"-I{includes}", *flags)
+    succeed([compiled(driver(compiler, standard), words, out / "program.c", out / "program")])
 
 
 def conformance_source(folder: Path, device: str) -> Path:

@@ -23,6 +23,7 @@ from support.c_device import (
     driver,
     program,
     rare_device,
+    run_program,
     write_c,
 )
 from support.described import kitchen_sink, made
@@ -33,7 +34,7 @@ from support.toolchains import compiled, run, succeed, tool
 from support.vector_file import counts_of, spoil
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable
 
     from _pytest.mark.structures import ParameterSet
     from fieldscribe.model import Device
@@ -66,16 +67,15 @@ def builds(standards: Iterable[str], sanitized: Iterable[str]) -> list[Build]:
     return [Build(*one, "-O0", one[1] in sanitized) for one in of_all]
 
 
-def optimized(devices: Iterable[str], *languages: Sequence[str]) -> list[ParameterSet]:
-    """Devices and builds: both compilers with and without floating point, for each list of standards.
+def optimized(devices: Iterable[str], *standards: str) -> list[ParameterSet]:
+    """Return each device built by both compilers with and without floating point.
 
-    The standards of a list take turns, so each of them is built in each of these ways for some device.
+    The standards take turns, so each of them is built in each of these ways for some device.
     """
     found = []
-    for (turn, device), standards in product(enumerate(devices), languages):
-        for way, (compiler, floats) in enumerate(product(COMPILERS, FLOATS)):
-            build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
-            found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
+    for (turn, device), (way, (compiler, floats)) in product(enumerate(devices), enumerate(product(COMPILERS, FLOATS))):
+        build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
+        found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
     return found
 
 
@@ -128,7 +128,7 @@ def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: P
 
 
 @pytest.mark.full(seconds=4)
-@pytest.mark.parametrize(("device", "build"), optimized(MADE, ("c99", "c11", "c17"), ("c++11", "c++17", "c++20")))
+@pytest.mark.parametrize(("device", "build"), optimized(MADE, *STANDARDS))
 def test_models_conform_optimized(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
 
@@ -152,7 +152,7 @@ def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> N
 
 
 @pytest.mark.full(seconds=10)
-@pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, ("c17", "c++20")))
+@pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, "c17", "c++20"))
 def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
     """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
     conforms(GENERATED, device, build, tmp_path)
@@ -313,21 +313,17 @@ def test_every_raw_survives_every_kind_of_rule(build: str, tmp_path: Path) -> No
 NOISE = program("modbus_noise")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
-def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path) -> None:
-    (tmp_path / "noise.c").write_text(NOISE, encoding="utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
-    succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
+@pytest.mark.parametrize("way", SANITIZING)
+def test_any_bytes_are_safe_to_parse(way: str, sample: Path, tmp_path: Path) -> None:
+    run_program(NOISE, way, sample / "c", tmp_path)
 
 
 ECHO = program("modbus_echo")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
-def test_an_echo_needs_no_room(compiler: str, sample: Path, tmp_path: Path) -> None:
-    (tmp_path / "echo.c").write_text(ECHO, encoding="utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
-    succeed([compiled(compiler, flags, tmp_path / "echo.c", tmp_path / "echo")])
+@pytest.mark.parametrize("way", SANITIZING)
+def test_an_echo_needs_no_room(way: str, sample: Path, tmp_path: Path) -> None:
+    run_program(ECHO, way, sample / "c", tmp_path)
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.resources import templates_dir
-from support.c_device import SANITIZERS, SANITIZING, WARNINGS, program
+from support.c_device import SANITIZERS, SANITIZING, WARNINGS, program, run_program
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -35,13 +35,9 @@ void ignore(uint16_t *raw)
 
 
 @pytest.mark.parametrize("language", ["c99", "c++17"])
-@pytest.mark.parametrize("compiler", SANITIZING)
-def test_the_cores(compiler: str, language: str, tmp_path: Path) -> None:
-    (tmp_path / "cores.c").write_text(CHECKS, encoding="utf-8")
-    standard = ("-std=c99",) if language == "c99" else ("-x", "c++", "-std=c++17")
-    driver = compiler if language == "c99" else {"gcc": "g++", "clang": "clang++"}[compiler]
-    flags = (*standard, "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(RUNTIME))
-    succeed([compiled(driver, flags, tmp_path / "cores.c", tmp_path / "cores")])
+@pytest.mark.parametrize("way", SANITIZING)
+def test_the_cores(way: str, language: str, tmp_path: Path) -> None:
+    run_program(CHECKS, way, RUNTIME, tmp_path, standard=language)
 
 
 def rules(rng: random.Random) -> Iterator[tuple[int, int, int, int, int]]:

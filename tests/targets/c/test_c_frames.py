@@ -11,7 +11,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
 from support import wrong_bytes
-from support.c_device import SANITIZERS, SANITIZING, STANDARDS, WARNINGS, driver, program, write_headers
+from support.c_device import SANITIZING, STANDARDS, WARNINGS, driver, program, run_program, write_headers
 from support.described import made, shipped
 from support.models import changed
 from support.toolchains import compiled, run, succeed, tool
@@ -22,17 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
 
 FAMILIES = ("can", "uss")
-KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss")
 COMPILERS = ("gcc", "clang")
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The headers of a kitchen of each family, side by side."""
-    out = tmp_path_factory.mktemp("kitchens")
-    for name in KITCHENS:
-        write_headers(made(name), out)
-    return out / "c"
 
 
 CAN_DIALOGUE = program("can_dialogue")
@@ -65,12 +55,10 @@ USES = {
 
 @pytest.mark.full(seconds=0.5)
 @pytest.mark.parametrize("standard", ["c99", "c++11"])
-@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("way", COMPILERS)
 @pytest.mark.parametrize("use", USES)
-def test_a_dialogue(use: str, compiler: str, standard: str, folder: Path, tmp_path: Path) -> None:
-    (tmp_path / "use.c").write_text(USES[use], encoding="utf-8")
-    flags = (*STANDARDS[standard], "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(driver(compiler, standard), flags, tmp_path / "use.c", tmp_path / "use")])
+def test_a_dialogue(use: str, way: str, standard: str, folder: Path, tmp_path: Path) -> None:
+    run_program(USES[use], way, folder, tmp_path, standard=standard)
 
 
 DRAW = """
@@ -87,12 +75,10 @@ CAN_NOISE = program("can_noise")
 USS_NOISE = program("uss_noise")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("noise", [CAN_NOISE, USS_NOISE], ids=FAMILIES)
-def test_any_bytes_are_safe_to_parse(noise: str, compiler: str, folder: Path, tmp_path: Path) -> None:
-    (tmp_path / "noise.c").write_text(noise.replace("@DRAW@", DRAW), encoding="utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
+def test_any_bytes_are_safe_to_parse(noise: str, way: str, folder: Path, tmp_path: Path) -> None:
+    run_program(noise.replace("@DRAW@", DRAW), way, folder, tmp_path)
 
 
 # what no generated table holds, and no request that can be sent
@@ -103,14 +89,12 @@ STRANGE = {
 }
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("family", sorted(STRANGE))
-def test_strange_tables_and_requests_are_safe(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
+def test_strange_tables_and_requests_are_safe(family: str, way: str, folder: Path, tmp_path: Path) -> None:
     """Numbers that shift too far, frames of no words, links of one word, echoes of no value."""
-    (tmp_path / "strange.c").write_text(STRANGE[family].replace("\\\\", "\\"), "utf-8")
     runtime = templates_dir() / "c" / "runtime"
-    flags = ("-std=c99", "-g", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}", f"-I{runtime}")
-    succeed([compiled(compiler, flags, tmp_path / "strange.c", tmp_path / "strange")])
+    run_program(STRANGE[family].replace("\\\\", "\\"), way, folder, tmp_path, f"-I{runtime}")
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -155,13 +139,11 @@ SERIAL = program("serial")
 SERIAL_USS = program("serial_uss")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("use", ["modbus", "uss"])
-def test_a_receiver_knows_how_long_an_answer_is(use: str, compiler: str, folder: Path, tmp_path: Path) -> None:
+def test_a_receiver_knows_how_long_an_answer_is(use: str, way: str, folder: Path, tmp_path: Path) -> None:
     """It takes the bytes of one answer from a stream, and not one more."""
-    (tmp_path / "serial.c").write_text(SERIAL if use == "modbus" else SERIAL_USS, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "serial.c", tmp_path / "serial")])
+    run_program(SERIAL if use == "modbus" else SERIAL_USS, way, folder, tmp_path)
 
 
 # words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
@@ -172,9 +154,9 @@ TOO_FEW = {
 }
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("family", sorted(TOO_FEW))
-def test_too_few_words_are_refused(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
+def test_too_few_words_are_refused(family: str, way: str, folder: Path, tmp_path: Path) -> None:
     device = "kitchen_sink" if family == "modbus" else f"kitchen_{family}"
     text = f"""
 #include <stdlib.h>
@@ -192,9 +174,7 @@ int main(void)
     return result;
 }}
 """
-    (tmp_path / "few.c").write_text(text, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "few.c", tmp_path / "few")])
+    run_program(text, way, folder, tmp_path)
 
 
 def test_a_point_of_two_words_does_not_fit_into_one(folder: Path, tmp_path: Path) -> None:
@@ -219,11 +199,9 @@ uint16_t use(uint32_t raw)
 BLOCK = program("modbus_block")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
-def test_a_point_comes_out_of_a_block(compiler: str, folder: Path, tmp_path: Path) -> None:
-    (tmp_path / "block.c").write_text(BLOCK, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "block.c", tmp_path / "block")])
+@pytest.mark.parametrize("way", SANITIZING)
+def test_a_point_comes_out_of_a_block(way: str, folder: Path, tmp_path: Path) -> None:
+    run_program(BLOCK, way, folder, tmp_path)
 
 
 @pytest.mark.parametrize("language", ["c", "c++"])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.resources import templates_dir
-from support.c_device import SANITIZERS, SANITIZING, WARNINGS, program, write_headers
+from support.c_device import SANITIZING, WARNINGS, program, run_program, write_headers
 from support.described import made, shipped
 from support.toolchains import compiled, run, succeed, tool
 
@@ -18,15 +18,6 @@ if TYPE_CHECKING:
 KITCHENS = {"modbus": "kitchen_sink", "can": "kitchen_can", "uss": "kitchen_uss"}
 DEVICES = {"modbus": "hitachi_l200", "can": "woodward_mpu2s", "uss": "siemens_mm4"}
 """The devices that the recipes name."""
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The headers of a kitchen of each family, side by side."""
-    out = tmp_path_factory.mktemp("kitchens")
-    for name in KITCHENS.values():
-        write_headers(made(name), out)
-    return out / "c"
 
 
 def recipe(family: str) -> str:
@@ -47,20 +38,18 @@ RECIPES = {
 }
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("family", sorted(RECIPES))
-def test_the_recipe_of_a_runtime_works(family: str, compiler: str, tmp_path: Path) -> None:
+def test_the_recipe_of_a_runtime_works(family: str, way: str, tmp_path: Path) -> None:
     """As it stands there, also with noise before the request and the answer; its names are each of one thing."""
     name = DEVICES[family]
     device = shipped(name)
     write_headers(device, tmp_path)
     program = ("" if family == "can" else SERIAL_LINE) + RECIPES[family].replace("@RECIPE@", recipe(family))
     head = f'#include <stdlib.h>\n#define FIELDSCRIBE_IMPLEMENTATION\n#include "{name}_{family}.h"\n'
-    (tmp_path / "recipe.c").write_text(head + program, "utf-8")
     # statuses on the way are given, and not all of them looked at
     allowed = ("-Wno-unused-but-set-variable", "-Wno-float-equal")
-    flags = ("-std=c99", "-O1", *WARNINGS, *allowed, *SANITIZERS[compiler], f"-I{tmp_path / 'c'}")
-    succeed([compiled(compiler, flags, tmp_path / "recipe.c", tmp_path / "recipe")])
+    run_program(head + program, way, tmp_path / "c", tmp_path, *allowed)
 
 
 @pytest.mark.parametrize("family", ["modbus", "uss"])
@@ -103,26 +92,20 @@ static size_t whole(const fieldscribe_uss_link *link, const uint8_t *bytes)
 }
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("family", sorted(TOLD))
-def test_an_answer_of_another_length_is_received_whole(
-    family: str, compiler: str, folder: Path, tmp_path: Path
-) -> None:
+def test_an_answer_of_another_length_is_received_whole(family: str, way: str, folder: Path, tmp_path: Path) -> None:
     """What it says of its length counts: it is refused for that, without waiting for bytes that never come."""
     head = f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{KITCHENS[family]}_{family}.h"\n'
-    (tmp_path / "told.c").write_text(f"{head}{WHOLE[family]}int main(void)\n{{{TOLD[family]}", "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "told.c", tmp_path / "told")])
+    run_program(f"{head}{WHOLE[family]}int main(void)\n{{{TOLD[family]}", way, folder, tmp_path)
 
 
 GONE = program("unneeded_words")
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
-def test_an_answer_does_not_need_the_words_that_were_written(compiler: str, folder: Path, tmp_path: Path) -> None:
-    (tmp_path / "gone.c").write_text(GONE, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "gone.c", tmp_path / "gone")])
+@pytest.mark.parametrize("way", SANITIZING)
+def test_an_answer_does_not_need_the_words_that_were_written(way: str, folder: Path, tmp_path: Path) -> None:
+    run_program(GONE, way, folder, tmp_path)
 
 
 NOTHING = {
@@ -132,16 +115,12 @@ NOTHING = {
 }
 
 
-@pytest.mark.parametrize("compiler", SANITIZING)
+@pytest.mark.parametrize("way", SANITIZING)
 @pytest.mark.parametrize("family", sorted(NOTHING))
-def test_where_there_is_nothing_nothing_is_read_or_stored(
-    family: str, compiler: str, folder: Path, tmp_path: Path
-) -> None:
+def test_where_there_is_nothing_nothing_is_read_or_stored(family: str, way: str, folder: Path, tmp_path: Path) -> None:
     """NULL with a count beside it is refused like too few."""
     head = f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{KITCHENS[family]}_{family}.h"\n'
-    (tmp_path / "nothing.c").write_text(f"{head}int main(void)\n{{{NOTHING[family]}}}\n", "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
-    succeed([compiled(compiler, flags, tmp_path / "nothing.c", tmp_path / "nothing")])
+    run_program(f"{head}int main(void)\n{{{NOTHING[family]}}}\n", way, folder, tmp_path)
 
 
 @pytest.mark.parametrize("family", sorted(KITCHENS))
@@ -179,9 +158,7 @@ ASK = program("ask")
 @pytest.mark.full(seconds=2)
 def test_a_line_is_asked(folder: Path, tmp_path: Path) -> None:
     """Over TCP an answer to an earlier request is dropped; nobody is waited for who does not answer."""
-    (tmp_path / "ask.c").write_text(ASK, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "ask.c", tmp_path / "ask")])
+    run_program(ASK, "gcc", folder, tmp_path)
 
 
 BABBLE = program("babble")
@@ -190,6 +167,4 @@ BABBLE = program("babble")
 @pytest.mark.full(seconds=2)
 def test_a_line_that_babbles_comes_to_an_end(folder: Path, tmp_path: Path) -> None:
     """And bytes that are no answer are told from silence."""
-    (tmp_path / "babble.c").write_text(BABBLE, "utf-8")
-    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
-    succeed([compiled("gcc", flags, tmp_path / "babble.c", tmp_path / "babble")])
+    run_program(BABBLE, "gcc", folder, tmp_path)

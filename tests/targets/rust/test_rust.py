@@ -194,6 +194,7 @@ def test_conforms(workspace: Path, device: str) -> None:
     assert {kind: int(n) for kind, n in passed.items()} == {kind: n for kind, n in counts.items() if n}
 
 
+@pytest.mark.full(seconds=2)
 def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
     changed = text.replace("\naddress\tcoil\t0\t", "\naddress\tcoil\t1\t", 1)
@@ -205,6 +206,7 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
 
 
+@pytest.mark.full(seconds=1)
 def test_vectors_of_another_description_are_refused(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -216,6 +218,7 @@ def test_vectors_of_another_description_are_refused(
     assert "is of another description" in done.stderr
 
 
+@pytest.mark.full(seconds=1)
 def test_vectors_that_are_not_there_say_what_to_set(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
