@@ -23,7 +23,8 @@ ReadLines = Callable[[str], Sequence[str] | None]
 BEFORE, AFTER = 40, 60
 """How many characters of a long line are shown before and after the place of a finding."""
 
-_BREAKS = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
+LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
+"""What YAML counts as the end of a line."""
 _HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
@@ -66,8 +67,8 @@ def summary(report: Report) -> str:
 
 
 def split_lines(text: str) -> list[str]:
-    """Return the lines of a text as YAML counts them."""
-    return _BREAKS.split(text)
+    """Return the lines of a text."""
+    return LINE_BREAK.split(text)
 
 
 def place_text(span: Span) -> str:

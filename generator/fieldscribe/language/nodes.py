@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from fieldscribe.diagnostics import Span
 
 if TYPE_CHECKING:
-    from fieldscribe.language.source import Place, SourceFile
+    from fieldscribe.language.positions import Place
+    from fieldscribe.language.source import SourceFile
 
 
 class Map(dict[str, Any]):

@@ -6,100 +6,25 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from errno import EFBIG
-from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import yaml
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Span
+from fieldscribe.report import LINE_BREAK
 from fieldscribe.safe_files import UnfitFileError, read_regular, shown_path
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from fieldscribe.diagnostics import Report
+    from fieldscribe.language.positions import Place, Positions
     from fieldscribe.safe_files import Content, Inputs
-
-Place = tuple[int, int]
-"""Line and column, counted from 1."""
-KeyPlaces = tuple[int, int, int, int]
-"""Line and column of a key, then of its value."""
-
-
-class Positions(NamedTuple):
-    """The places in a text: of each mapping and list, of the keys in a mapping, and of the items in a list.
-
-    All three are by the offset where the mapping or list starts.
-    """
-
-    starts: dict[int, Place]
-    keys: dict[int, dict[str, KeyPlaces]]
-    items: dict[int, list[Place]]
-
-
-def find_positions(text: str) -> Positions:
-    """Return the places in a text, as far as it is YAML."""
-    result = Positions({}, {}, {})
-    # The mappings and lists that are open: the event at the start of each, and those of the values inside.
-    opened: list[tuple[Any, list[Any]]] = []
-    for event in _events(text):
-        if isinstance(event, yaml.CollectionEndEvent):
-            _add(result, *opened.pop())
-        elif isinstance(event, yaml.NodeEvent):
-            if opened:
-                opened[-1][1].append(event)
-            if isinstance(event, yaml.CollectionStartEvent):
-                opened.append((event, []))
-    while opened:
-        _add(result, *opened.pop())
-    return result
-
-
-def _add(result: Positions, start: Any, inside: list[Any]) -> None:
-    """Note where a mapping or list stands, and what is inside; of two equal keys the first counts."""
-    offset = start.start_mark.index
-    result.starts[offset] = _place(start)
-    if isinstance(start, yaml.SequenceStartEvent):
-        result.items[offset] = [_content_place(item) for item in inside]
-        return
-    keys = result.keys[offset] = {}
-    for key, value in zip(inside[::2], inside[1::2], strict=False):
-        keys.setdefault(getattr(key, "value", ""), (*_place(key), *_content_place(value)))
-
-
-def _events(text: str) -> Iterator[Any]:
-    """Yield the parser's events up to the first error: the reader has reported that one."""
-    loader = yaml.CSafeLoader(text)
-    try:
-        while (event := loader.get_event()) is not None:
-            yield event
-    except yaml.YAMLError:
-        return
-
-
-def _content_place(event: Any) -> Place:
-    """Return where a value starts, behind the quote if it has one: columns in formulas count from there."""
-    line, column = _place(event)
-    quoted = isinstance(event, yaml.ScalarEvent) and event.style in ("'", '"')
-    return line, column + quoted
-
-
-def _place(event: Any) -> Place:
-    return event.start_mark.line + 1, event.start_mark.column + 1
-
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
 
-_LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
-"""What libyaml counts as the end of a line."""
-
-
-@cache
-def _forbidden() -> re.Pattern[str]:
-    """Return the pattern of the characters that YAML forbids; few files make us compile it."""
-    return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
+_FORBIDDEN = "[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]"
+"""The characters that YAML forbids; only a file with strange ones needs the pattern."""
 
 
 @dataclass(eq=False)
@@ -120,11 +45,13 @@ class SourceFile:
     @cached_property
     def positions(self) -> Positions:
         """Where its keys, values and items stand; found when a finding first asks."""
+        from fieldscribe.language.positions import find_positions
+
         return find_positions(self.text)
 
     @cached_property
     def _line_starts(self) -> list[int]:
-        return [0, *(line_break.end() for line_break in _LINE_BREAK.finditer(self.text))]
+        return [0, *(line_break.end() for line_break in LINE_BREAK.finditer(self.text))]
 
     def offset(self, place: Place) -> int:
         """Return how many characters stand before a line and column."""
@@ -181,7 +108,7 @@ def decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         hint = "a description starts with `fieldscribe: 1` and `device: …`"
         report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
-    strange = None if text.replace("\n", "").isprintable() else _forbidden().search(text)
+    strange = None if text.replace("\n", "").isprintable() else re.search(_FORBIDDEN, text)
     if strange is None:
         return source
     message = f"the control character U+{ord(strange[0]):04X} is not allowed in YAML"
