@@ -37,6 +37,12 @@ def line(text: str) -> str:
     return _SPACES.sub(" ", text).strip()
 
 
+def shortened(text: str) -> str:
+    """Return what somebody typed or wrote as messages repeat it: clean, on one line, at most 60 characters."""
+    cleaned = line(text[:200])
+    return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."
+
+
 @lru_cache(maxsize=4096)
 def c_comment(text: str) -> str:
     """Return text for a C block comment: without an end or start of a comment, trigraphs or line splices."""

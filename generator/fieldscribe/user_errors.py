@@ -49,9 +49,3 @@ class RefusedError(Exception):
 def did_you_mean(names: list[str]) -> str:
     """Return a hint that offers near names; empty if there are none."""
     return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
-
-
-def quoted(text: str) -> str:
-    """Return what a user typed as messages repeat it: clean and short."""
-    cleaned = line(text[:200])
-    return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."

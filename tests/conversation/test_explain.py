@@ -10,7 +10,7 @@ from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.pasted_numbers import number_of
-from fieldscribe.user_errors import quoted
+from fieldscribe.text import shortened
 from support.models import changed, named, point, sample_device
 
 DEVICE = sample_device()
@@ -107,7 +107,7 @@ def test_what_is_near(what: str, names: list[str]) -> None:
     [("a" * 60, "a" * 60), ("a" * 61, "a" * 57 + "..."), ("a\x1b[31m\nb", "a[31m b"), ("a" * 9999, "a" * 57 + "...")],
 )
 def test_what_was_typed_is_repeated_clean_and_short(typed: str, shown: str) -> None:
-    assert quoted(typed) == shown
+    assert shortened(typed) == shown
 
 
 @pytest.mark.parametrize(

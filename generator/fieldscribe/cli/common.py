@@ -16,7 +16,8 @@ from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
 from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.safe_files import read_regular
-from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -58,7 +59,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Print that there is no such command, with near names; return the exit code."""
-    return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
+    return usage_error(f"there is no command `{shortened(name)}`", _near(name, list(known)))
 
 
 def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), remark: str = "") -> None:

@@ -12,7 +12,8 @@ from fieldscribe.conversation.lookup import find, near
 from fieldscribe.conversation.selection import absence
 from fieldscribe.language.units import unit_hint
 from fieldscribe.pasted_numbers import number_of
-from fieldscribe.user_errors import did_you_mean, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import did_you_mean
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def run(arguments: Namespace) -> int:
         print_json({"device": device.id, "what": what, "found": data})
         return FINE
     if len(found) > 1:
-        print_lines([[("strong", f"`{quoted(what)}` can mean {len(found)} things.")], []])
+        print_lines([[("strong", f"`{shortened(what)}` can mean {len(found)} things.")], []])
     for place, (readings, explanation) in enumerate(found):
         if place:
             print_lines([[]])
@@ -95,8 +96,8 @@ def _points(device: Device, matches: list[Match], *, as_documented: bool) -> lis
 def _nothing_found(device: Device, what: str) -> StopError:
     kind, _, rest = what.rpartition(":")
     if kind.strip().lower() == "unit":
-        return StopError(f"there is no unit `{quoted(rest.strip())}`", unit_hint(rest.strip(), ()))
+        return StopError(f"there is no unit `{shortened(rest.strip())}`", unit_hint(rest.strip(), ()))
     hint = did_you_mean(near(device, what))
     if number_of(rest.strip()) is not None:
         hint = hint.replace("did you mean", "described near it:").rstrip("?")
-    return StopError(f"{device.id} has no code, name or address `{quoted(what)}`", hint)
+    return StopError(f"{device.id} has no code, name or address `{shortened(what)}`", hint)

@@ -20,7 +20,8 @@ from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import place_text, visible
 from fieldscribe.search.entries import entries_of
 from fieldscribe.search.matching import near_words, search
-from fieldscribe.user_errors import did_you_mean, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import did_you_mean
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
@@ -73,7 +74,7 @@ def run(arguments: Namespace) -> int:
     elif hits:
         _print(hits, arguments.most)
     else:
-        usage_error(f"nothing has `{quoted(' '.join(words))}`", did_you_mean(near))
+        usage_error(f"nothing has `{shortened(' '.join(words))}`", did_you_mean(near))
     return FINE if hits else FINDINGS
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import add_format, print_json, usage_error
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.language.units import shipped, shipped_unit, unit_hint
-from fieldscribe.user_errors import quoted
+from fieldscribe.text import shortened
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -42,7 +42,7 @@ def run(arguments: Namespace) -> int:
         chosen |= {known.unit.symbol: known for known in found}
         if not found:
             code = FINDINGS
-            usage_error(f"no unit, name or quantity is `{quoted(word)}`", unit_hint(word, ()))
+            usage_error(f"no unit, name or quantity is `{shortened(word)}`", unit_hint(word, ()))
     if arguments.format == "json":
         print_json({"units": [_as_data(known) for known in chosen.values()]})
     else:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.conditions import absent
 from fieldscribe.conversation.lookup import find, near
-from fieldscribe.text import line
-from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
+from fieldscribe.text import line, shortened
+from fieldscribe.user_errors import UnclearError, did_you_mean
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
@@ -62,11 +62,11 @@ def choose_point(device: Device, text: str, *, index: int | None = None, any_var
             str(match.point.index) for match in find(device, text) if match.point.index is not None
         )
         raise UnclearError(
-            f"`{quoted(text)}` has no element {index}", f"it has {', '.join(elements)}" if elements else ""
+            f"`{shortened(text)}` has no element {index}", f"it has {', '.join(elements)}" if elements else ""
         )
     points = present(device, {match.point.item: match.point for match in matches}.values())
     if not points:
-        raise UnclearError(f"{device.id} has no point `{quoted(text)}`", did_you_mean(near(device, text)))
+        raise UnclearError(f"{device.id} has no point `{shortened(text)}`", did_you_mean(near(device, text)))
     if len(points) == 1 or (any_variant and all(same_meaning(point, points[0]) for point in points)):
         return points[0]
     raise _several(text, points, matches)
@@ -76,15 +76,16 @@ def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearErr
     """Return the error for a text that names several points: variants, elements of an array, or different points."""
     if len({point.name for point in points}) == 1:
         variants = [f"--variant {point.variant}" for point in points if point.variant]
-        return UnclearError(f"`{quoted(text)}` differs between variants", f"give {' or '.join(variants)}")
+        return UnclearError(f"`{shortened(text)}` differs between variants", f"give {' or '.join(variants)}")
     if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
         in_one_set = len({point.index for point in points}) == len(points)
         names = (f"{line(point.code or text)}[{point.index}]" if in_one_set else point.item for point in points[:8])
         choices = " or ".join(f"`{name}`" for name in names)
-        return UnclearError(f"`{quoted(text)}` has {len(points)} elements", f"write {choices}")
+        return UnclearError(f"`{shortened(text)}` has {len(points)} elements", f"write {choices}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
     return UnclearError(
-        f"`{quoted(text)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
+        f"`{shortened(text)}` means several points: {readings}",
+        "name one, or force one reading: wire:, modicon:, code:",
     )
 
 
@@ -102,13 +103,13 @@ def same_meaning(first: Point, second: Point) -> bool:
 def _variant(device: Device, text: str) -> tuple[str, str]:
     axis, equals, value = text.partition("=")
     if not equals:
-        raise UnclearError(f"`{quoted(text)}` is no variant", f"write --variant axis=value; {_axes(device)}")
+        raise UnclearError(f"`{shortened(text)}` is no variant", f"write --variant axis=value; {_axes(device)}")
     if axis not in device.variants:
-        raise UnclearError(f"{device.id} has no variant axis `{quoted(axis)}`", _axes(device))
+        raise UnclearError(f"{device.id} has no variant axis `{shortened(axis)}`", _axes(device))
     values = device.variants[axis]
     if value not in values:
         near_values = get_close_matches(value, values, 1, 0.4) or list(values)
-        raise UnclearError(f"`{axis}` has no value `{quoted(value)}`", did_you_mean(near_values))
+        raise UnclearError(f"`{axis}` has no value `{shortened(value)}`", did_you_mean(near_values))
     return axis, value
 
 

@@ -16,8 +16,8 @@ from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
-from fieldscribe.text import line
-from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean, quoted
+from fieldscribe.text import line, shortened
+from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
@@ -58,12 +58,12 @@ def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
         names = [name for name, _ in _names(point)]
         if names and not text[:1].isdigit():
             known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
-            raise _unknown(f"{label(point)} has no name `{quoted(text)}`", text.casefold(), names, known) from error
+            raise _unknown(f"{label(point)} has no name `{shortened(text)}`", text.casefold(), names, known) from error
         raise UnclearError(error.message, error.hint) from error
     if point.form not in ("enum", "flags", "bit", "digits"):
         return Typed(number, 0)
     if number.denominator != 1:
-        raise UnclearError(f"`{quoted(text)}` is not a whole number", f"{label(point)} takes names or raw numbers")
+        raise UnclearError(f"`{shortened(text)}` is not a whole number", f"{label(point)} takes names or raw numbers")
     return Typed(None, int(number))
 
 
@@ -88,7 +88,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]
     for pair in pairs:
         name, equals, text = pair.partition("=")
         if not equals or not text.strip():
-            raise UnclearError(f"`{quoted(pair)}` gives no value", "write --with POINT=VALUE")
+            raise UnclearError(f"`{shortened(pair)}` gives no value", "write --with POINT=VALUE")
         name = name.strip()
         point = choose_point(device, name.removesuffix(".raw"), any_variant=True)
         raw = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
@@ -116,7 +116,7 @@ def _whole(text: str) -> int:
     except NumberError as error:
         raise UnclearError(error.message, error.hint) from error
     if number.denominator != 1:
-        raise UnclearError(f"`{quoted(text)}` is not a whole number", "a raw number has no decimals")
+        raise UnclearError(f"`{shortened(text)}` is not a whole number", "a raw number has no decimals")
     return int(number)
 
 
@@ -134,7 +134,7 @@ def _number(point: Point, text: str) -> Fraction:
     if factor is None:
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
         raise UnclearError(
-            f"{label(point)} {has}, not in `{quoted(measure[2])}`", "give the number in that unit, or alone"
+            f"{label(point)} {has}, not in `{shortened(measure[2])}`", "give the number in that unit, or alone"
         )
     return number * factor
 
@@ -194,7 +194,7 @@ def _digits(point: Point, text: str) -> int | None:
         digit = next(named, None)
         digit = _whole(part) if digit is None else digit
         if not 0 <= digit <= 9:
-            raise UnclearError(f"`{quoted(part)}` is no digit", "each is one of 0 to 9, or a name from the list")
+            raise UnclearError(f"`{shortened(part)}` is no digit", "each is one of 0 to 9, or a name from the list")
         raw = 10 * raw + digit
     return raw
 
@@ -218,7 +218,7 @@ def _flag(point: Point, part: str) -> tuple[Flag, int]:
     flag = next((flag for flag in point.flags if flag.name == name), None)
     if flag is None:
         names = [flag.name for flag in point.flags]
-        raise _unknown(f"{label(point)} has no flag `{quoted(name)}`", name, names, names)
+        raise _unknown(f"{label(point)} has no flag `{shortened(name)}`", name, names, names)
     if not equals:
         if flag.width > 1:
             raise UnclearError(f"`{flag.name}` has {flag.width} bits", f"write {flag.name}=NUMBER or {flag.name}=NAME")

@@ -12,6 +12,7 @@ from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import key_suggestion, suggest_bits, suggest_language
+from fieldscribe.text import shortened
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -29,7 +30,7 @@ _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "
 
 def quoted(text: str) -> str:
     """Return a text from a description in backquotes, shortened."""
-    return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
+    return f"`{shortened(text)}`"
 
 
 def value_text(value: Any) -> str:

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.text import line
+from fieldscribe.text import line, shortened
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,10 +22,8 @@ LONGEST = 64
 MOST_EXPONENT = 400
 """The largest power of ten that may be written."""
 
-_QUOTED = 40  # how many characters of a wrong text a message repeats
-_HEX = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH])")
+_OTHER = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH]|0b([01]+))")
 _HEX_DIGITS = re.compile(r"[0-9A-Fa-f]{1,16}[hH]")
-_BINARY = re.compile(r"([+-]?)0b([01]+)")
 _DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
 
 
@@ -46,12 +44,10 @@ def parse_number(text: str) -> Fraction:
         raise NumberError(f"a number has at most {LONGEST} characters", "write it with an exponent, as in 1e30")
     if match := _DECIMAL.fullmatch(text):
         return _decimal(text, match)
-    if match := _HEX.fullmatch(text):
-        magnitude = int(match[2] or match[3] or match[4], 16)
-        return Fraction(-magnitude if match[1] == "-" else magnitude)
-    if match := _BINARY.fullmatch(text):
-        magnitude = int(match[2], 2)
-        return Fraction(-magnitude if match[1] == "-" else magnitude)
+    if match := _OTHER.fullmatch(text):
+        sign, *hexadecimal, binary = match.groups()
+        magnitude = int(binary, 2) if binary else int("".join(filter(None, hexadecimal)), 16)
+        return Fraction(-magnitude if sign == "-" else magnitude)
     raise _diagnosis(text)
 
 
@@ -60,7 +56,7 @@ def parse_integer(text: str) -> int:
     """Return the whole number of a text; a decimal point is refused, even before zeros. Raises NumberError."""
     number = parse_number(text)
     if number.denominator != 1 or "." in text:
-        raise NumberError(f"`{shorten(text)}` is not a whole number", "write a whole number, without a decimal point")
+        raise NumberError(f"`{shortened(text)}` is not a whole number", "write a whole number, without a decimal point")
     return number.numerator
 
 
@@ -78,12 +74,6 @@ def is_whole_number(text: str) -> bool:
     except NumberError:
         return False
     return True
-
-
-def shorten(text: str) -> str:
-    """Return a text from a description for messages: clean, short, and on one line."""
-    cleaned = line(text[:200])
-    return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
 
 
 def _decimal(text: str, match: re.Match[str]) -> Fraction:
@@ -105,16 +95,8 @@ def _decimal(text: str, match: re.Match[str]) -> Fraction:
     return Fraction(digits * 10**power) if power >= 0 else Fraction(digits, 10**-power)
 
 
-def _comma_hint(match: re.Match[str]) -> str:
-    return f"write the decimal point: {match[0].replace(',', '.')}; a list has a blank behind each comma"
-
-
 def _joined_hint(match: re.Match[str]) -> str:
     return f"write the digits together: {re.sub('[^0-9+-]', '', match[0])}"
-
-
-def _hex_hint(match: re.Match[str]) -> str:
-    return f"write {match[0]}h or {match[1]}0x{match[2]} for hexadecimal; a unit is not part of a number"
 
 
 def _other_hex_hint(match: re.Match[str]) -> str:
@@ -128,19 +110,19 @@ def _modicon_hint(match: re.Match[str]) -> str:
     return f"on the wire it is {number}, in the space `{space}`; the printed number goes under `printed`"
 
 
-def _always(hint: str) -> Callable[[re.Match[str]], str]:
-    return lambda _: hint
-
-
-_REFUSED: tuple[tuple[str, str, Callable[[re.Match[str]], str]], ...] = (
-    (r"", "a number is missing", _always("write a number, for example 4136, 0.1, 1028h or 0b0101")),
-    (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _always("write -")),
+_REFUSED: tuple[tuple[str, str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"", "a number is missing", "write a number, for example 4136, 0.1, 1028h or 0b0101"),
+    (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", "write -"),
     (r"[+-]?[0-9]{1,3}(?:,[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
-    (r"[+-]?[0-9]+,[0-9]+", "a decimal comma, or a separator of thousands", _comma_hint),
+    (
+        r"([+-]?[0-9]+),([0-9]+)",
+        "a decimal comma, or a separator of thousands",
+        r"write the decimal point: \1.\2; a list has a blank behind each comma",
+    ),
     (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
     (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
-    (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _always("as in 0b0101; hexadecimal ends in h")),
-    (r"[+-]?0B[01]*", "binary is marked with a small b", _always("write 0b0101 for binary, 0B01h for hexadecimal")),
+    (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", "as in 0b0101; hexadecimal ends in h"),
+    (r"[+-]?0B[01]*", "binary is marked with a small b", "write 0b0101 for binary, 0B01h for hexadecimal"),
     (r"([134])[xX]([0-9]{4,5})", "a number for people, counted from 1", _modicon_hint),
     (
         r"(?:\$|#|&[hH]|16#|[xX]')\s*([0-9A-Fa-f]+)'?|([0-9A-Fa-f]+)\s*(?:hex|HEX|Hex)",
@@ -150,21 +132,25 @@ _REFUSED: tuple[tuple[str, str, Callable[[re.Match[str]], str]], ...] = (
     (
         r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
         "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",
-        _always("write 1028h, 0x1028 or H'1028"),
+        "write 1028h, 0x1028 or H'1028",
     ),
-    (r"([+-]?)([0-9A-Fa-f]+)", "hexadecimal digits without a marker", _hex_hint),
-    (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _always("write 0.5")),
-    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _always("write 5 or 5.0")),
-    (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _always("write the sign directly before it")),
+    (
+        r"([+-]?)([0-9A-Fa-f]+)",
+        "hexadecimal digits without a marker",
+        r"write \g<0>h or \g<1>0x\2 for hexadecimal; a unit is not part of a number",
+    ),
+    (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", "write 0.5"),
+    (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", "write 5 or 5.0"),
+    (r"[+-]\s+[0-9].*", "a blank stands between sign and number", "write the sign directly before it"),
     (
         r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",
         "a blank stands inside the number",
-        _always("write it without blanks; a unit is not part of a number"),
+        "write it without blanks; a unit is not part of a number",
     ),
     (
         r"[+-]?[0-9]+(?:\.[0-9]+)?\s*(?:[^\W\d_][^\d]*|[%\u00b0\u2030\u00b5\u2126].*)",
         "a unit is not part of a number",
-        _always("write the number alone; the unit has its own key"),
+        "write the number alone; the unit has its own key",
     ),
 )
 
@@ -173,5 +159,6 @@ def _diagnosis(text: str) -> NumberError:
     """Return the error for a text that is no number, from the first known mistake that fits."""
     for pattern, message, hint in _REFUSED:
         if match := re.fullmatch(pattern, text, re.DOTALL):
-            return NumberError(f"`{shorten(text)}`: {message}" if text else message, line(hint(match)))
-    return NumberError(f"`{shorten(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")
+            advice = hint(match) if callable(hint) else match.expand(hint)
+            return NumberError(f"`{shortened(text)}`: {message}" if text else message, line(advice))
+    return NumberError(f"`{shortened(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")

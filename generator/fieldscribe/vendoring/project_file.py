@@ -19,7 +19,8 @@ from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
 from fieldscribe.safe_files import read_regular, shown_path
-from fieldscribe.user_errors import did_you_mean, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import did_you_mean
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def read_project(file: Path, report: Report, inputs: Inputs | None = None) -> li
         report.error("bad-project", "lists or tables are nested too deeply", Span(shown_path(file), 1, 1))
         return []
     except ValueError as error:  # of tomllib, or of a number or a date in it
-        report.error("bad-project", f"this is no TOML: {quoted(_message(error))}", _span_of(error, file, text))
+        report.error("bad-project", f"this is no TOML: {shortened(_message(error))}", _span_of(error, file, text))
         return []
     return list(_Reader(file, text, report).devices(document))
 
@@ -124,18 +125,18 @@ class _Reader:
             span = self._span(number, key)
             if key not in known:
                 hint = did_you_mean(get_close_matches(key, sorted(known), 1)) or f"there are {', '.join(sorted(known))}"
-                self._report.error("bad-project", f"there is no key `{quoted(key)}` here", span, hint)
+                self._report.error("bad-project", f"there is no key `{shortened(key)}` here", span, hint)
             elif not _fits(key, value):
                 self._report.error("bad-project", f"`{key}` {_kind(key)}", span, f"write `{key} = {_EXAMPLES[key]}`")
             elif key == "targets" and (unknown := [name for name in value if name not in LANGUAGES]):
-                message = f"`{quoted(unknown[0])}` is not a language for code"
+                message = f"`{shortened(unknown[0])}` is not a language for code"
                 self._report.error("bad-project", message, span, f"there are {', '.join(LANGUAGES)}")
 
     def _inside(self, path: str, span: Span) -> Path:
         """Return the full path; one that leads out of the file's folder is an error."""
         root = os.path.realpath(self._file.parent)
         if os.path.commonpath([root, os.path.realpath(os.path.join(root, path))]) != root:
-            message = f"`{quoted(path)}` leads out of the folder of {self._file.name}"
+            message = f"`{shortened(path)}` leads out of the folder of {self._file.name}"
             self._report.error("bad-project", message, span)
         return self._file.parent / path
 

@@ -12,7 +12,8 @@ from fieldscribe.conversation.lookup import find, near
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
 from fieldscribe.model import Interval
-from fieldscribe.user_errors import UnclearError, did_you_mean, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -52,7 +53,7 @@ def address_only_messages(device: Device, words: Iterable[str]) -> Iterator[str]
     for word in words:
         reason = next((point.reason for point in _named(device, word) if point.raw_only), None)
         if reason is not None:
-            yield f"`{quoted(word)}` comes with its address alone, and no conversion: {reason}"
+            yield f"`{shortened(word)}` comes with its address alone, and no conversion: {reason}"
 
 
 def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
@@ -61,7 +62,7 @@ def _all_of(unclear: Mapping[str, UnclearError]) -> UnclearError:
         return next(iter(unclear.values()))
     shown = list(unclear.items())[:_MOST_NAMED]
     more = [f"and {len(unclear) - _MOST_NAMED} more"] if len(unclear) > _MOST_NAMED else []
-    hints = [f"for `{quoted(word)}`, {error.hint}" for word, error in shown if error.hint]
+    hints = [f"for `{shortened(word)}`, {error.hint}" for word, error in shown if error.hint]
     return UnclearError("; ".join([*(error.message for _, error in shown), *more]), "; ".join(hints))
 
 
@@ -78,15 +79,15 @@ def _matches(device: Device, word: str) -> tuple[list[Point], list[Command]]:
         commands = [command for command in device.commands if command.name == word]
         if points and word in groups:
             raise UnclearError(
-                f"`{quoted(word)}` is a point of {device.id} and a group", f"write `name:{word}` or `group:{word}`"
+                f"`{shortened(word)}` is a point of {device.id} and a group", f"write `name:{word}` or `group:{word}`"
             )
         points = points or _of_group(device, word)
     if not points and not commands:
-        raise UnclearError(f"{device.id} has no point, group or command `{quoted(word)}`", _hint(device, word))
+        raise UnclearError(f"{device.id} has no point, group or command `{shortened(word)}`", _hint(device, word))
     missing = [point for point in points if not _is_in_code(point)]
     if missing:
         reason = missing[0].reason or "it is documented only"
-        raise UnclearError(f"`{quoted(word)}` cannot be used in code: {reason}", "leave it out")
+        raise UnclearError(f"`{shortened(word)}` cannot be used in code: {reason}", "leave it out")
     return points, commands
 
 

@@ -9,7 +9,8 @@ from fieldscribe.families.can.frames import CanFrame, build, carries, identifier
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.pasted_numbers import number_of
-from fieldscribe.user_errors import RefusedError, UnclearError, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.exact import hex_text
 
@@ -51,7 +52,7 @@ def _word(text: str) -> int:
     digits = text.strip()
     number = number_of(f"0{digits}" if digits[-1:] in ("h", "H") else digits)
     if number is None or number > 0xFFFF:
-        raise UnclearError(f"--with-word: `{quoted(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
+        raise UnclearError(f"--with-word: `{shortened(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
     return number
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
-from fieldscribe.user_errors import UnclearError, quoted
+from fieldscribe.text import shortened
+from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -79,7 +80,7 @@ def read_identifier(text: str) -> int:
     """Return an identifier, always hexadecimal: `321`, `0x321`, `321h`. Raises UnclearError."""
     match = re.fullmatch(r"(?:0[xX])?([0-9A-Fa-f]{1,8})h?", text.strip())
     if match is None or int(match[1], 16) > MOST_IDENTIFIER:
-        raise UnclearError(f"`{quoted(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
+        raise UnclearError(f"`{shortened(text)}` is no CAN identifier", "write it in hexadecimal, as in --can-id 321")
     return int(match[1], 16)
 
 
@@ -102,7 +103,7 @@ def _frame(line: str, known: int | None) -> Pasted:
     if match is not None:
         return _matched(match)
     if known is None or "#" in line:
-        raise _unclear(f"`{quoted(line)}` has no identifier" if line else "there are no bytes")
+        raise _unclear(f"`{shortened(line)}` has no identifier" if line else "there are no bytes")
     return Pasted(CanFrame(known, _bytes(line)))
 
 

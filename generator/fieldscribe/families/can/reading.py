@@ -11,11 +11,12 @@ from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
-from fieldscribe.language.numbers import NumberError, parse_integer, shorten
+from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader
 from fieldscribe.resolve.scope import humanised, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
+from fieldscribe.text import shortened
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
@@ -175,7 +176,7 @@ def _constant(text: str, count: int) -> list[Role] | tuple[str, str]:
     try:
         number = parse_integer(text)
     except NumberError:
-        return f"`{shorten(text)}` is nothing that a byte can hold", _HOW
+        return f"`{shortened(text)}` is nothing that a byte can hold", _HOW
     if not 0 <= number < 1 << 8 * count:
         return f"{text} does not fit into {_bytes(count)}", f"0..{(1 << 8 * count) - 1:X}h does"
     return [Role("constant", byte) for byte in number.to_bytes(count, "big")]
@@ -185,7 +186,7 @@ def _checksum(text: str, count: int) -> list[Role] | tuple[str, str]:
     """Return the roles of a checksum: each byte is the exclusive or of every `count`-th byte of an interval."""
     interval = _BYTES.fullmatch(text.removeprefix("xor ").strip())
     if interval is None:
-        return f"`xor {shorten(text.removeprefix('xor '))}` names no bytes", _HOW
+        return f"`xor {shortened(text.removeprefix('xor '))}` names no bytes", _HOW
     low, high = int(interval[1]), int(interval[2] or interval[1])
     if low > high or (high - low + 1) % count:
         hint = "name the lower byte first, and as many bytes as whole pieces have"

@@ -11,7 +11,8 @@ import re
 from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
 
 from fieldscribe.language.formula.syntax import FormulaError
-from fieldscribe.language.numbers import NumberError, parse_number, shorten
+from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.text import shortened
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -67,7 +68,7 @@ class Token(NamedTuple):
 
     def __str__(self) -> str:
         """Return the token as messages name it."""
-        return "the end" if self.kind == "end" else f"`{shorten(self.text + ('.' + self.part if self.part else ''))}`"
+        return "the end" if self.kind == "end" else f"`{shortened(self.text + ('.' + self.part if self.part else ''))}`"
 
 
 def tokens(text: str, column0: int = 0) -> list[Token]:
@@ -129,7 +130,7 @@ def _refuse_comma(tokens: list[Token], text: str, end: int) -> None:
         after = re.match(r"[0-9]+", text[end:])
         digits = after[0] if after else ""
         raise FormulaError(
-            f"`{shorten(f'{before.text},{digits}')}` could be a decimal number or a list",
+            f"`{shortened(f'{before.text},{digits}')}` could be a decimal number or a list",
             before.column,
-            f"write {shorten(f'{before.text}.{digits}')} for the decimal number, a blank behind the comma for a list",
+            f"write {shortened(f'{before.text}.{digits}')} for the decimal number, a blank behind the comma for a list",
         )
