@@ -8,6 +8,7 @@ write them differently. If the proof fails, nothing is wrong yet: then all ident
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -32,7 +33,11 @@ class PointKinds:
 
     def __init__(self, device: Device) -> None:
         needed = _needed(device)
-        kinds = {point.item: self.kind(point) for point in device.points if not {point.item, point.name} & needed}
+        kinds = {
+            item: self.kind(point)
+            for point in device.points
+            if (item := point.item) not in needed and point.name not in needed
+        }
         sizes = Counter(kinds.values())
         first: dict[object, str] = {}
         self.names: dict[str, str] = {}
@@ -96,8 +101,9 @@ class PointKinds:
     def _rests(self) -> dict[str, set[tuple[str, str]]]:
         """What follows in names that begin with another name, with the kinds of both names, the shorter one first."""
         rests: defaultdict[str, set[tuple[str, str]]] = defaultdict(set)
+        lengths = sorted(set(map(len, self.names)))
         for name, kind in self.names.items():
-            for end in range(1, len(name)):
+            for end in lengths[: bisect_left(lengths, len(name))]:
                 if (shorter := self.names.get(name[:end])) is not None:
                     rests[name[end:]].add((shorter, kind))
         return rests

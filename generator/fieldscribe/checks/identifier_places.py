@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import item_of
+from fieldscribe.resolve.point_facts import PointFacts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.points import ResolvedPoint
     from fieldscribe.targets.identifiers import Owner
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
@@ -39,35 +38,41 @@ class _EnumFound(NamedTuple):
     entries: Map
 
 
-def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
-    """Yield the names of groups, points and enums in the description: namespace, name, and a function for the owner."""
+Named = PointFacts | Thing
+"""The owner of a name in the description; a point becomes a `Thing` only if its name clashes."""
+
+
+def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Named]]:
+    """Yield the names of groups, points and enums in the description: namespace, name and owner."""
     for group in analysis.scope.groups:
         name = str(group["group"])
-        yield "the list of groups", name, partial(Thing, f"the group `{name}`", group.span("group"))
+        yield "the list of groups", name, Thing(f"the group `{name}`", group.span("group"))
     for resolved in analysis.resolved:
-        yield from _names_of_point(analysis, resolved)
+        facts = resolved.facts
+        yield "generated code", facts.item, facts
+        if facts.variant is not None or resolved.point.was:
+            for name, thing in _other_names(analysis, facts, resolved.point.was):
+                yield "generated code", name, thing
     for enum in _enums(analysis):
         for name in (enum.name, *enum.was):
-            yield "the enums of generated code", name, partial(Thing, *enum.thing)
+            yield "the enums of generated code", name, Thing(*enum.thing)
 
 
-def _names_of_point(analysis: Analysis, resolved: ResolvedPoint) -> Iterator[tuple[str, str, Callable[[], Thing]]]:
-    """Yield the names of a point: its item, its plain name if it has a variant, and its former names."""
-    where, point, facts = "generated code", resolved.point, resolved.facts
-    yield where, facts.item, partial(_point_thing, facts)
-    if point.variant is not None:
-        first = analysis.symbols.by_name[point.name][0]
-        yield where, point.name, partial(Thing, f"the point `{point.name}`", first.span())
-    for old in point.was:
+def _other_names(analysis: Analysis, facts: PointFacts, was: tuple[str, ...]) -> Iterator[tuple[str, Thing]]:
+    """Yield the plain name of a point that has a variant, and the former names of a point."""
+    if facts.variant is not None:
+        first = analysis.symbols.by_name[facts.name][0]
+        yield facts.name, Thing(f"the point `{facts.name}`", first.span())
+    for old in was:
         place = facts.span("was")
-        if point.variant is not None:
-            item = item_of(old, point.variant)
-            yield where, item, partial(Thing, f"the old name `{old}` of {_short(facts)}", place)
-        yield where, old, partial(Thing, f"the old name `{old}` of `{point.name}`", place)
+        if facts.variant is not None:
+            yield item_of(old, facts.variant), Thing(f"the old name `{old}` of {_short(facts)}", place)
+        yield old, Thing(f"the old name `{old}` of `{facts.name}`", place)
 
 
-def _point_thing(facts: PointFacts) -> Thing:
-    return Thing(_point_words(facts), facts.span())
+def thing_of(named: Named) -> Thing:
+    """Return the owner of a name as messages call it, with its place."""
+    return named if isinstance(named, Thing) else Thing(_point_words(named), named.span())
 
 
 def _short(facts: PointFacts) -> str:

@@ -9,22 +9,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.distinct_names import PointKinds
-from fieldscribe.checks.identifier_places import IdentifierPlaces, given_names
+from fieldscribe.checks.identifier_places import IdentifierPlaces, given_names, thing_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.checks.identifier_places import Thing
+    from fieldscribe.checks.identifier_places import Named, Thing
     from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:
     """Report equal names in the description, then equal identifiers in a target."""
     reported: set[frozenset[Thing]] = set()
-    first: dict[tuple[str, str], Callable[[], Thing]] = {}
-    for namespace, name, whose in given_names(analysis):
-        known = first.setdefault((namespace, name), whose)
-        if known is not whose and (other := known()) != (thing := whose()):
+    first: dict[tuple[str, str], Named] = {}
+    for namespace, name, named in given_names(analysis):
+        known = first.setdefault((namespace, name), named)
+        if known is not named and (other := thing_of(known)) != (thing := thing_of(named)):
             _report(analysis, other, thing, f"`{name}` in {namespace}", reported)
     _compare_targets(analysis, reported)
 

@@ -232,7 +232,7 @@ class Point:
     @property
     def item(self) -> str:
         """Return the name in generated code, with the value of its variant."""
-        return item_of(self.name, self.variant)
+        return self.name if self.variant is None else item_of(self.name, self.variant)
 
     @property
     def rank(self) -> tuple[bool, str, int]:

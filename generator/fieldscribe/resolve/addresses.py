@@ -66,7 +66,7 @@ class Places:
         self.telegrams = telegrams
         bus = scope.bus
         self._order = None if bus is None else bus.get("words")
-        self._lines: dict[int, Mapping[str, _Line | None]] = {}
+        self._lines: dict[int, Mapping[str, _Line]] = {}
         self._layouts: dict[int, _Layout] = {}
         self._wrong_rules: set[int] = set()
 
@@ -269,10 +269,10 @@ class Places:
         key = id(numbering)
         if key not in self._lines:
             self._lines[key] = self._lines_of(numbering)
-        return {name: address * line[0] + line[1] for name, line in self._lines[key].items() if line is not None}
+        return {name: address * slope + offset for name, (slope, offset) in self._lines[key].items()}
 
-    def _lines_of(self, numbering: Map) -> Mapping[str, _Line | None]:
-        """Return each numbering as a line over the address; None after a finding."""
+    def _lines_of(self, numbering: Map) -> Mapping[str, _Line]:
+        """Return each numbering as a line over the address, without those that have a finding."""
         lines: dict[str, _Line | None] = {WIRE: (1, 0)}
         for name, text in numbering.items():
             if name == WIRE:
@@ -282,7 +282,7 @@ class Places:
             else:
                 lines[name] = self._line(numbering, name, text, lines)
         del lines[WIRE]
-        return lines
+        return {name: line for name, line in lines.items() if line is not None}
 
     def _line(self, numbering: Map, name: str, text: str, known: Mapping[str, _Line | None]) -> _Line | None:
         span = numbering.span(name)

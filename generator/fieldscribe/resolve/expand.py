@@ -15,7 +15,7 @@ from fieldscribe.resolve.point_facts import Element, PointFacts, elements_of, se
 from fieldscribe.resolve.scope import Scope, humanised, titles
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Titles
 
@@ -45,24 +45,19 @@ def expand(scope: Scope) -> list[PointFacts]:
     return points
 
 
-def _point(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
+def _point(scope: Scope, group: Map, point: Map) -> Iterable[PointFacts]:
     if "record" in point:
-        yield from _record(scope, group, point)
-        return
+        return _record(scope, group, point)
     rows = point.get("sets")
     if not isinstance(rows, Map) and not _AXES.isdisjoint(point):
-        yield from _elements(scope, group, point)
-        return
+        return _elements(scope, group, point)
     if "each" in point and _AXES.isdisjoint(point.broken):
         message = f"`{point['name']}` has no elements that could differ"
         hint = "`each` belongs to a count of `sets`, or to `indices`"
         scope.report.error("unknown-element", message, point.key_span("each"), hint)
     title = _title(point)
     facts = PointFacts(point["name"], (point, *_format(scope, point)), group, point, title, enum_name=point["name"])
-    if rows is None:
-        yield from _variants(scope, facts)
-    else:
-        yield from _sets(scope, facts, rows)
+    return _variants(scope, facts) if rows is None else _sets(scope, facts, rows)
 
 
 def _title(point: Map) -> Titles:
@@ -166,12 +161,13 @@ def _decimal_key(text: str) -> str:
     return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
-def _variants(scope: Scope, facts: PointFacts) -> Iterator[PointFacts]:
-    """Yield the point once for each of its variants, or unchanged if it has none."""
+def _variants(scope: Scope, facts: PointFacts) -> Iterable[PointFacts]:
+    """Return the point once for each of its variants, or unchanged if it has none."""
     overrides: Map | None = facts.get("variants")
-    if not overrides:
-        yield facts
-        return
+    return _all_varied(scope, facts, overrides) if overrides else (facts,)
+
+
+def _all_varied(scope: Scope, facts: PointFacts, overrides: Map) -> Iterator[PointFacts]:
     axes = scope.axes
     first = ""
     for key, override in overrides.items():

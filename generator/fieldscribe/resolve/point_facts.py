@@ -123,7 +123,7 @@ class PointFacts:
 
     def __post_init__(self) -> None:
         group, where = self.group, self._where
-        where.update({key: group for key in group if key in _INHERITED})
+        where.update(dict.fromkeys(filter(_INHERITED.__contains__, group), group))
         for layer in reversed(self.layers):
             keys = layer if layer is self.node or not self.hidden else layer.keys() - self.hidden
             where.update(dict.fromkeys(keys, layer))
@@ -221,7 +221,7 @@ class PointFacts:
     @property
     def item(self) -> str:
         """Return the name with the value of the variant."""
-        return item_of(self.name, self.variant)
+        return self.name if self.variant is None else item_of(self.name, self.variant)
 
 
 def elements_of(scope: Scope, row: PointFacts) -> list[Element]:
