@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from fractions import Fraction
-    from typing import Self
 
     from fieldscribe.conditions import Condition
     from fieldscribe.model.numbers import Special, Titles
@@ -18,20 +17,17 @@ if TYPE_CHECKING:
 Fact = TypeVar("Fact")
 
 
-class _Shared(property, Generic[Fact]):
-    """Makes a fact of the shape or the terms an attribute of the point: users need not know which facts are shared."""
+if TYPE_CHECKING:
 
-    if TYPE_CHECKING:
+    class _Shared(Generic[Fact]):
+        """A property whose type is that of the fact; `property` alone would be `Any` to type checkers."""
 
         def __init__(self, of: Callable[[Point], Fact]) -> None: ...
 
-        @overload
-        def __get__(self, point: None, owner: type, /) -> Self: ...
-
-        @overload
         def __get__(self, point: object, owner: type | None = None, /) -> Fact: ...
 
-        def __get__(self, point: object, owner: type | None = None, /) -> object: ...
+else:
+    _Shared = property
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,6 +134,7 @@ class Point:
     was: tuple[str, ...]
     errata: tuple[str, ...]
 
+    # Facts of the shape and the terms are attributes of the point: users need not know which facts are shared.
     type = _Shared(lambda point: point.shape.type)
     width = _Shared(lambda point: point.shape.width)
     access = _Shared(lambda point: point.shape.access)
@@ -181,6 +178,7 @@ class Point:
     telegram = _Shared(lambda point: point.terms.telegram)
     changes_with = _Shared(lambda point: point.terms.changes_with)
     untyped = _Shared(lambda point: point.terms.untyped)
+    limit_arguments = _Shared(lambda point: point.allowed.arguments)
 
     @property
     def raw_only(self) -> bool:
@@ -253,8 +251,3 @@ class Point:
     def arguments(self) -> tuple[str, ...]:
         """Return the points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
         return tuple(dict.fromkeys((*self.shape.scale_arguments, *self.allowed.arguments)))
-
-    @property
-    def limit_arguments(self) -> tuple[str, ...]:
-        """Return the points that the limits need at run time: factors, and points whose codes suspend a limit."""
-        return self.allowed.arguments
