@@ -56,8 +56,8 @@ class Enum:
 class Special:
     """A special code: raw numbers low..high that are no quantity; `no_value` if they mean that there is no value.
 
-    It may be written only if `writable`; it is shown in hexadecimal if the manual prints it so. `shared` codes come from
-    a type, a group or a format, which many points have.
+    It may be written only if `writable`; it is shown in hexadecimal if the manual prints it so. A `shared` code comes
+    from a type, a group or a format, which many points have.
     """
 
     low: int
