@@ -122,7 +122,13 @@ _REFERENCES = (
 
 POINT: FactTable = (
     Fact("name", "English snake_case; unique but for variants.", STRING),
-    Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE),
+    Fact(
+        "code",
+        "The manual's own short name.",
+        TEXT_OR_NULL,
+        WIRE,
+        column="the code that the manual prints",
+    ),
     Fact(
         "group",
         "The group in which the manual presents it.",
@@ -131,6 +137,7 @@ POINT: FactTable = (
         refers="group",
         label="Group",
         text=texts.group_text,
+        column="the group in the description",
     ),
     Fact(
         "variant",
@@ -141,9 +148,26 @@ POINT: FactTable = (
         value=lambda point, _: None if point.variant is None else str(point.variant),
         label="Variant",
         remark="only {}",
+        column="for which devices the row holds, where they differ",
     ),
-    Fact("record", "The record it belongs to.", TEXT_OR_NULL, DOCS, label="Record", remark="record {}"),
-    Fact("set", "The parameter set it belongs to.", INTEGER_OR_NULL, API, label="Set", remark="set {}"),
+    Fact(
+        "record",
+        "The record it belongs to.",
+        TEXT_OR_NULL,
+        DOCS,
+        label="Record",
+        remark="record {}",
+        column="the record that it belongs to",
+    ),
+    Fact(
+        "set",
+        "The parameter set it belongs to.",
+        INTEGER_OR_NULL,
+        API,
+        label="Set",
+        remark="set {}",
+        column="the number of its parameter set",
+    ),
     Fact(
         "repeat",
         "The name of the row of the manual that stands for this point and others: one for each set, index or both.",
@@ -158,8 +182,22 @@ POINT: FactTable = (
         value=lambda _point, _: None,
         derived="it is always empty",
     ),
-    Fact("space", "The space in which its addresses count: `coil`, `holding`, ...", STRING, WIRE),
-    Fact("telegram", "The telegram that carries it.", TEXT_OR_NULL, WIRE, refers="telegram", remark="telegram {}"),
+    Fact(
+        "space",
+        "The space in which its addresses count: `coil`, `holding`, ...",
+        STRING,
+        WIRE,
+        column="where the address counts: `coil`, `holding`, `parameter`, `telegram`, ...",
+    ),
+    Fact(
+        "telegram",
+        "The telegram that carries it.",
+        TEXT_OR_NULL,
+        WIRE,
+        refers="telegram",
+        remark="telegram {}",
+        column="in which telegram a word is",
+    ),
     Fact(
         "direction",
         "The direction of that telegram.",
@@ -183,6 +221,7 @@ POINT: FactTable = (
         WIRE,
         label="Index",
         text=texts.index_text,
+        column="the index of an element",
     ),
     Fact(
         "addresses",
@@ -229,6 +268,7 @@ POINT: FactTable = (
         value=lambda point, _: point.type if point.untyped is None else None,
         label="Type",
         text=texts.type_text,
+        column="the wire type; empty where the manual does not settle it",
     ),
     Fact(
         "untyped",
@@ -250,6 +290,7 @@ POINT: FactTable = (
         values.access_class,
         label="Access",
         text=lambda point, _: wording.access_text(point.access),
+        column="`r`, `w`, `rw`; `none` if no bus reaches it",
     ),
     Fact(
         "unit",
@@ -259,6 +300,7 @@ POINT: FactTable = (
         attribute="unit.symbol",
         label="Unit",
         text=texts.unit_text,
+        column="the unit of values",
     ),
     Fact(
         "unit_name",
@@ -507,6 +549,7 @@ POINT: FactTable = (
         follows=("access",),
         label="Write only when",
         remark="write only when: {}",
+        column="what must hold to write it",
     ),
     Fact(
         "when",
@@ -529,6 +572,7 @@ POINT: FactTable = (
         BEHAVIOUR,
         label="Changes",
         remark="changes {}",
+        column="how often it changes",
     ),
     Fact(
         "changes_with",
@@ -558,7 +602,7 @@ POINT: FactTable = (
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API, remark="reserved"),
     TITLE,
     replace(NOTE, label="Note", text=texts.note_text, remark="{}"),
-    ERRATA,
+    replace(ERRATA, column="where the manual is wrong, unclear or silent: ids of errata"),
     replace(SOURCE, label="Source", text=texts.source_text),
     Fact(
         "generated",
@@ -576,6 +620,7 @@ POINT: FactTable = (
         label="Not generated",
         text=texts.reason_text,
         remark="not generated: {}",
+        column="why not",
     ),
 )
 

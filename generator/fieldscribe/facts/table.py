@@ -116,7 +116,7 @@ class Fact:
     `for_people` never reaches code.
 
     `label` and `text` make a row of an explanation (`rows` makes several), `remark` a remark in a table of points.
-    Without `text` it is the value.
+    Without `text` it is the value. `column` says what the column of that key holds in the sheets: the plain value.
     """
 
     key: str
@@ -136,6 +136,7 @@ class Fact:
     text: Callable[[Any, Context], str] | None = None
     rows: Callable[[Any, Context], Iterable[Row]] | None = None
     remark: str = ""
+    column: str = ""
     derived: str = ""
     published: bool = True
     for_people: bool = False
@@ -167,10 +168,11 @@ class Fact:
         """Return the fact of a point for people; empty where there is nothing to say."""
         if self.text is not None:
             return self.text(point, context)
-        value = self.get(point, context)
-        if value is None or value is False:
-            return ""
-        return ", ".join(value) if isinstance(value, tuple) else str(value)
+        return _plain_text(self.get(point, context), ", ")
+
+    def cell_of(self, point: Point, context: Context) -> str:
+        """Return the value of the fact of a point as one cell; empty where there is none."""
+        return _plain_text(self.get(point, context), "; ")
 
     def remark_of(self, point: Point, context: Context) -> str:
         """Return the fact of a point as a remark; empty where there is nothing to say."""
@@ -183,6 +185,11 @@ class Fact:
             return self.rows(point, context)
         return [(self.label, self.text_of(point, context))] if self.label else []
 
+    @property
+    def is_number(self) -> bool:
+        """True if the value is a whole number wherever there is one."""
+        return self.schema.get("type") in ("integer", ["integer", "null"])
+
     @cached_property
     def usual(self) -> Any:
         """The value that stands for nothing: null where the schema allows it, else what is empty or false."""
@@ -190,6 +197,14 @@ class Fact:
         if "null" in types if isinstance(types, list) else {"type": "null"} in self.schema.get("anyOf", ()):
             return None
         return _EMPTY.get(str(types), ...)
+
+
+def _plain_text(value: Any, separator: str) -> str:
+    if value is None or value is False:
+        return ""
+    if value is True:
+        return "yes"
+    return separator.join(value) if isinstance(value, tuple) else str(value)
 
 
 _EMPTY: Mapping[str, Any] = {"array": [], "object": {}, "string": "", "boolean": False}

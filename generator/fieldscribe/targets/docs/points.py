@@ -132,7 +132,7 @@ class _Rows:
             "note": lambda point: _more_link(point) if _has_more(point) else _note(point),
             "errata": self._errata,
         }
-        self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further, ())
+        self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further)
         self._cells: dict[tuple[int, int], _Cells] = {}
         self._limits: dict[tuple[int, int, int], tuple[str, str]] = {}
 

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
+from fieldscribe.facts.table import Context
 from fieldscribe.targets.docs.cells import LINE_BREAK, cell, number_cell
 from fieldscribe.wording.rules import RenamedPoints
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
-    from fieldscribe.facts.table import Context, Fact
+    from fieldscribe.facts.table import Fact
     from fieldscribe.model import Device, Point
 
     RemarkOf = Callable[[Point], str]
@@ -25,6 +26,8 @@ class DocsScope(NamedTuple):
     device: Device
     by_name: Mapping[str, Point]
     by_code: RenamedPoints
+    context: Context
+    """What the facts of points need; other points are called by name."""
     several: bool
     """True if facts come from several documents: then each source names its own."""
 
@@ -33,7 +36,7 @@ def scope_of(device: Device) -> DocsScope:
     """Return what the rows of a device share."""
     by_name = {point.name: point for point in device.points}
     by_code = RenamedPoints(by_name, _codes(device.points))
-    return DocsScope(device, by_name, by_code, len(device.documents) > 1)
+    return DocsScope(device, by_name, by_code, Context(device, names=by_name), len(device.documents) > 1)
 
 
 def _codes(points: Iterable[Point]) -> dict[str, str]:
@@ -78,15 +81,22 @@ def numbers_text(point: Point, keys: Sequence[str]) -> str:
 class Remarks:
     """The remarks of the points of a device; what points share is worked out once.
 
-    `encode` makes a text fit for a cell. `further` are remarks by the key of a fact that are finished cells; facts that
-    have columns are left out.
+    `encode` makes a text fit for a cell. `further` are remarks by the key of a fact that are finished cells. The facts
+    in `left_out` are no remarks, and with `in_columns` neither are facts that have a column.
     """
 
     def __init__(
-        self, context: Context, encode: Callable[[str], str], further: Mapping[str, RemarkOf], columns: Collection[str]
+        self,
+        context: Context,
+        encode: Callable[[str], str],
+        further: Mapping[str, RemarkOf],
+        left_out: Collection[str] = (),
+        *,
+        in_columns: bool = False,
     ) -> None:
         self._context, self._encode, self._further = context, encode, further
-        facts = [fact for fact in POINT if (fact.remark or fact.key in further) and fact.key not in columns]
+        kept = [fact for fact in POINT if fact.remark and fact.key not in left_out and not (in_columns and fact.column)]
+        facts = [fact for fact in POINT if fact.key in further or fact in kept]
         places = list(enumerate(facts))
         self._shared = [(place, fact) for place, fact in places if fact.holder]
         self._own = [(place, fact) for place, fact in places if not fact.holder]

@@ -2,37 +2,43 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.exact import SAME
-from fieldscribe.facts.table import Context
+from fieldscribe.facts.points import POINT
 from fieldscribe.families import family
-from fieldscribe.targets.docs.bus import part_of
-from fieldscribe.targets.docs.scope import Remarks
-from fieldscribe.targets.docs.tables import Column, Table, codes_of, decimal, enum_of, original, source_cells
-from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.targets.docs import sheet_cells
+from fieldscribe.targets.docs.sheet_cells import Sheet
+from fieldscribe.targets.docs.tables import Column, Table, original, source_cells
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-    from fieldscribe.arithmetic.exact import Line
-    from fieldscribe.model import Command, Device, Place, Point
-    from fieldscribe.targets.docs.bus import OfFamily
+    from fieldscribe.model import Command, Point
     from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Encode
 
+_FACTS = {fact.key: fact for fact in POINT if fact.column}
+
+
+def _of_fact(key: str) -> Column:
+    """The column that the table of facts has for a fact."""
+    return Column(key, _FACTS[key].column, _FACTS[key].is_number)
+
+
 COLUMNS = (
-    Column("code", "the code that the manual prints"),
+    _of_fact("code"),
     Column("name", "the name in code, with the variant; each stands once"),
     Column("kind", "`point`, or `command`: a fixed number that is written so that the device does something"),
-    Column("variant", "for which devices the row holds, where they differ"),
-    Column("group", "the group in the description"),
+    _of_fact("variant"),
+    _of_fact("group"),
     Column("title", "the title in English"),
     Column("title_original", "the title in the language of the manual"),
-    Column("space", "where the address counts: `coil`, `holding`, `parameter`, `telegram`, ..."),
-    Column("telegram", "in which telegram a word is"),
+    _of_fact("space"),
+    _of_fact("telegram"),
     Column("address", "the (lowest) number on the wire; of a telegram word, its place there, counted from 0", True),
     Column("address_hex", "the same as manuals print it"),
     Column("words", "how many 16-bit words (or single bits) it takes", True),
@@ -43,15 +49,15 @@ COLUMNS = (
     Column("mask", "the bits of a bit group in its word, as a number", True),
     Column("fixed_mask", "bits of the word that must always be written as a constant", True),
     Column("fixed_bits", "that constant", True),
-    Column("index", "the index of an element", True),
+    _of_fact("index"),
     Column("modicon", "the number that counts from 1", True),
     Column("reference", "the number whose first digit says the space (4: holding registers); coils have none", True),
     Column("computed", "which of these two the manual does not print: they are computed from the address"),
     Column("other_references", "other numbers that the manual prints"),
-    Column("type", "the wire type; empty where the manual does not settle it"),
+    _of_fact("type"),
     Column("encoding", "what the number is: `integer`, `scaled`, `float`, `bit`, `enum`, `flags`, `text`, `digits`"),
-    Column("access", "`r`, `w`, `rw`; `none` if no bus reaches it"),
-    Column("unit", "the unit of values"),
+    _of_fact("access"),
+    _of_fact("unit"),
     Column("factor", "value = number of that type * factor + offset, exact", True),
     Column("offset", "see factor", True),
     Column("scale", "the rule as text, where other points or a fraction are in it"),
@@ -66,239 +72,119 @@ COLUMNS = (
     Column("flags", "the flags of its bits: `of` in the meanings"),
     Column("codes", "its special codes: `of` in the meanings"),
     Column("keeps", "whether a written value survives switching off: `yes` (each write wears the memory), `no`, how"),
-    Column("conditions", "what must hold to write it"),
-    Column("changes", "how often it changes"),
-    Column("record", "the record that it belongs to"),
-    Column("set", "the number of its parameter set", True),
+    _of_fact("conditions"),
+    _of_fact("changes"),
+    _of_fact("record"),
+    _of_fact("set"),
     Column("remarks", "what else holds"),
     Column("note", "what the manual adds"),
-    Column("errata", "where the manual is wrong, unclear or silent: ids of errata"),
+    _of_fact("errata"),
     Column("document", "the manual"),
     Column("section", "the section of the manual"),
     Column("page", "the page", True),
     Column("line", "the line of the manual's text", True),
     Column("generated", "whether code has it"),
-    Column("reason", "why not"),
+    _of_fact("reason"),
 )
-_KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
-_IN_COLUMNS = frozenset(
-    {"variant", "record", "set", "telegram", "special_of", "conditions", "changes", "note", "reason", "reserved"}
-)
-"""Facts with columns of their own, which are no remarks; `reserved` is part of the reason."""
+"""The columns that every device has."""
+_FURTHER = tuple(_of_fact(key) for key in _FACTS if key not in {column.name for column in COLUMNS})
+"""The columns of all other facts; a device has those that some point of it fills."""
 
 
 class _Cells(NamedTuple):
-    """The cells that points with the same shape and terms share."""
+    """A function that returns the cells of a point from a column on.
 
-    group: str
-    space: tuple[str, str]
-    words: str
-    bits: tuple[str, ...]
-    meaning: tuple[str, ...]
-    behaviour: tuple[str, str, str]
-    generated: tuple[str, str]
+    `shared` says what decides about them: shape and terms (`terms`), or the limits, too (`limits`). Other cells are the
+    point's own, and empty if its attribute `needs` is.
+    """
+
+    column: str
+    of: Callable[[Point, Sheet], Sequence[str]]
+    shared: str = ""
+    needs: str = "name"
+
+
+def _cells_of_fact(key: str) -> _Cells:
+    fact = _FACTS[key]
+    needs = fact.attribute or (key if fact.value is None else "name")
+    return _Cells(key, partial(sheet_cells.of_fact, fact), "terms" if fact.holder else "", needs)
+
+
+_CELLS = (
+    *map(_cells_of_fact, _FACTS),
+    _Cells("name", lambda point, sheet: (sheet.encode(point.item), "point")),
+    _Cells("title", lambda point, sheet: (sheet.encode(point.title["en"]), sheet.encode(original(point.title)))),
+    _Cells("address", sheet_cells.address),
+    _Cells("bit_low", sheet_cells.bits, "terms"),
+    _Cells("modicon", sheet_cells.references),
+    _Cells("encoding", lambda point, _: (point.form if point.untyped is None else "",), "terms"),
+    _Cells("factor", sheet_cells.scale, "terms"),
+    _Cells("raw_min", sheet_cells.limits, "limits"),
+    _Cells("default", sheet_cells.default, needs="default"),
+    _Cells("default_raw", lambda point, _: (str(point.default_raw),), needs="default_raw"),
+    _Cells("enum", sheet_cells.enum, "terms"),
+    _Cells("flags", lambda point, sheet: (sheet.encode(point.item),), needs="shape.flags"),
+    _Cells("codes", sheet_cells.codes, needs="shape.specials"),
+    _Cells("keeps", sheet_cells.keeps, "terms"),
+    _Cells("remarks", lambda point, sheet: (sheet.remarks(point),)),
+    _Cells("note", lambda point, sheet: (sheet.encode(wording.title_text(point.note)),), needs="note"),
+    _Cells("document", lambda point, sheet: tuple(source_cells(point.source, sheet.encode))),
+    _Cells("generated", lambda point, _: ("yes" if point.generated else "no",), "terms"),
+)
 
 
 def points_table(scope: DocsScope) -> Table:
     """Return the table of the points and commands of a device."""
-    return Table("points", COLUMNS, partial(_rows, scope))
+    columns = (*COLUMNS, *_filled(scope))
+    return Table("points", columns, partial(_rows, scope, columns))
 
 
-def _rows(scope: DocsScope, encode: Encode) -> Iterator[tuple[str, ...]]:
-    known: dict[object, _Cells] = {}
-    known_limits: dict[object, tuple[str, ...]] = {}
-    part, remarks, encoded = part_of(scope.device), _remarks(scope), cache(encode)
+def _filled(scope: DocsScope) -> Iterator[Column]:
+    """The further columns that some point fills."""
+    for column in _FURTHER:
+        if any(_FACTS[column.name].cell_of(point, scope.context) for point in scope.device.points):
+            yield column
+
+
+def _rows(scope: DocsScope, columns: Sequence[Column], encode: Encode) -> Iterator[Sequence[str]]:
+    sheet, first = Sheet(scope, encode), {column.name: place for place, column in enumerate(columns)}
+    cells = [cells for cells in _CELLS if cells.column in first]
+    own = [(first[column], of) for column, of, shared, _ in cells if not shared]
+    with_terms = [(first[column], of) for column, of, shared, _ in cells if shared == "terms"]
+    with_limits = [(first[column], of) for column, of, shared, _ in cells if shared == "limits"]
+    needed = attrgetter(*(each.needs for each in cells if not each.shared))
+    by_terms: dict[object, list[str]] = {}
+    by_limits: dict[object, list[str]] = {}
     for point in scope.device.points:
-        key = id(point.shape), id(point.terms), len(point.addresses)
-        cells = known.get(key)
-        if cells is None:
-            cells = known[key] = _shared_cells(scope, point, encode)
-        limits = known_limits.get((*key, id(point.allowed)))
-        if limits is None:
-            limits = (*ends_of(point), encode(range_of(point, scope.by_name)))
-            known_limits[*key, id(point.allowed)] = limits
-        enum = enum_of(point)
-        yield (
-            encode(point.code) if point.code else "",
-            encode(point.item),
-            "point",
-            encode(str(point.variant)) if point.variant else "",
-            cells.group,
-            encode(point.title["en"]),
-            encode(original(point.title)),
-            *cells.space,
-            *_address(point.place),
-            cells.words,
-            encode(wording.order_text(point)) if len(point.place.addresses) > 1 else "",
-            *cells.bits,
-            "" if point.index is None else str(point.index),
-            *_references(point, part, encode),
-            *cells.meaning,
-            *limits,
-            default_of(point),
-            "" if point.default_raw is None else str(point.default_raw),
-            "" if enum is None else encode(enum.name),
-            encode(point.item) if point.flags else "",
-            encode(codes_of(point)) if point.specials else "",
-            *cells.behaviour,
-            encode(point.record) if point.record else "",
-            "" if point.set is None else str(point.set),
-            encoded(remarks.of(point)),
-            encode(wording.title_text(point.note)) if point.note else "",
-            encode("; ".join(point.errata)) if point.errata else "",
-            *source_cells(point.source, encode),
-            *cells.generated,
-        )
+        key = id(point.shape), id(point.terms)
+        shared_row = by_limits.get((*key, id(point.allowed)))
+        if shared_row is None:
+            if key not in by_terms:
+                by_terms[key] = _filled_row([""] * len(columns), with_terms, point, sheet)
+            shared_row = by_limits[*key, id(point.allowed)] = _filled_row(by_terms[key], with_limits, point, sheet)
+        present = [part for part, value in zip(own, needed(point), strict=True) if value or value == 0]
+        yield _filled_row(shared_row, present, point, sheet)
     for command in scope.device.commands:
-        texts = command_cells(command, scope.device, encode)
-        yield tuple(texts.get(column.name, "") for column in COLUMNS)
+        texts = _command_cells(command, sheet)
+        yield [texts.get(column.name, "") for column in columns]
 
 
-def _shared_cells(scope: DocsScope, point: Point, encode: Encode) -> _Cells:
-    typed = point.untyped is None
-    return _Cells(
-        group=encode(point.group),
-        space=(encode(point.space), encode(point.telegram or "")),
-        words=str(point.words),
-        bits=_bits(point),
-        meaning=(
-            point.type if typed else "",
-            point.form if typed else "",
-            point.access,
-            encode(point.unit.symbol),
-            *scale_cells(point, scope.by_name, encode),
-        ),
-        behaviour=(_keeps(point, encode), encode("; ".join(point.conditions)), encode(point.changes or "")),
-        generated=("yes" if point.generated else "no", encode(point.reason or "")),
-    )
+def _filled_row(
+    row: list[str], parts: Iterable[tuple[int, Callable[[Point, Sheet], Sequence[str]]]], point: Point, sheet: Sheet
+) -> list[str]:
+    """A copy of a row with the cells of these parts."""
+    row = row.copy()
+    for first, cells_of in parts:
+        cells = cells_of(point, sheet)
+        row[first : first + len(cells)] = cells
+    return row
 
 
-def _remarks(scope: DocsScope) -> Remarks:
-    further = {
-        "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
-        "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",
-        "default": _default_numbers,
-        "default_value": _default_fraction,
-    }
-    return Remarks(Context(scope.device, names=scope.by_name), str, further, _IN_COLUMNS)
-
-
-def _default_numbers(point: Point) -> str:
-    """The factory setting of a word that is made of numbers."""
-    parts = wording.default_parts(point)
-    return parts and f"default: {parts}"
-
-
-def _default_fraction(point: Point) -> str:
-    """A factory setting that is no decimal, and so in no column."""
-    is_fraction = point.default is not None and point.default_raw is None and not decimal(number_text(point.default))
-    return f"default {wording.default_text(point)}" if is_fraction else ""
-
-
-def _address(place: Place) -> tuple[str, str]:
-    """The lowest address in both notations."""
-    addresses = place.addresses
-    return (str(min(addresses)), hex_text(min(addresses))) if addresses else ("", "")
-
-
-def _bits(point: Point) -> tuple[str, ...]:
-    """The place of a bit group in its word, `yes` if it shares the word, its mask, and the fixed bits."""
-    fixed = ("", "") if point.fixed is None else (str(point.fixed.mask), str(point.fixed.bits))
-    if point.bits is None:
-        return "", "", "", "", *fixed
-    high, low = point.bits
-    return str(low), str(high), "yes" if wording.shares_word(point) else "", str((2 << high) - (1 << low)), *fixed
-
-
-def _references(point: Point, part: OfFamily, encode: Encode) -> tuple[str, str, str, str]:
-    """Modicon's two numberings, which of them are computed, and all others as one text."""
-    place = point.place
-    others, known = [], {"modicon": "", "reference": ""}
-    for name, number in place.references.items():
-        if name in known and isinstance(number, int):
-            known[name] = str(number)
-        else:
-            others.append(f"{name} {number}")
-    numbers = part.numbers(point.space, min(place.addresses)) if place.addresses else {}
-    computed = {name: str(number) for name, number in numbers.items() if name not in place.references}
-    known |= computed
-    return known["modicon"], known["reference"], " ".join(computed), encode(", ".join(others))
-
-
-def _keeps(point: Point, encode: Encode) -> str:
-    return _KEEPS[point.keeps] if point.keeps in _KEEPS else encode(f"after {point.keeps}")
-
-
-def scale_cells(point: Point, points: Mapping[str, Point], encode: Encode) -> tuple[str, str, str]:
-    """Return factor, offset and empty text; without a linear decimal rule the rule as text."""
-    line = line_of(point)
-    if line is not None:
-        factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
-        if "/" not in factor + offset:
-            return factor, offset, ""
-    return "", "", encode(wording.scale_text(point, points) if point.scale is not None else "")
-
-
-def line_of(point: Point) -> Line | None:
-    """Return the rule from raw numbers to values; None if they are no quantities or other points are needed."""
-    if point.form not in ("scaled", "integer", "float"):
-        return None
-    if point.scale is not None:
-        return fixed_rule(point)
-    return SAME if point.generated or point.reserved else None
-
-
-def ends_of(point: Point) -> tuple[str, str, str, str]:
-    """Return the least and the greatest raw number and value; empty texts where there is none."""
-    if point.info.floating:
-        units = point.allowed.units
-        return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
-    outer, line = _without_codes(point, wording.outer_raw(point)), line_of(point)
-    if outer is None or point.text is not None:
-        return "", "", "", ""
-    if line is None:
-        return str(outer[0]), str(outer[1]), "", ""
-    low, high = (exact(raw * line.factor + line.add, line.divisor) for raw in (outer[:: -1 if line.factor < 0 else 1]))
-    return str(outer[0]), str(outer[1]), decimal(low), decimal(high)
-
-
-def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int] | None:
-    """The ends without the special codes there; None if nothing is left."""
-    if ends is None or not point.specials:
-        return ends
-    low, high = ends
-    while low <= high and (code := point.special(low)) is not None:
-        low = code.high + 1
-    while low <= high and (code := point.special(high)) is not None:
-        high = code.low - 1
-    return (low, high) if low <= high else None
-
-
-def range_of(point: Point, points: Mapping[str, Point]) -> str:
-    """Return the limits as text if least and greatest are not all: other points, gaps, fractions."""
-    allowed, line = point.allowed, line_of(point)
-    parts = allowed.units if point.info.floating else allowed.intervals
-    unsaid = line is not None and bool(parts) and "" in ends_of(point)[2:]
-    if len(parts) <= 1 and not allowed.moves and not unsaid:
-        return ""
-    text = wording.range_text(point, points) if line is not None else ""
-    raw = "" if text else wording.raw_range_text(point)
-    return f"only {text}" if text else f"only raw {raw}" if raw else ""
-
-
-def default_of(point: Point) -> str:
-    """Return the factory setting as a value; a special code is none."""
-    raw = point.default_raw
-    if point.default is None or (raw is not None and point.special(raw) is not None):
-        return ""
-    return decimal(number_text(point.default))
-
-
-def command_cells(command: Command, device: Device, encode: Encode) -> Mapping[str, str]:
+def _command_cells(command: Command, sheet: Sheet) -> Mapping[str, str]:
     """Return the cells of a command's row by column."""
-    numbers = part_of(device).numbers(command.space, command.address)
+    encode, numbers = sheet.encode, sheet.part.numbers(command.space, command.address)
     value = "" if command.value is None else str(command.value)
-    is_bit = family(device.family).spaces[command.space] == "bit"
+    is_bit = family(sheet.scope.device.family).spaces[command.space] == "bit"
     return {
         "name": encode(command.name),
         "kind": "command",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.text import csv_cell
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 
@@ -35,7 +35,7 @@ class Table(NamedTuple):
 
     name: str
     columns: tuple[Column, ...]
-    rows: Callable[[Encode], Iterable[tuple[str, ...]]]
+    rows: Callable[[Encode], Iterable[Sequence[str]]]
 
 
 def csv_of(table: Table) -> str:

@@ -1,0 +1,183 @@
+"""The cells of a point in the table of points, a function for each group of neighbouring columns."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.arithmetic.exact import SAME
+from fieldscribe.targets.docs.bus import part_of
+from fieldscribe.targets.docs.scope import Remarks
+from fieldscribe.targets.docs.tables import codes_of, decimal, enum_of
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.arithmetic.exact import Line
+    from fieldscribe.facts.table import Fact
+    from fieldscribe.model import Point
+    from fieldscribe.targets.docs.scope import DocsScope
+    from fieldscribe.targets.docs.tables import Encode
+
+_KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
+_NO_REMARKS = ("special_of", "note", "reserved")
+"""Facts in other columns: `special_of` in `codes`, `reserved` as part of the reason."""
+
+
+class Sheet:
+    """What the cells of all points of a device need."""
+
+    def __init__(self, scope: DocsScope, encode: Encode) -> None:
+        self.scope, self.encode, self.part = scope, encode, part_of(scope.device)
+        further = {
+            "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
+            "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",
+            "default": _default_numbers,
+            "default_value": _default_fraction,
+        }
+        self._remarks = Remarks(scope.context, str, further, _NO_REMARKS, in_columns=True)
+        self._encode_remarks = cache(encode)
+
+    def remarks(self, point: Point) -> str:
+        """Return the remarks of a point; many points have the same."""
+        return self._encode_remarks(self._remarks.of(point))
+
+
+def of_fact(fact: Fact, point: Point, sheet: Sheet) -> tuple[str]:
+    """Return the cell of a fact."""
+    text = fact.cell_of(point, sheet.scope.context)
+    return (text if fact.is_number else sheet.encode(text),)
+
+
+def address(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
+    """Return the lowest address in both notations, the number of words, and their order."""
+    addresses, words = point.place.addresses, str(point.words)
+    if not addresses:
+        return "", "", words, ""
+    lowest = min(addresses)
+    order = sheet.encode(wording.order_text(point)) if len(addresses) > 1 else ""
+    return str(lowest), hex_text(lowest), words, order
+
+
+def bits(point: Point, _: Sheet) -> tuple[str, ...]:
+    """Return the bits of a bit group, `yes` if it shares the word, its mask, and the fixed bits."""
+    fixed = ("", "") if point.fixed is None else (str(point.fixed.mask), str(point.fixed.bits))
+    if point.bits is None:
+        return "", "", "", "", *fixed
+    high, low = point.bits
+    return str(low), str(high), "yes" if wording.shares_word(point) else "", str((2 << high) - (1 << low)), *fixed
+
+
+def references(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
+    """Return Modicon's two numberings, which of them are computed, and all others as one text."""
+    place = point.place
+    others, known = [], {"modicon": "", "reference": ""}
+    for name, number in place.references.items():
+        if name in known and isinstance(number, int):
+            known[name] = str(number)
+        else:
+            others.append(f"{name} {number}")
+    numbers = sheet.part.numbers(point.space, min(place.addresses)) if place.addresses else {}
+    computed = {name: str(number) for name, number in numbers.items() if name not in place.references}
+    known |= computed
+    return known["modicon"], known["reference"], " ".join(computed), sheet.encode(", ".join(others))
+
+
+def scale(point: Point, sheet: Sheet) -> tuple[str, str, str]:
+    """Return factor and offset; without a linear decimal rule the rule as text."""
+    line = _line_of(point)
+    if line is not None:
+        factor, offset = exact(line.factor, line.divisor), exact(line.add, line.divisor)
+        if "/" not in factor + offset:
+            return factor, offset, ""
+    return "", "", sheet.encode(wording.scale_text(point, sheet.scope.by_name) if point.scale is not None else "")
+
+
+def _line_of(point: Point) -> Line | None:
+    """Return the rule from raw numbers to values; None if they are no quantities or other points are needed."""
+    if point.form not in ("scaled", "integer", "float"):
+        return None
+    if point.scale is not None:
+        return fixed_rule(point)
+    return SAME if point.generated or point.reserved else None
+
+
+def limits(point: Point, sheet: Sheet) -> tuple[str, ...]:
+    """Return the least and the greatest raw number and value, and the rest of the rule as text."""
+    return *_ends_of(point), sheet.encode(_range_of(point, sheet.scope.by_name))
+
+
+def _ends_of(point: Point) -> tuple[str, str, str, str]:
+    """Return the least and the greatest raw number and value; empty texts where there is none."""
+    if point.info.floating:
+        units = point.allowed.units
+        return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
+    outer, line = _without_codes(point, wording.outer_raw(point)), _line_of(point)
+    if outer is None or point.text is not None:
+        return "", "", "", ""
+    if line is None:
+        return str(outer[0]), str(outer[1]), "", ""
+    low, high = (exact(raw * line.factor + line.add, line.divisor) for raw in (outer[:: -1 if line.factor < 0 else 1]))
+    return str(outer[0]), str(outer[1]), decimal(low), decimal(high)
+
+
+def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int] | None:
+    """The ends without the special codes there; None if nothing is left."""
+    if ends is None or not point.specials:
+        return ends
+    low, high = ends
+    while low <= high and (code := point.special(low)) is not None:
+        low = code.high + 1
+    while low <= high and (code := point.special(high)) is not None:
+        high = code.low - 1
+    return (low, high) if low <= high else None
+
+
+def _range_of(point: Point, points: Mapping[str, Point]) -> str:
+    """Return the limits as text if least and greatest are not all: other points, gaps, fractions."""
+    allowed, line = point.allowed, _line_of(point)
+    parts = allowed.units if point.info.floating else allowed.intervals
+    unsaid = line is not None and bool(parts) and "" in _ends_of(point)[2:]
+    if len(parts) <= 1 and not allowed.moves and not unsaid:
+        return ""
+    text = wording.range_text(point, points) if line is not None else ""
+    raw = "" if text else wording.raw_range_text(point)
+    return f"only {text}" if text else f"only raw {raw}" if raw else ""
+
+
+def default(point: Point, _: Sheet) -> tuple[str]:
+    """Return the factory setting as a value; empty if it is a special code."""
+    raw = point.default_raw
+    if point.default is None or (raw is not None and point.special(raw) is not None):
+        return ("",)
+    return (decimal(number_text(point.default)),)
+
+
+def _default_numbers(point: Point) -> str:
+    """The factory setting of a word that is made of numbers."""
+    parts = wording.default_parts(point)
+    return parts and f"default: {parts}"
+
+
+def _default_fraction(point: Point) -> str:
+    """A factory setting that is no decimal, and so in no column."""
+    is_fraction = point.default is not None and point.default_raw is None and not decimal(number_text(point.default))
+    return f"default {wording.default_text(point)}" if is_fraction else ""
+
+
+def enum(point: Point, sheet: Sheet) -> tuple[str]:
+    """Return the name of the enum."""
+    enum = enum_of(point)
+    return ("" if enum is None else sheet.encode(enum.name),)
+
+
+def codes(point: Point, sheet: Sheet) -> tuple[str]:
+    """Return what the special codes are called in the meanings."""
+    return (sheet.encode(codes_of(point)),)
+
+
+def keeps(point: Point, sheet: Sheet) -> tuple[str]:
+    """Return whether a written value survives switching off."""
+    return (_KEEPS[point.keeps] if point.keeps in _KEEPS else sheet.encode(f"after {point.keeps}"),)
