@@ -11,7 +11,7 @@ from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.suggestions import key_suggestion, suggest_bits, suggest_language
+from fieldscribe.language.suggestions import LANGUAGES, key_suggestion, suggest_bits
 from fieldscribe.text import shortened
 
 if TYPE_CHECKING:
@@ -105,13 +105,6 @@ def form_hint(value: str, form: Form) -> str:
     return f"write `{suggestion}`" if re.fullmatch(form.pattern, suggestion) else form.hint
 
 
-def key_in_our_notation(key: str, known: Collection[Form]) -> str | None:
-    """Return a key that names bits or a language in our notation; None if it does not."""
-    if forms.BITS in known:
-        return suggest_bits(key)
-    return suggest_language(key) if forms.LANGUAGE in known else None
-
-
 def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: Any = None) -> str:
     """Return the hint for an unknown key with this value."""
     if key == "<<":
@@ -127,8 +120,8 @@ def key_hint(key: str, known: Collection[str], written: Iterable[Form], value: A
 def _spelling_hint(key: str, known: Collection[str], written: Iterable[Form]) -> str:
     """Return the hint for a key that is misspelled, or that nothing is known of."""
     written = [form for form in written if form is not forms.PRIVATE]
-    named = key_in_our_notation(key, written)
-    if named is not None:
+    language = LANGUAGES.get(key.lower()) if forms.LANGUAGE in written else None
+    if named := suggest_bits(key) if forms.BITS in written else language:
         return f"write `{named}`"
     near = nearest(key, tuple(known), _TYPING_SLIP)
     if near is not None:

@@ -1,6 +1,7 @@
 """What to write instead of what other tools and languages would have: tables of keys, patterns and hints.
 
-A new suggestion is one row of `VALUES` (by the key that the value stands under), of `KEYS`, or of a table for formulas.
+A new suggestion is one row of `VALUES` (by the key that the value stands under) or of `KEYS`; those for formulas stand
+in `formula/suggestions.py`.
 `tests/language/test_hints.py` holds that what a hint says to write passes.
 """
 
@@ -11,10 +12,7 @@ from collections.abc import Callable
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.language.formula.conditions import parse_condition
 from fieldscribe.language.formula.lint import exact_scale
-from fieldscribe.language.formula.parser import parse_scale
-from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 _LONGEST = 200
-_MOST_ITEMS = 8
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
 _DECIMAL = r"[-+]?[0-9]+(?:\.[0-9]+)?(?:E[-+]?[0-9]+)?"
 _CODE = r"-?[0-9]+|0x[0-9A-Fa-f]+|[0-9A-Fa-f]+h|[Hh]'[0-9A-Fa-f]+"
@@ -31,7 +28,7 @@ _WORD = r"[^\W\d][^,\[\]{}]*"
 _TO = r"(?:\.\.|-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
 _INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_TO}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
 _PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
-_LANGUAGES = {"german": "de", "deutsch": "de", "english": "en", "french": "fr", "italian": "it", "spanish": "es"}
+LANGUAGES = {"german": "de", "deutsch": "de", "english": "en", "french": "fr", "italian": "it", "spanish": "es"}
 _WORD_ORDER = r"[-_ ]?(?:be|le|abcd|cdab|badc|dcba|swap(?:ped)?|big|little)"
 _ONE_BIT = " in the space `coil` or `discrete`; one bit of a word is `bits: 0`, without a type"
 _BYTE = " with the `bits: 7..0` that it takes of its word, or `type: {}`"
@@ -74,10 +71,14 @@ def _bits(match: re.Match[str]) -> str:
     return f"{{key}}: {high}..{low}"
 
 
-def _names(match: re.Match[str]) -> str:
-    """Number the names of a list."""
-    rows = (f"{number}: {_snake(name)}" for number, name in enumerate(match[1].split(", ")))
-    return f"{{key}}: {{{', '.join(rows)}}}"
+def _mapping(row: Callable[[int, str], str]) -> Callable[[re.Match[str]], str]:
+    """Return a hint that writes a list as a mapping: `row` returns the row of an item by its index and text."""
+
+    def write(match: re.Match[str]) -> str:
+        rows = (row(index, item) for index, item in enumerate(match[1].split(", ")))
+        return f"{{key}}: {{{', '.join(rows)}}}"
+
+    return write
 
 
 def _numbered_names(match: re.Match[str]) -> str:
@@ -87,21 +88,6 @@ def _numbered_names(match: re.Match[str]) -> str:
 
 def _snake(text: str) -> str:
     return re.sub(r"[^a-z0-9]+", "_", text.strip().lower()).strip("_") or "name"
-
-
-def _variants(match: re.Match[str]) -> str:
-    return f"{{key}}: {{{', '.join(f'{name}: {{}}' for name in match[1].split(', '))}}}"
-
-
-def _special(match: re.Match[str]) -> str:
-    names = ("name_of_it", *(f"name_of_it_{number}" for number in range(2, _MOST_ITEMS + 1)))
-    rows = (f"{code}: {name}" for code, name in zip(match[1].split(", "), names, strict=False))
-    return f"{{key}}: {{{', '.join(rows)}}}"
-
-
-def _functions(match: re.Match[str]) -> str:
-    rows = ", ".join(f"{number}: name_of_it" for number in match[1].split(", "))
-    return f"each number has a name: write `{{key}}: {{{rows}}}`"
 
 
 def _comparisons(match: re.Match[str]) -> str:
@@ -188,12 +174,16 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("set", r".*\.\..*", r"several are `sets: \g<0>`"),
     ("sets", r"\[.*\]", "write a count, or each with its row: `sets: 4`, `sets: {2: {at: \u2026}}`"),
     ("digits", r"-?[0-9]+", "{key}: {count: \\g<0>, enum: \u2026}"),
-    ("special", rf"\[?((?:{_CODE})(?:, (?:{_CODE})){{0,7}})\]?", _special),
+    (
+        "special",
+        rf"\[?((?:{_CODE})(?:, (?:{_CODE})){{0,7}})\]?",
+        _mapping(lambda index, code: f"{code}: name_of_it{f'_{index + 1}' if index else ''}"),
+    ),
     ("scale rule", rf"({_DECIMAL})", _factor),
     ("scale rule", rf"\{{.*?\b(?:factor|gain|slope|multiplier): ({_DECIMAL}).*\}}", _factor),
     ("scale rule", r"\{.*\}", "a scale is one formula, as in `{key}: value = raw * 0.1 - 40`"),
-    ("enum flags", rf"\[({_WORD}(?:, {_WORD}){{0,7}})\]", _names),
-    ("values", rf"\[({_PLAIN}(?:, {_PLAIN}){{0,7}})\]", _variants),
+    ("enum flags", rf"\[({_WORD}(?:, {_WORD}){{0,7}})\]", _mapping(lambda index, name: f"{index}: {_snake(name)}")),
+    ("values", rf"\[({_PLAIN}(?:, {_PLAIN}){{0,7}})\]", _mapping(lambda _, name: f"{name}: {{}}")),
     ("enum flags values special", r"[^\[\]{}]*[-+]?[0-9]+\s*[=:]\s*[A-Za-z][^\[\]{}]*", _numbered_names),
     ("steps", _DECIMAL, r"write `steps: {0: \g<0>}`: from raw 0 on"),
     ("decimals", r"[-+]?[0-9]*\.([0-9]*?)0*", _decimals),
@@ -207,7 +197,11 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
         r"write `at: \1`, and `\2` beside it",
     ),
     ("at", r"\{((?:sets|indices|set|index): [^{}]+)\}", "write `at: \u2026`, and `\\1` beside it"),
-    ("functions exceptions responses", rf"\[({_PLAIN}(?:, {_PLAIN}){{0,15}})\]", _functions),
+    (
+        "functions exceptions responses",
+        rf"\[({_PLAIN}(?:, {_PLAIN}){{0,15}})\]",
+        _mapping(lambda _, code: f"{code}: name_of_it"),
+    ),
     ("family", r"[^\[\]{}]+", _family),
     ("group", r"\{.*?\bname: (\w+).*\}", r"write `group: \1` and its other keys below, at the top"),
     ("access", "ro|read|readonly|read[-_ ]only|r/o|true", "{key}: r"),
@@ -233,7 +227,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("certainty", "sure|high|yes|true|100%", "{key}: certain"),
     ("certainty", "probable|probably|medium|guess", "{key}: likely"),
     ("certainty", "low|unsure|no|false|open", "{key}: unknown"),
-    *(("language", name, f"{{key}}: {code}") for name, code in _LANGUAGES.items()),
+    *(("language", name, f"{{key}}: {code}") for name, code in LANGUAGES.items()),
     ("space", "hr|4x|holding[_ ]registers?|register", "{key}: holding"),
     ("space", "ir|3x|input[_ ]registers?", "{key}: input"),
     ("space", "do|0x|coils|output|digital_output", "{key}: coil"),
@@ -384,86 +378,8 @@ def suggest_bits(text: str) -> str | None:
     return "..".join(map(str, ends))
 
 
-def suggest_language(key: str) -> str | None:
-    """Return the code of a language that is spelled out."""
-    return _LANGUAGES.get(key.lower())
-
-
 def reversed_hint(key: str, value: Any) -> str | None:
     """Return the hint for `off: 0` where the number belongs first; None if the value is no number."""
     if isinstance(value, int) and not isinstance(value, bool) and len(key) <= _LONGEST:
         return f"the number stands first: `{value}: {key.lower().replace(' ', '_')}`"
     return None
-
-
-_SIGNS = str.maketrans({"\u00d7": "*", "\u00b7": "*", "\u22c5": "*", "\u00f7": "/", "\u2212": "-", "\u2013": "-"})
-_FACTOR = r"[0-9]+(?:\.[0-9]+)?"
-_SIDES = {
-    name: side
-    for side, names in (
-        ("value", "value y phys physical eng engineering result scaled actual real display wert"),
-        ("raw", "raw x reg register count counts int integer data word rohwert"),
-    )
-    for name in names.split()
-}
-_SCALES = (
-    (rf"\*\s*({_FACTOR})", r"value = raw * \1"),
-    (rf"[xX]\s*({_FACTOR})", r"value = raw * \1"),
-    (rf"({_FACTOR})\s*[xX*]?", r"value = raw * \1"),
-    (rf"/\s*({_FACTOR})", r"value = raw / \1"),
-    (rf"1\s*[:/]\s*({_FACTOR})", r"value = raw / \1"),
-    (rf"({_FACTOR})\s*[:/]\s*({_FACTOR})", r"value = raw * \1 / \2"),
-    (r"10\s*(?:\*\*|\^)\s*([-+]?[0-9]+)", r"value = raw * 10 ** \1"),
-    (rf"({_FACTOR})\s*[^\W\d_]{{1,4}}(?:/bit|/digit|/lsb|/count)?", r"value = raw * \1"),
-    (r"([^=]*\braw\b[^=]*)", r"value = \1"),
-    (r"([^=]*\bvalue\b[^=]*)", r"raw = \1"),
-    (r"(.*=.*)", r"\1"),
-)
-"""A pattern of the whole text, with our signs, and the scale that it stands for."""
-_CONDITIONS = (
-    (r"^\s*(?:if|only if|when)\s+", ""),
-    (r"\|\|", " or "),
-    (r"&&?", " and "),
-    (r"\bis not\b|<>|\u2260", "!="),
-    (r"\bis\b|===|(?<![=!<>])=(?!=)", "=="),
-    (r"\bin\s*[\[{]([^\]}]*)[\]}]", r"in (\1)"),
-    (r"([A-Za-z]\w*) in ([-+0-9A-Fa-fxh]+)\s*\.\.\s*([-+0-9A-Fa-fxh]+)", r"\1 >= \2 and \1 <= \3"),
-)
-"""What is replaced in a condition, one after the other."""
-_LONGEST_FORMULA = 80
-
-
-def suggest_scale(text: str) -> str | None:
-    """Return the scale that a text probably means, in our notation; None if there is no suggestion."""
-    if len(text) > _LONGEST_FORMULA:
-        return None
-    plain = re.sub(r"(?<=[0-9]),(?=[0-9])", ".", text.translate(_SIGNS).strip())
-    plain = re.sub(r"(?<=[\w)])\s+[xX]\s+(?=[\w(])", " * ", plain)
-    plain = re.sub(r"(?<=10)\s*\^\s*", " ** ", plain).replace("==", "=").replace(":=", "=")
-    if "=" in plain or re.search(r"\b(raw|value)\b", plain):
-        plain = re.sub(r"[A-Za-z_]+", lambda word: _SIDES.get(word[0].lower(), word[0]), plain)
-    for pattern, scale in _SCALES:
-        match = re.fullmatch(pattern, plain)
-        line = "" if match is None else match.expand(scale)
-        if line and _is_read_by(parse_scale, line):
-            return exact_scale(line)
-    return None
-
-
-def suggest_condition(text: str) -> str | None:
-    """Return the condition that a text probably means, in our notation; None if there is no suggestion."""
-    if len(text) > _LONGEST_FORMULA:
-        return None
-    plain = text
-    for pattern, replacement in _CONDITIONS:
-        plain = re.sub(pattern, replacement, plain)
-    plain = " ".join(plain.split())
-    return plain if plain != text and _is_read_by(parse_condition, plain) else None
-
-
-def _is_read_by(parse: Callable[[str], object], text: str) -> bool:
-    try:
-        parse(text)
-    except FormulaError:
-        return False
-    return True

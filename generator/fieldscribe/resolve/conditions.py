@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from fieldscribe import conditions
 from fieldscribe.conditions import Condition
 from fieldscribe.language.formula.conditions import Comparison, parse_condition, wrong_number
+from fieldscribe.language.formula.suggestions import suggest_condition
 from fieldscribe.language.formula.syntax import FormulaError
-from fieldscribe.language.suggestions import suggest_condition
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 

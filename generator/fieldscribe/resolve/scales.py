@@ -9,8 +9,8 @@ from fieldscribe.language.formula.conditions import parse_case
 from fieldscribe.language.formula.lint import cut_off
 from fieldscribe.language.formula.normal import Affine, scale_rule
 from fieldscribe.language.formula.parser import parse_scale
+from fieldscribe.language.formula.suggestions import suggest_scale
 from fieldscribe.language.formula.syntax import FormulaError, Part
-from fieldscribe.language.suggestions import suggest_scale
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.values import FactError, Written, formula_finding
 
