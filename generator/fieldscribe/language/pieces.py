@@ -10,10 +10,9 @@ import yaml
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_BREAK = re.compile(r"\r\n?")
 _COMMENT = re.compile(r"(?:^|(?<=[ \t]))#.*", re.MULTILINE)
 _PLAIN_BLOCK = re.compile(r"[|>]-?[ \t]*(?:#.*)?\n")
-_SIGNS: dict[type, str] = {
+_KINDS: dict[type, str] = {
     yaml.BlockEntryToken: "-",
     yaml.ValueToken: ":",
     yaml.FlowEntryToken: ",",
@@ -28,15 +27,12 @@ _SIGNS: dict[type, str] = {
     yaml.TagToken: "property",
     yaml.AliasToken: "alias",
     yaml.StreamEndToken: "end",
-}
-_OPENINGS: dict[type, str] = {
+    yaml.KeyToken: "key",
     yaml.BlockMappingStartToken: "mapping",
     yaml.BlockSequenceStartToken: "sequence",
     yaml.BlockEndToken: "close",
 }
-
-
-_UNSEEN = frozenset((*_OPENINGS.values(), "key"))
+_WITHOUT_TEXT = frozenset({"key", "mapping", "sequence", "close"})
 _STRANGE_BREAK = re.compile(r"[\x85\u2028\u2029]")
 
 
@@ -91,7 +87,7 @@ _NO_GAP = Gap(None, 0, (), breaks=False)
 
 def unbroken(text: str) -> str:
     """Return the text with one kind of line break."""
-    return _BREAK.sub("\n", text)
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def comments(text: str) -> list[str]:
@@ -107,32 +103,20 @@ def pieces(text: str) -> Iterator[Piece]:
     """Yield the pieces of a text without errors, with one kind of line break. Raises OddError."""
     _refuse_strange_breaks(text)
     end = 0
-    for token in _tokens(text):
-        kind = _kind(token)
+    for token in iter(yaml.CSafeLoader(text).get_token, None):
+        kind = _KINDS.get(type(token), "")
+        if type(token) is yaml.ScalarToken:
+            kind = "block" if token.style in ("|", ">") else "scalar"
         _refuse_odd(token, kind, text)
-        if kind in _UNSEEN:
-            yield Piece(kind, "", token.start_mark.line + 1, token.start_mark.column, _NO_GAP)
+        mark = token.start_mark
+        if kind in _WITHOUT_TEXT:
+            yield Piece(kind, "", mark.line + 1, mark.column, _NO_GAP)
         elif kind:
-            start = token.start_mark.index
-            stop = _end_of(token, text, kind)
-            mark = token.start_mark
-            yield Piece(kind, text[start:stop], mark.line + 1, mark.column, _gap(text, end, start))
-            end = stop
-
-
-def _tokens(text: str) -> Iterator[Any]:
-    loader = yaml.CSafeLoader(text)
-    while (token := loader.get_token()) is not None:
-        yield token
-
-
-def _kind(token: Any) -> str:
-    """Return the kind of a token; empty for one without a place in the text."""
-    if type(token) is yaml.ScalarToken:
-        return "block" if token.style in ("|", ">") else "scalar"
-    if type(token) is yaml.KeyToken:
-        return "key"
-    return _SIGNS.get(type(token)) or _OPENINGS.get(type(token), "")
+            piece = text[mark.index : token.end_mark.index]
+            if kind == "block":  # its mark may stand behind comments and empty lines that are not its own
+                piece = piece.rstrip("\n ")
+            yield Piece(kind, piece, mark.line + 1, mark.column, _gap(text, end, mark.index))
+            end = mark.index + len(piece)
 
 
 def _refuse_strange_breaks(text: str) -> None:
@@ -153,21 +137,13 @@ def _refuse_odd(token: Any, kind: str, text: str) -> None:
         raise OddError(mark.line + 1, mark.column + 1, message, "write the text in quotes")
 
 
-def _end_of(token: Any, text: str, kind: str) -> int:
-    start: int = token.start_mark.index
-    end: int = token.end_mark.index
-    if kind == "block":  # its mark may stand behind comments and empty lines that are not its own
-        return start + len(text[start:end].rstrip("\n "))
-    return end
-
-
 def _gap(text: str, start: int, end: int) -> Gap:
     first, *rest = text[start:end].split("\n")
     column = start - (text.rfind("\n", 0, start) + 1)
     behind = _COMMENT.search(first) if first.strip() else None
     comment = None if behind is None else Comment(behind[0].rstrip(), column + behind.start())
     blanks = 0 if behind is None else behind.start()
-    lines = [_line(line) for line in (rest[:-1] if rest else [])]
+    lines = [_line(line) for line in rest[:-1]]
     if start == 0:  # nothing stands before the first line
         lines = [_line(first), *lines] if rest else []
         comment = None
