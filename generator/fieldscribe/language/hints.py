@@ -12,12 +12,12 @@ from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import LANGUAGES, key_suggestion, suggest_bits
-from fieldscribe.text import shortened
+from fieldscribe.schema_types import Text
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from fieldscribe.schema_types import Form
+    from fieldscribe.schema_types import Form, Shape
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"
@@ -29,8 +29,8 @@ _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "
 
 
 def quoted(text: str) -> str:
-    """Return a text from a description in backquotes, shortened."""
-    return f"`{shortened(text)}`"
+    """Return a text from a description in backquotes, shortened; blanks stay, for they may be what is wrong."""
+    return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
 
 
 def value_text(value: Any) -> str:
@@ -44,12 +44,14 @@ def value_text(value: Any) -> str:
     return f"the {'text' if isinstance(value, str) else 'number'} {quoted(str(value))}"
 
 
-def type_hint(value: Any, accepted: Collection[type], example: Any, form: Form | None) -> str:
-    """Return the hint for a value of the wrong type."""
+def type_hint(value: Any, accepted: Collection[type], shape: Shape) -> str:
+    """Return the hint for a value whose type is not one of the accepted types of its shape."""
+    example = next(iter(shape.examples), None)
     if value is None:
         return "fill it in, or leave the key out"
     hint = None
     if isinstance(value, int | Decimal):
+        form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
         hint = _about_number(value, accepted, example, form)
     elif isinstance(value, str) and (int in accepted or Decimal in accepted):
         hint = _number_hint(value, Decimal in accepted)

@@ -15,7 +15,7 @@ from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import reversed_hint
 from fieldscribe.language.value_checks import NumberCheck, ShapeCheck, TextCheck, compiled_pattern
-from fieldscribe.schema_types import Items, Place, Text, Whole, says_yes_or_no
+from fieldscribe.schema_types import Items, Place, Text, Whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -46,10 +46,7 @@ def _build(shape: Shape) -> ShapeCheck:
     for kind in shape.kinds:
         for python_type, check in _by_python_type(kind):
             checks.setdefault(python_type, check)
-    form = next((kind.form for kind in shape.kinds if isinstance(kind, Text)), None)
-    yes_no = says_yes_or_no(shape)
-    wanted = "yes or no" if yes_no else " or ".join(kind.words for kind in shape.kinds)
-    return ShapeCheck(checks or _ANY, wanted, next(iter(shape.examples), None), form, yes_no=yes_no)
+    return ShapeCheck(shape, checks or _ANY)
 
 
 def _by_python_type(kind: Kind) -> Iterator[tuple[type, Check | None]]:

@@ -10,13 +10,14 @@ from fieldscribe.language.hints import form_hint, nearest, quoted, type_hint, va
 from fieldscribe.language.keys import forms
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
+from fieldscribe.schema_types import says_yes_or_no
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.language.nodes import Map, Seq
-    from fieldscribe.schema_types import Form, Text, Whole
+    from fieldscribe.schema_types import Shape, Text, Whole
 
 _YES_NO = {"yes": True, "no": False}
 
@@ -50,14 +51,12 @@ class ShapeCheck:
     the number, or by true or false.
     """
 
-    __slots__ = ("checks", "example", "form", "notation", "quick", "wanted", "yes_no")
+    __slots__ = ("checks", "notation", "quick", "shape", "yes_no")
 
-    def __init__(
-        self, checks: Mapping[type, Check | None], wanted: str, example: Any, form: Form | None, *, yes_no: bool
-    ) -> None:
-        self.checks, self.wanted, self.example, self.form, self.yes_no = checks, wanted, example, form, yes_no
+    def __init__(self, shape: Shape, checks: Mapping[type, Check | None]) -> None:
+        self.shape, self.checks, self.yes_no = shape, checks, says_yes_or_no(shape)
         self.notation = int in checks and str not in checks
-        self.quick = {kind: check for kind, check in checks.items() if not (yes_no and kind is str)}
+        self.quick = {kind: check for kind, check in checks.items() if not (self.yes_no and kind is str)}
 
     def fits(self, value: Any) -> Any:
         """Return a true value if the value is right as it stands."""
@@ -75,8 +74,9 @@ class ShapeCheck:
             elif self.yes_no and value in _YES_NO:
                 value = holder[at] = _YES_NO[value]
         if type(value) not in self.checks:
-            message = f"{value_text(value)} stands where {self.wanted} belongs"
-            hint = value_hint(at, value) or type_hint(value, self.checks, self.example, self.form)
+            wanted = "yes or no" if self.yes_no else " or ".join(kind.words for kind in self.shape.kinds)
+            message = f"{value_text(value)} stands where {wanted} belongs"
+            hint = value_hint(at, value) or type_hint(value, self.checks, self.shape)
             report.error("wrong-type", message, holder.span(at), hint)
             return False
         check = self.checks[type(value)]

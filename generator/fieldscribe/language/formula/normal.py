@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache
 from math import gcd, lcm
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
@@ -207,9 +206,13 @@ def evaluate(expression: Expression, values: Mapping[str, Fraction]) -> Fraction
 
 def scale_rule(scale: Scale, resolve: Resolve) -> Linear:
     """Return the rule from value to raw; the scale may be written for either side. Raises FormulaError."""
-    if not scale.uses:
-        return _static_rule(scale)
-    return _rule(scale, resolve)
+    rule = linear(scale.expression, scale.variable, resolve)
+    if scale.side == "raw":
+        return rule
+    try:
+        return invert(rule)
+    except FormulaError as error:
+        raise FormulaError(error.message, scale.uses[0].column if scale.uses else 0, error.hint) from None
 
 
 def invert(rule: Linear) -> Linear:
@@ -222,25 +225,6 @@ def invert(rule: Linear) -> Linear:
         raise FormulaError(message, 0, "a rule with run-time factors has an offset only where it is written raw = ...")
     factors = tuple(replace(factor, power=-factor.power) for factor in rule.factors)
     return Linear(1 / rule.ratio, -rule.offset / rule.ratio, factors)
-
-
-def _rule(scale: Scale, resolve: Resolve) -> Linear:
-    rule = linear(scale.expression, scale.variable, resolve)
-    if scale.side == "raw":
-        return rule
-    try:
-        return invert(rule)
-    except FormulaError as error:
-        raise FormulaError(error.message, scale.uses[0].column if scale.uses else 0, error.hint) from None
-
-
-@lru_cache(maxsize=16384)
-def _static_rule(scale: Scale) -> Linear:
-    return _rule(scale, _no_points)
-
-
-def _no_points(name: str, _: Part) -> NoReturn:
-    raise FormulaError(f"`{name}` is not known", 0)
 
 
 def _linear(term: Term, expression: Expression) -> Linear:
