@@ -10,9 +10,8 @@ import pytest
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import c
 from fieldscribe.targets.identifiers import clashes
-from support.c_device import WARNINGS, write_headers
+from support.c_device import run_program, write_headers
 from support.models import allowed, device_of, point, scaled, value_of
-from support.toolchains import compiled, run
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -171,6 +170,4 @@ int main(void)
 
 def test_points_that_share_are_computed_each_with_its_own_numbers(tmp_path: Path) -> None:
     folder = write_headers(made(*SHARING), tmp_path)
-    (tmp_path / "user.c").write_text(USER, "utf-8")
-    flags = ("-std=c99", *WARNINGS, f"-I{folder / 'c'}")
-    run([compiled("gcc", flags, tmp_path / "user.c", tmp_path / "user")])
+    run_program(USER, "quick", folder / "c", tmp_path)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import can
 import pytest
 from support.models import sample_device
+from support.places import ROOT
 from support.python_package import Slave, imported, write_package
 
 if TYPE_CHECKING:
@@ -35,3 +37,23 @@ def slave() -> Slave:
 def drive(package: Any, slave: Slave) -> Any:
     """A drive of one variant on that line."""
     return package.SampleDrive(slave, unit=5, voltage_class="400V")
+
+
+@pytest.fixture
+def l200() -> Iterator[Any]:
+    """The generated package of a drive on Modbus."""
+    yield from imported(ROOT / "generated/python", "hitachi_l200")
+
+
+@pytest.fixture
+def mpu2s() -> Iterator[Any]:
+    """The generated package of a device on CAN."""
+    yield from imported(ROOT / "generated/python", "woodward_mpu2s")
+
+
+@pytest.fixture
+def bus() -> Iterator[tuple[can.BusABC, can.BusABC]]:
+    """Both ends of a bus."""
+    far = can.Bus("line", interface="virtual")
+    yield can.Bus("line", interface="virtual"), far
+    far.shutdown()

@@ -2,94 +2,21 @@
 
 from __future__ import annotations
 
-import importlib
 import socket
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-import can
 import pytest
 from support.line_ends import pty_end
-from support.places import ROOT
-from support.python_package import error, imported
+from support.python_package import error
+from support.python_transports import NOISE, behind_a_gateway, transport
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-
-GENERATED = ROOT / "generated/python"
-
-
-@pytest.fixture
-def l200() -> Iterator[Any]:
-    yield from imported(GENERATED, "hitachi_l200")
-
-
-def transport(name: str) -> Any:
-    """A module of transports, of the same copy of the runtime as the device."""
-    return importlib.import_module(f"fieldscribe_runtime.transports.{name}")
-
-
-def use(drive: Any) -> None:
-    """What every line has to carry: registers, coils, a group in blocks."""
-    drive.base_frequency.write(51.5)
-    assert drive.base_frequency.read() == 51.5
-    drive.run_command.write(1)
-    assert drive.run_command.read() == 1
-    assert len(drive.read_many("status")) > 2
-
-
-def behind_a_gateway(device: Any) -> Any:
-    """The drive speaks RTU; behind a gateway it is reached by TCP."""
-    return type("Gateway", (device,), {"PROFILE": device.PROFILE.replaced(framings=("rtu", "tcp"))})
-
-
-@contextmanager
-def socket_end(answer: Any) -> Iterator[int]:
-    """The port of an end in the network which answers each request of each connection by a function."""
-
-    def serve(line: socket.socket) -> None:
-        with line, suppress(OSError):
-            while request := line.recv(256):
-                line.sendall(answer(request))
-
-    def listen() -> None:
-        with suppress(OSError):
-            while True:
-                threading.Thread(target=serve, args=(listening.accept()[0],), daemon=True).start()
-
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        threading.Thread(target=listen, daemon=True).start()
-        yield listening.getsockname()[1]
-        listening.shutdown(socket.SHUT_RDWR)
-
-
-def with_word(request: bytes, word: int) -> bytes:
-    """An RTU answer to a request of one register."""
-    body = request[:2] + bytes((2, 0, word))
-    crc: int = importlib.import_module("fieldscribe_runtime.modbus").crc(body)
-    return body + crc.to_bytes(2, "little")
-
-
-@pytest.fixture
-def mpu2s() -> Iterator[Any]:
-    yield from imported(GENERATED, "woodward_mpu2s")
-
-
-@pytest.fixture
-def bus() -> Iterator[tuple[can.BusABC, can.BusABC]]:
-    """Both ends of a bus."""
-    far = can.Bus("line", interface="virtual")
-    yield can.Bus("line", interface="virtual"), far
-    far.shutdown()
-
-
-NOISE = can.Message(arbitration_id=1, is_remote_frame=True, is_extended_id=False)
-
-
-BACK = can.Message(arbitration_id=0x346, data=b"\x01\x02", is_extended_id=False)
+    import can
 
 
 def drip(listening: socket.socket, gap: float, data: bytes) -> None:

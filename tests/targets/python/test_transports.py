@@ -21,22 +21,13 @@ from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import ROOT
 from support.python_package import error, imported
+from support.python_transports import NOISE, behind_a_gateway, transport
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 GENERATED = ROOT / "generated/python"
 FREQUENCY, STATUS = 0x1028, 0x0002
-
-
-@pytest.fixture
-def l200() -> Iterator[Any]:
-    yield from imported(GENERATED, "hitachi_l200")
-
-
-def transport(name: str) -> Any:
-    """A module of transports, of the same copy of the runtime as the device."""
-    return importlib.import_module(f"fieldscribe_runtime.transports.{name}")
 
 
 def use(drive: Any) -> None:
@@ -52,11 +43,6 @@ async def use_async(drive: Any) -> None:
     await drive.base_frequency.write(52.5)
     assert await drive.base_frequency.read() == 52.5
     assert len(await drive.read_many("status")) > 2
-
-
-def behind_a_gateway(device: Any) -> Any:
-    """The drive speaks RTU; behind a gateway it is reached by TCP."""
-    return type("Gateway", (device,), {"PROFILE": device.PROFILE.replaced(framings=("rtu", "tcp"))})
 
 
 @pytest.mark.parametrize("framing", ["tcp", "rtu"])
@@ -323,20 +309,6 @@ def test_a_reply_that_a_network_delays(l200: Any) -> None:
         assert drive.read_at("holding", STATUS) == (9,)
 
 
-@pytest.fixture
-def mpu2s() -> Iterator[Any]:
-    yield from imported(GENERATED, "woodward_mpu2s")
-
-
-@pytest.fixture
-def bus() -> Iterator[tuple[can.BusABC, can.BusABC]]:
-    """Both ends of a bus."""
-    far = can.Bus("line", interface="virtual")
-    yield can.Bus("line", interface="virtual"), far
-    far.shutdown()
-
-
-NOISE = can.Message(arbitration_id=1, is_remote_frame=True, is_extended_id=False)
 BACK = can.Message(arbitration_id=0x346, data=b"\x01\x02", is_extended_id=False)
 
 
