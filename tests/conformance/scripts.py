@@ -31,7 +31,7 @@ class Script:
 
     def send(self, frame: Any) -> None:
         """One frame to the bus; what answers it comes next."""
-        self._came.append(self.exchange(frame.id.to_bytes(4, "big") + frame.data))
+        self._came.append(Script.exchange(self, frame.id.to_bytes(4, "big") + frame.data))
 
     def receive(self) -> Any:
         """The next frame from the bus."""
@@ -42,7 +42,7 @@ class Script:
 
     def receive_waiting(self) -> Any:
         """What is there already."""
-        return self.receive() if self._came and self._came[0] else None
+        return Script.receive(self) if self._came and self._came[0] else None
 
     @property
     def done(self) -> bool:
@@ -50,24 +50,21 @@ class Script:
         return not self._steps
 
 
-class AsyncScript(Script):
-    """The same for devices that wait with `await`; it never lets anything else run."""
+def async_twin(kind: type, *names: str) -> Any:
+    """Return a subclass whose methods of these names are awaited; they never let anything else run."""
 
-    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # as the async transports are
-        """One request and its reply."""
-        return super().exchange(request)
+    def awaited(name: str) -> Any:
+        method = getattr(kind, name)
 
-    async def send(self, frame: Any) -> None:  # type: ignore[override]  # as the async transports are
-        """One frame to the bus; what answers it comes next."""
-        self._came.append(super().exchange(frame.id.to_bytes(4, "big") + frame.data))
+        async def call(self: Any, *arguments: Any) -> Any:
+            return method(self, *arguments)
 
-    async def receive(self) -> Any:
-        """The next frame from the bus."""
-        return super().receive()
+        return call
 
-    def receive_waiting(self) -> Any:
-        """What is there already."""
-        return super().receive() if self._came and self._came[0] else None
+    return type(f"Async{kind.__name__}", (kind,), {name: awaited(name) for name in names})
+
+
+AsyncScript = async_twin(Script, "exchange", "send", "receive")
 
 
 def now(result: Any) -> Any:

@@ -233,21 +233,6 @@ class CanUnit:
         return self.frame(0x320 + self.number, bytes((0xDD, slot)) + data)
 
 
-class AsyncCanUnit:
-    """The same for async devices."""
-
-    def __init__(self, unit: CanUnit) -> None:
-        self.unit = unit
-
-    async def send(self, frame: Any) -> None:
-        """Take a request."""
-        self.unit.send(frame)
-
-    async def receive(self) -> Any:
-        """The next frame."""
-        return self.unit.receive()
-
-
 class UssDrive:
     """A drive on a USS line: parameters are words (one or two) by number and index, `answer` its process data.
 
@@ -300,17 +285,6 @@ class UssDrive:
         response = len(value) if task in (1, 2, 3, 13, 14) else 3 + len(value)
         room = value if len(value) == 2 else (0, *value) if single_last else (*value, 0)
         return [response << 12 | low, words[1], *room][: len(words)]
-
-
-class AsyncUssDrive:
-    """The same for async devices."""
-
-    def __init__(self, drive: UssDrive) -> None:
-        self.drive = drive
-
-    async def exchange(self, request: bytes) -> bytes:
-        """The reply to a request."""
-        return self.drive.exchange(request)
 
 
 def _xor(data: bytes) -> int:

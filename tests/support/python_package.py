@@ -141,16 +141,27 @@ class Slave:
         return pdu[:5]
 
 
-class AsyncSlave:
-    """The same for async devices."""
+class Awaited:
+    """A peer for async devices: the methods of a blocking one, awaited."""
 
-    def __init__(self, slave: Slave) -> None:
-        self.slave = slave
-        self.framing = slave.framing
+    def __init__(self, peer: Any) -> None:
+        self.peer = peer
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.peer, name)
 
     async def exchange(self, request: bytes) -> bytes:
         """The reply to a request."""
-        return self.slave.exchange(request)
+        reply: bytes = self.peer.exchange(request)
+        return reply
+
+    async def send(self, frame: Any) -> None:
+        """Take a frame."""
+        self.peer.send(frame)
+
+    async def receive(self) -> Any:
+        """The next frame."""
+        return self.peer.receive()
 
 
 def _crc(data: bytes) -> bytes:

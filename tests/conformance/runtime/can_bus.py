@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from conformance.runtime.bench import devices
+from conformance.scripts import async_twin
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -46,24 +47,7 @@ class Waiting(Bus):
         return self.queue.pop(0) if self.queue else None
 
 
-class AsyncBus(Bus):
-    """The bus with `await`."""
-
-    async def send(self, frame: Any) -> None:  # type: ignore[override]  # as the async transports are
-        """A frame to the unit."""
-        super().send(frame)
-
-    async def receive(self) -> Any:
-        """The next frame."""
-        return super().receive()
-
-
-class AsyncWaiting(AsyncBus):
-    """The same that can tell what came already."""
-
-    def receive_waiting(self) -> Any:
-        """The next frame that is there."""
-        return self.queue.pop(0) if self.queue else None
+AsyncBus, AsyncWaiting = (async_twin(kind, "send", "receive") for kind in (Bus, Waiting))
 
 
 def roles_of(package: Package, text: str) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from conformance.runtime.bench import devices
+from conformance.scripts import async_twin
 
 if TYPE_CHECKING:
     from conformance.package import Package
@@ -68,12 +69,7 @@ class Line:
         return asked
 
 
-class AsyncLine(Line):
-    """The same with `await`."""
-
-    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # as the async transports are
-        """The reply to a telegram."""
-        return super().exchange(request)
+AsyncLine = async_twin(Line, "exchange")
 
 
 def profile_of(package: Package) -> Any:

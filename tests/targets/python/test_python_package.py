@@ -17,9 +17,9 @@ from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
 from fieldscribe.targets.python.namespaces import LIBRARIES
 from support.models import STATUS_FLAGS, changed, plain_points, point, sample_device, titles
-from support.python_families import AsyncCanUnit, AsyncUssDrive, CanUnit, UssDrive
+from support.python_families import CanUnit, UssDrive
 from support.python_package import (
-    AsyncSlave,
+    Awaited,
     Slave,
     assert_formatted,
     error,
@@ -56,9 +56,9 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
     uss.UssSession.PROFILE = uss.Profile((0, 1), (4,), (0, 2), {})
     link = uss.Link(4, 2)
     devices = (
-        *(runtime.Device(Slave(), 1), runtime.AsyncDevice(AsyncSlave(Slave()), 1)),
-        *(can.CanDevice(CanUnit(can.Frame, 1), 1), can.AsyncCanDevice(AsyncCanUnit(CanUnit(can.Frame, 1)), 1)),
-        *(uss.UssDevice(UssDrive(), 1, link), uss.AsyncUssDevice(AsyncUssDrive(UssDrive()), 1, link)),
+        *(runtime.Device(Slave(), 1), runtime.AsyncDevice(Awaited(Slave()), 1)),
+        *(can.CanDevice(CanUnit(can.Frame, 1), 1), can.AsyncCanDevice(Awaited(CanUnit(can.Frame, 1)), 1)),
+        *(uss.UssDevice(UssDrive(), 1, link), uss.AsyncUssDevice(Awaited(UssDrive()), 1, link)),
     )
     public = {name for device in devices for name in dir(device) if not name.startswith("_") and name.islower()}
     assert public == DEVICE_MEMBERS

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Fixed, Variant
-from support.python_families import AsyncUssDrive, UssDrive, uss_device, word
-from support.python_package import error, imported, typed_findings, write_package
+from support.python_families import UssDrive, uss_device, word
+from support.python_package import Awaited, error, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -289,7 +289,7 @@ def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> Non
 
 
 def test_a_cancelled_command_is_not_repeated(package: Any, uss: Any, line: UssDrive) -> None:
-    class Slow(AsyncUssDrive):
+    class Slow(Awaited):
         slow = False
 
         async def exchange(self, request: bytes) -> bytes:
