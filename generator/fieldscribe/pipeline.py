@@ -46,11 +46,11 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
         else:
             candidates = device_files_below(path)
         if not candidates:
-            missing = (
-                "there is no such file or folder"
-                if not path.exists()
-                else f"the folder holds no {DEVICE_FILE}, nor do its folders"
-            )
+            missing = "there is no such file or folder"
+            if path.is_dir():
+                missing = f"the folder holds no {DEVICE_FILE}, nor do its folders"
+            elif path.exists():
+                missing = "it is neither a folder nor a regular file"
             hint = f"name a folder with {DEVICE_FILE}, or a folder of such folders"
             report.error("no-device", missing, Span(shown_path(path), 1, 1), hint)
         device_files.update(dict.fromkeys(candidates))

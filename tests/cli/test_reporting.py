@@ -146,6 +146,26 @@ class _Screen(StringIO):
 
 
 @pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["encode", "small_drive", "P1", "--", "--"], "`--` is no argument"),
+        (["explain", "small_drive", "--", "--"], "`--` is no argument"),
+        (["import", "table", "--", "--"], "`--` is no argument"),
+        (["check", "--", "--"], "`--` is no argument"),
+        (["explain", os.devnull, "P1"], f"`{os.devnull}` is neither a folder nor a regular file"),
+        (["generate", "small_drive", "--out", "file"], "cannot write to file: it is a file, not a folder"),
+        (["vendor", "c", "small_drive", "--out", "file"], "cannot write to file: it is a file, not a folder"),
+        (["docs", "small_drive", "--format", "csv", "--out", "file"], "hint: name a folder with --out"),
+    ],
+)
+def test_wrong_calls(words: list[str], message: str, run: Callable[..., Output], small: Path) -> None:
+    Path("file").touch()
+    printed = run(*words)
+    assert (printed.code, printed.out) == (2, "")
+    assert message in printed.err
+
+
+@pytest.mark.parametrize(
     ("no_colour", "term", "coloured"), [("", "xterm", True), ("1", "xterm", False), ("", "dumb", False)]
 )
 def test_colour_is_for_terminals(

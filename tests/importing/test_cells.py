@@ -57,6 +57,8 @@ def test_a_column_of_hexadecimal_numbers_needs_no_marks() -> None:
         ("zwischen 10% und 150%", "10..150", "%", True),
         ("between 0.5 and 2 kHz", "0.5..2", "kHz", True),
         ("0.00~650.00", "0..650", "", True),
+        ("0.000 to 3.000", "0..3", "", True),
+        ("0.5 to 3.000", "0.5..3", "", True),
         ("0, 1, 2,\n3, 10", "0, 1, 2, 3, 10", "", False),
         ("0,1,2", "0, 1, 2", "", False),
         ("-1; 1", "-1, 1", "", False),
@@ -79,6 +81,9 @@ def test_ranges(cell: str, text: str, unit: str, in_units: bool) -> None:
         "0-5 sacks",
         "0-5 Hz, 2-3 s",
         "x 0-5",
+        "0 bis 3.000",
+        "0,5 bis 3.000 Hz",
+        "1,000-2,000",
     ],
 )
 def test_a_cell_with_more_than_one_range_has_none(cell: str) -> None:
@@ -95,6 +100,8 @@ def test_a_cell_with_more_than_one_range_has_none(cell: str) -> None:
         ("*10", (Fraction(10), "")),
         ("\u22122.5 °C", (Fraction(-5, 2), "°C")),
         ("Hz", None),
+        ("3.000", None),
+        ("0.001", (Fraction(1, 1000), "")),
         ("1/3 s", (Fraction(1), "/3 s")),
         ("", None),
     ],

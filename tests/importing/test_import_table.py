@@ -233,6 +233,27 @@ def test_rows_of_a_table_without_points_are_listed(tmp_path: Path, capsys: pytes
     assert "# ? line 7 is no point: Torque\n" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("rows", ['1,"Speed,Hz\n2,Torque,V\n', '1,"Speed,Hz\n2,"Torque",V\n', '1,"Spe"ed,Hz\n'])
+def test_a_quote_that_is_not_closed_hides_no_row(rows: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", "table", write(tmp_path, "rows.csv", f"Address,Name,Unit\n0,First,A\n{rows}")]) == 1
+    assert "rows.csv:3: a cell begins with a quote and does not end with one" in capsys.readouterr().err
+
+
+def test_lines_may_end_as_on_old_systems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "rows.csv").write_bytes(b"Address,Name\r1,Speed\r2,Torque\r")
+    assert main(["import", "table", str(tmp_path / "rows.csv")]) == 0
+    assert list(points(capsys.readouterr().out)) == ["speed", "torque"]
+
+
+def test_three_thousand_is_asked_about(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = "Address;Name;Range;Default\n1;Speed;0 bis 3.000;1.500\n2;Torque;0 bis 2,5;\n"
+    assert main(["import", "table", write(tmp_path, "rows.csv", rows)]) == 0
+    speed = points(capsys.readouterr().out)["speed"]
+    assert "  # ? which range is `0 bis 3.000`?" in speed
+    assert "  # ? is the default 1.500 raw, or in the unit?" in speed
+    assert not [line for line in speed if line.startswith(("  range", "  default"))]
+
+
 def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
     point = DraftPoint(1, "holding", "Speed")
     with pytest.raises(ValueError, match="no such title"):

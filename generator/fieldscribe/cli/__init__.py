@@ -138,6 +138,8 @@ def _run(argv: list[str]) -> int:
         arguments, unknown = parser.parse_known_intermixed_args(words)
         if unknown:
             parser.error(_unrecognised(unknown, parser))
+        if argv[0] != "completion" and words.count("--") > 1:
+            parser.error("`--` is no argument: it stands once, before arguments that begin with `-`")
     except SystemExit as stop:
         return _parser_code(stop)
     try:

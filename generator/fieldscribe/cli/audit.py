@@ -34,7 +34,7 @@ EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --old hitachi_l200_modbus.txt --manual new.txt --renumber --accept --file new.txt
 
 ends with 1 when a cited fact is not printed where it is cited; without --old also for numbers in cited places that no
-fact uses, and for rows that nothing cites among rows that are cited"""
+fact uses, for rows that nothing cites among rows that are cited, and when no fact cites a line"""
 
 _MOST_BYTES = 16 << 20
 _MOST_LINES, _LONGEST_LINE = 100_000, 20_000
@@ -227,7 +227,9 @@ def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
     if place.is_dir():
         present = [name for name in known if (place / name).is_file()]
         if not present:
-            raise StopError(f"`{place}` holds no manual of this device", f"it would be {' or '.join(known)}")
+            names = " or ".join(f"`{name}`" for name in known)
+            hint = f"the description names {names}" if known else "name the file itself: the description names none"
+            raise StopError(f"`{place}` holds no manual of this device", hint)
         return place / present[0], known[present[0]]
     return place, known.get(place.name, next(iter((*known.values(), *documents))))
 

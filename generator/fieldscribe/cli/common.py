@@ -192,7 +192,8 @@ def device_file(arguments: Namespace) -> Path:
         raise StopError(f"there is no device or path `{name}`", hint)
     devices = find_devices([path], Report())
     if not devices:
-        raise StopError(f"`{name}` holds no {DEVICE_FILE}", f"name a folder with a {DEVICE_FILE}, or the file itself")
+        wrong = f"holds no {DEVICE_FILE}" if path.is_dir() else "is neither a folder nor a regular file"
+        raise StopError(f"`{name}` {wrong}", f"name a folder with a {DEVICE_FILE}, or the file itself")
     if len(devices) > 1:
         names = ", ".join(file.parent.name for file in devices[:8])
         raise StopError(f"`{name}` holds {len(devices)} devices", f"name one of them: {names}")

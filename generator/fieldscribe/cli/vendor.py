@@ -118,6 +118,8 @@ def _deliver(order: Order, missing: tuple[str, str], *, check: bool, force: bool
     except OSError as error:
         where = error.filename or order.out
         hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
+        if isinstance(error, NotADirectoryError):
+            hint = "name a folder with --out"
         raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
 
 

@@ -32,6 +32,7 @@ _RANGE = re.compile(
     rf"(?:zwischen |between )?({_NUMBER})\s*(1/[a-z]{{1,4}}|[A-Za-z%‰°µμΩ(][^\s\d;:~…–—-]{{0,15}})??\s*"
     rf"{_TO}\s*({_NUMBER})\s*([^\d\s].*|1/[a-z]+)?"
 )
+_MAYBE_THOUSANDS = re.compile(r"[-+\u2212]?[1-9]\d{0,2}[.,]\d{3}")
 _LIST = re.compile(r"[-+]?\d+(?:\s*(?:,\s|;|/|\||,(?=\d+(?:,|$)))\s*[-+]?\d+)+")
 _STEP = re.compile(rf"(?:[x*×·]\s*)?(?:1\s*/\s*(?P<divisor>10{{0,6}})|(?P<number>{_NUMBER}))\s*(?P<unit>.*)")
 _UNIT_WORDS = {
@@ -172,9 +173,15 @@ def is_reserved(title: str) -> bool:
     return _RESERVED.fullmatch(title) is not None
 
 
-def number_of(text: str) -> Fraction:
-    """Return the number of a text with a decimal point or comma."""
-    return Fraction(text.replace("\u2212", "-").replace(",", ".").lstrip("+"))
+def numbers_of(*texts: str) -> list[Fraction] | None:
+    """Return the numbers of texts with a decimal point or comma.
+
+    None if `3.000` may be three thousand: no other text of the cell shows which sign separates decimals.
+    """
+    signs = {sign for sign in ".," for text in texts if sign in text and not _MAYBE_THOUSANDS.fullmatch(text)}
+    if any(_MAYBE_THOUSANDS.fullmatch(text) and text[-4] not in signs for text in texts):
+        return None
+    return [Fraction(text.replace("\u2212", "-").replace(",", ".").lstrip("+")) for text in texts]
 
 
 @cache
@@ -217,9 +224,10 @@ def range_in(cell: str) -> Range | None:
         numbers = [int(number) for number in re.findall(r"[-+]?\d+", plain)]
         return Range(", ".join(map(str, numbers)), "", in_units=False)
     match = _RANGE.fullmatch(plain)
-    if match is None:
+    ends = None if match is None else numbers_of(match[1], match[3])
+    if match is None or ends is None:
         return None
-    low, high, unit = number_of(match[1]), number_of(match[3]), unit_in(match[4] or match[2] or "")
+    (low, high), unit = ends, unit_in(match[4] or match[2] or "")
     if low > high or ((match[4] or match[2]) and not unit):
         return None
     has_decimals = any(sign in match[1] + match[3] for sign in ".,")
@@ -231,8 +239,8 @@ def quantity_in(cell: str) -> tuple[Fraction, str] | None:
     match = _STEP.fullmatch(one_line(cell))
     if match is None:
         return None
-    number = Fraction(1, int(match["divisor"])) if match["divisor"] else number_of(match["number"])
-    return number, match["unit"].strip()
+    numbers = [Fraction(1, int(match["divisor"]))] if match["divisor"] else numbers_of(match["number"])
+    return None if numbers is None else (numbers[0], match["unit"].strip())
 
 
 def labels_in(cell: str) -> dict[str, str]:

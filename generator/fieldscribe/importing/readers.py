@@ -66,14 +66,17 @@ def _read_delimited(text: str, delimiter: str) -> list[Table]:
     """Return the one table of a CSV or TSV file."""
     csv.field_size_limit(MOST_CELL)
     collector = TableCollector()
-    reader = csv.reader(io.StringIO(text), delimiter=delimiter)
+    reader = csv.reader(io.StringIO(text, newline=None), delimiter=delimiter, strict=True)
     line = 1
     try:
         for cells in reader:
             collector.add(line, [clean(cell) for cell in cells])
             line = reader.line_num + 1
     except csv.Error as error:
-        raise UnreadableError(f"this is no CSV: {error}", reader.line_num) from error
+        is_long = "limit" in str(error)
+        wrong = f"has more than {MOST_CELL} characters" if is_long else "begins with a quote and does not end with one"
+        hint = "a cell between quotes ends at the next quote; a quote inside it is written twice"
+        raise UnreadableError(f"a cell {wrong}", line, hint) from error
     collector.close("")
     return collector.tables
 
