@@ -109,3 +109,31 @@ def test_a_changed_byte_of_a_message(old: str, new: str, expected: list[str], tm
     outcome = audit(Citations(subject), "manual.txt", text, same_text=None)
     missing = [f"{one.fact} {one.wanted}" for one in outcome.missing]
     assert missing + [f"unused {one.number}" for one in outcome.unused] == expected
+
+
+TYPES = """4.1 Numbers
+
+77\tUINT32\tCounter\t5
+78\t0,1 Hz\tCounter\t12,5
+79\t-\tCounter\tKeypad
+"""
+
+
+@pytest.mark.parametrize(
+    ("facts", "missing"),
+    [
+        ("at: 77, type: u32, default: 5, line: 3", []),
+        ("at: 77, type: s32, default: 5, line: 3", ["type s32"]),
+        ("at: 77, type: u32, default: 6, line: 3", ["default 6"]),
+        ("at: 78, scale: value = raw * 0.1, unit: Hz, default_in_units: 12.5, line: 4", []),
+        ("at: 78, scale: value = raw * 0.1, unit: Hz, default: 125, line: 4", []),
+        ("at: 78, scale: value = raw * 0.1, unit: Hz, default: 100, line: 4", ["default 100"]),
+        (
+            "at: 79, enum: {0: {name: panel, en: Keypad}, 1: bus}, default: panel, line: 5",
+            ["enum 0 = Keypad", "enum 1"],
+        ),
+    ],
+)
+def test_type_and_default_are_held_against_the_row(facts: str, missing: list[str], tmp_path: Path) -> None:
+    findings = found(tmp_path, f"- {{name: counter, {facts}}}\n", TYPES)
+    assert [text for text in findings if not text.startswith("unused")] == missing

@@ -104,7 +104,12 @@ class Audit:
     @property
     def is_clean(self) -> bool:
         """Whether all that is cited is printed, errata too, and nothing else is in the cited places."""
-        return self.findings == 0
+        return self.findings == 0 and not self.cites_nothing
+
+    @property
+    def cites_nothing(self) -> bool:
+        """Whether the description cites no line of the text, so that nothing was compared."""
+        return self.facts + self.errata == 0
 
     @property
     def findings(self) -> int:

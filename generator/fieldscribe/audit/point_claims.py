@@ -119,11 +119,13 @@ class _PointClaims:
             yield from self.maker.claim("access", words[0] if words else access, evidence, self.facts.span("access"))
 
     def _type_and_unit(self) -> Iterator[Claim]:
-        """Type and unit are optional: they matter between editions, where the old one prints them."""
-        words = USUAL_TYPES.get(str(self.facts.get("type") or ""), ())
+        """No cell of the row prints another type. Between editions, type and unit stand if the old one prints them."""
+        kind, place = str(self.facts.get("type") or ""), self.facts.span("type")
+        words = USUAL_TYPES.get(kind, ())
         if words:
-            place = self.facts.span("type")
-            yield from self.maker.claim("type", self.facts.get("type"), Word(words), place, optional=True)
+            rivals = tuple(word for other, there in USUAL_TYPES.items() if other != kind for word in there)
+            yield from self.maker.claim("type", kind, Word(words, rivals, cells=True), place)
+            yield from self.maker.claim("type", kind, Word(words), place, optional=True)
         symbol = self.point.unit.symbol if self.point.unit is not None else ""
         if symbol:
             yield from self.maker.claim("unit", symbol, Word((symbol,)), self.facts.span("unit"), optional=True)
@@ -169,18 +171,22 @@ class _PointClaims:
                 yield from self.maker.claim("fixed bits", f"= {number}", evidence, place, key="bits")
 
     def _scale_and_default(self) -> Iterator[Claim]:
-        """The factors of the scale, and the factory setting where `lines` says that the manual prints it."""
+        """The factors of the scale, and the factory setting."""
         scale: Any = self.facts.get("scale") if self._says("scale") else None
         for rule in [scale] if isinstance(scale, str) else [case["rule"] for case in scale or ()]:
             for number in numbers_in(rule):
                 if number not in (0, 1):
                     evidence = Number(absolute((number, 1 / number)))
                     yield from self.maker.claim("scale", str(number), evidence, self.facts.span("scale"))
-        if "default" in self.maker.lines_of_fact and self.point.default_raw is not None:
+        if self.point.default_raw is not None:
             numbers = [Fraction(self.point.default_raw), *filter(None, (self.point.default,))]
             place = self.facts.span("default" if self.facts.layer("default") is not None else "default_in_units")
-            evidence = Number(absolute(numbers), names=self.notation.written("default"))
-            yield from self.maker.claim("default", str(self.facts.get("default")), evidence, place)
+            shown = str(self.facts.get("default", self.facts.get("default_in_units")))
+            entries = () if self.point.enum is None else self.point.enum.entries
+            labels = [self.notation.label(entry.title) for entry in entries if entry.raw == self.point.default_raw]
+            words = (*self.notation.written(shown), *(word for label in labels for word in label))
+            evidence = Number(absolute(numbers), words, names=self.notation.written("default"))
+            yield from self.maker.claim("default", shown, evidence, place)
 
     def _enum(self) -> Iterator[Claim]:
         """The numbers and labels of the enum, but for entries of a shared enum that cite a line themselves."""

@@ -39,7 +39,10 @@ def audit_lines(outcome: Audit, *, everything: bool) -> Iterator[Line]:
             rows = f"{place.last - place.line + 1} rows" if place.last > place.line else place.kind
             text = f": {_lines(place.line, place.last)}: {rows}: {place.text}"
             yield [("error" if place.among_cited else "hint", "uncited"), ("", visible(text))]
-    if outcome.same_text is False and not outcome.is_clean:
+    if outcome.cites_nothing:
+        yield [("error", "uncited"), ("", ": no fact cites a line of the manual, so nothing was compared")]
+        yield [("hint", "  hint"), ("", ": `line: 123` at a point is the line of the text that prints it")]
+    elif outcome.same_text is False and not outcome.is_clean:
         yield [("hint", "hint"), ("", ": each fact is looked for at its line: give the text before with --old")]
     yield from _figures_of_audit(outcome, everything)
 
@@ -214,5 +217,11 @@ def audit_page(outcome: Audit) -> str:
         ),
     ]
     safe = [table._replace(rows=[tuple(visible(str(cell)) for cell in row) for row in table.rows]) for table in tables]
-    view = {"found": outcome, "manual": visible(outcome.manual), "text": _TEXTS[outcome.same_text], "tables": safe}
+    verdict = "Some of what is cited is not where it is cited."
+    if outcome.cites_nothing:
+        verdict = "No fact cites a line of the manual, so nothing was compared."
+    elif outcome.is_clean:
+        verdict = "Everything that is cited stands where it is cited."
+    text = _TEXTS[outcome.same_text]
+    view = {"found": outcome, "manual": visible(outcome.manual), "text": text, "verdict": verdict, "tables": safe}
     return render("audit.html.j2", view)
