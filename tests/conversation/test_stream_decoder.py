@@ -14,7 +14,6 @@ from support.models import sample_device
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.families.directory import Directory
 
 DEVICE = sample_device()
 QUIET = FrameResult(b"", "rtu", "request", 1, None, "texts")
@@ -28,11 +27,8 @@ class Script:
         """None: nobody pastes anything here."""
         return [DecodedFrame(replace(QUIET, summary=text)) for text in texts]
 
-    def decode(
-        self, frame: DecodedFrame, requests: OpenRequests, directory: Directory, *, expecting: bool = False
-    ) -> DecodedFrame:
+    def decode(self, frame: DecodedFrame, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """The frame, and what was open before it."""
-        del directory
         decoded = replace(frame.result, summary=f"{requests.request(frame.unit, frame.exchange)}")
         return replace(frame, result=decoded, stays_open=expecting)
 

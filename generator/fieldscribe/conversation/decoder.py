@@ -81,7 +81,7 @@ class StreamDecoder:
 
     def decode(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it."""
-        decoded = self._frame_decoder.decode(frame, self._open_requests, self._directory, expecting=expecting)
+        decoded = self._frame_decoder.decode(frame, self._open_requests, expecting=expecting)
         state = self._states.of(decoded.unit, self._new_state)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         self._open_requests.follow(decoded, expecting=expecting)

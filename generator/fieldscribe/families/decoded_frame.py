@@ -14,7 +14,6 @@ from fieldscribe.families.frame_results import FrameResult, Item
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Telegram
 
 
@@ -227,7 +226,5 @@ class FrameDecoder(Protocol):
     def frames(self, texts: Sequence[str]) -> Sequence[Any]:
         """Return the frames in pasted texts. Raises UnclearError."""
 
-    def decode(
-        self, frame: Any, requests: OpenRequests, directory: Directory, *, expecting: bool = False
-    ) -> DecodedFrame:
+    def decode(self, frame: Any, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe. With `expecting`, the user says that the frame is a request."""

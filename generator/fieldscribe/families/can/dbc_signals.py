@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.export import ExportError
-from fieldscribe.families.can.frames import LENGTH, carries, places
+from fieldscribe.families.can.frames import LENGTH, carries, frame_count, places
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
 
@@ -141,7 +141,7 @@ def _head_signals(device: Device, message: Message, unit: int, selector: int | N
             yield Signal(f"{message.name}_checksum", start, size, greatest=str((1 << size) - 1), comment=comment)
         elif kind == "multiplexer":
             telegram = next((candidate for candidate in device.telegrams if candidate.message == message.name), None)
-            slots = -(-telegram.words // message.words) if telegram is not None and message.words else 256
+            slots = frame_count(telegram, message) if telegram is not None and message.words else 256
             comment = "Which words of the telegram follow"
             name = f"{message.name}_multiplexer"
             yield Signal(name, start, greatest=str(slots - 1), comment=comment, switches=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask, insert, with_fixed, words_of
-from fieldscribe.families.can.frames import CanFrame, build, carries, identifier, request_and_answer
+from fieldscribe.families.can.frames import CanFrame, build, carriers, carries, identifier, request_and_answer
 from fieldscribe.families.can.notation import frame_text
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
 from fieldscribe.pasted_numbers import number_of
@@ -124,9 +124,7 @@ def _messages_text(point: Point, message: Message) -> str:
 
 def _telegram_text(device: Device, point: Point) -> str:
     """Return which frames and bytes of a telegram carry the point."""
-    carriers = {telegram.name: telegram.message for telegram in device.telegrams}
-    messages = {message.name: message for message in device.messages}
-    message = messages.get(carriers.get(point.telegram or "") or "")
+    message = carriers(device).get(point.telegram or "")
     if message is None or not message.words:
         return ""
     places = ", then ".join(_place_text(message, device.bus.usual_unit, address) for address in point.addresses)

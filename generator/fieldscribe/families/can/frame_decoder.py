@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device, Message, Telegram
     from fieldscribe.user_errors import Options
 
@@ -54,11 +53,9 @@ class CanFrameDecoder:
         """Return the frames in pasted texts. Raises UnclearError."""
         return read_frames(texts, self._identifier)
 
-    def decode(
-        self, frame: Pasted, requests: OpenRequests, directory: Directory, *, expecting: bool = False
-    ) -> DecodedFrame:
+    def decode(self, frame: Pasted, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
-        del directory, expecting  # the messages themselves tell which frame answers which
+        del expecting  # the messages themselves tell which frame answers which
         head = None if frame.remote else self.recognise(frame.frame)
         if head is None:
             return self._unknown(frame)

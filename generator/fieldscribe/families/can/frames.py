@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fieldscribe.model import Message, Role
+    from fieldscribe.model import Device, Message, Role, Telegram
 
 LENGTH = 8
 """The number of bytes of every message of this family."""
@@ -104,6 +104,17 @@ def request_and_answer(messages: Sequence[Message], *, writes: bool) -> tuple[Me
         if asks and carries(request, "raw") == writes:
             return request, next((message for message in messages if message.answers == request.name), None)
     return None, None
+
+
+def carriers(device: Device) -> dict[str, Message]:
+    """Return the message that carries each telegram, by the telegram's name."""
+    messages = {message.name: message for message in device.messages}
+    return {telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages}
+
+
+def frame_count(telegram: Telegram, message: Message) -> int:
+    """Return how many frames a telegram takes: the number of its multiplexer values."""
+    return -(-telegram.words // message.words)
 
 
 def carried(message: Message, frame: CanFrame, kind: str) -> int:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device
     from fieldscribe.user_errors import Options
 
@@ -44,11 +43,8 @@ class ModbusFrameDecoder:
         pasted = (typed_bytes(text, "frame", "05 06 10 28 01 F4 0C 91") for text in rejoined(texts, 2))
         return [frame for data in pasted for frame in frames_in(data, self._framing)]
 
-    def decode(
-        self, frame: bytes, requests: OpenRequests, directory: Directory, *, expecting: bool = False
-    ) -> DecodedFrame:
+    def decode(self, frame: bytes, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one frame; any bytes are safe."""
-        del directory  # a request says all that its reply needs
         unwrapped = recognise(frame, framings_of(self._device.bus), self._framing)
         request: Request | None = None if expecting else requests.request()
         sound = unwrapped if unwrapped.flaw is None else replace(unwrapped, flaw=None)

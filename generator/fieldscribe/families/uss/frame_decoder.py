@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.directory import Directory
     from fieldscribe.model import Device
     from fieldscribe.user_errors import Options
 
@@ -44,6 +43,7 @@ class UssFrameDecoder:
         self._link = link if framing == "uss" else replace(link, pzd=0)
         self._framing = framing
         self._direction = direction
+        self._elements = {(point.address, point.index) for point in device.points if point.index is not None}
 
     def frames(self, texts: Sequence[str]) -> list[bytes]:
         """Return the telegrams in pasted texts. Raises UnclearError."""
@@ -51,18 +51,14 @@ class UssFrameDecoder:
         pasted = [typed_bytes(text, "telegram", example) for text in rejoined(texts, 2, 4)]
         return [frame for data in pasted for frame in frames_in(data)] if self._framing == "uss" else pasted
 
-    def decode(
-        self, frame: bytes, requests: OpenRequests, directory: Directory, *, expecting: bool = False
-    ) -> DecodedFrame:
+    def decode(self, frame: bytes, requests: OpenRequests, *, expecting: bool = False) -> DecodedFrame:
         """Decode one telegram; any bytes are safe."""
         unwrapped = unwrap(frame) if self._framing == "uss" else bare_words(frame)
         direction = "request" if expecting else self._direction or ("response" if requests.fixed else None)
-        decoded = self._read(unwrapped, requests, directory, direction)
+        decoded = self._read(unwrapped, requests, direction)
         return replace(decoded, stays_open=True) if expecting else decoded
 
-    def _read(
-        self, unwrapped: Unwrapped, requests: OpenRequests, directory: Directory, direction: str | None
-    ) -> DecodedFrame:
+    def _read(self, unwrapped: Unwrapped, requests: OpenRequests, direction: str | None) -> DecodedFrame:
         unit, words, framing = unwrapped.unit, unwrapped.words, self._framing
         head = "USS" if unit is None else f"USS, unit {unit}"
         checks, faults = remarks.checks_text(unwrapped), tuple(remarks.flaw_texts(unwrapped))
@@ -75,15 +71,10 @@ class UssFrameDecoder:
             return _broadcast(base, words)
         if framing == "pzd":
             return self._process_data(base, words, direction)
-        return self._telegram(base, words, requests, directory, direction)
+        return self._telegram(base, words, requests, direction)
 
     def _telegram(
-        self,
-        base: FrameResult,
-        words: tuple[int, ...],
-        requests: OpenRequests,
-        directory: Directory,
-        direction: str | None,
+        self, base: FrameResult, words: tuple[int, ...], requests: OpenRequests, direction: str | None
     ) -> DecodedFrame:
         open_request: Request | None = requests.request(base.unit)
         status = ""
@@ -92,8 +83,8 @@ class UssFrameDecoder:
         if direction == "response" or (direction is None and status in _ANSWERS):
             # the user fixed a request, but this unit has none open: that request went to another unit
             status = "wrong_unit" if requests.fixed and open_request is None else status
-            return self._response(base, words, open_request, status, directory)
-        decoded = self._request(base, words, directory)
+            return self._response(base, words, open_request, status)
+        decoded = self._request(base, words)
         if direction is None and not requests.addressed(base.unit) and self._could_answer(words):
             return replace(decoded, result=replace(decoded.result, notes=(*decoded.result.notes, remarks.NO_REQUEST)))
         return decoded
@@ -103,7 +94,7 @@ class UssFrameDecoder:
         part = part_of(split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
-    def _request(self, base: FrameResult, words: tuple[int, ...], directory: Directory) -> DecodedFrame:
+    def _request(self, base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
         divided = split(words, self._link, request=True)
         if not divided.fits:
             base = replace(base, faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=True)))
@@ -117,7 +108,7 @@ class UssFrameDecoder:
         value = part.value(request.width, self._link)
         element = Element(part.parameter, part.index, request.width, value, part.values, in_request=True)
         task = remarks.code_text(self._device.bus.functions, part.code, "task")
-        text, details = _element_and_details(part, "task", directory)
+        text, details = self._element_and_details(part, "task")
         result = replace(
             base,
             kind="request",
@@ -130,7 +121,7 @@ class UssFrameDecoder:
         return DecodedFrame(result, (element, data) if part.code else (data,), base.unit, request=request)
 
     def _response(
-        self, base: FrameResult, words: tuple[int, ...], open_request: Request | None, status: str, directory: Directory
+        self, base: FrameResult, words: tuple[int, ...], open_request: Request | None, status: str
     ) -> DecodedFrame:
         divided = split(words, self._link, request=False)
         if not divided.fits:
@@ -143,7 +134,7 @@ class UssFrameDecoder:
             result = replace(base, kind="reply", summary=f"{base.summary}: reply, process data")
             return DecodedFrame(result, (data,), base.unit, answers=answers)
         response = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
-        text, details = _element_and_details(part, "response", directory)
+        text, details = self._element_and_details(part, "response")
         result = replace(base, kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
         if part.code in (REFUSED, NO_RIGHTS):
             result = self._refusal(result, part, None if open_request is None else open_request.task)
@@ -158,6 +149,14 @@ class UssFrameDecoder:
             counts=part.code == SIZE,
         )
         return DecodedFrame(result, (element, data) if part.code else (data,), base.unit, answers=answers)
+
+    def _element_and_details(self, part: Part, key: str) -> tuple[str, dict[str, object]]:
+        """Return the element of a parameter part in words, and the part as details for JSON."""
+        if not part.code:
+            return "", {key: part.code}
+        alone = (part.parameter, part.index) not in self._elements
+        details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
+        return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
     def _refusal(self, base: FrameResult, part: Part, task: int | None) -> FrameResult:
         """Return the result of a response that refuses the request."""
@@ -188,16 +187,6 @@ def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """Return the decoder for the telegrams of the device. Raises UnclearError."""
     direction = LinkOptions(**options.own).direction
     return UssFrameDecoder(device, link_of(device, options), options.framing or "uss", direction)
-
-
-def _element_and_details(part: Part, key: str, directory: Directory) -> tuple[str, dict[str, object]]:
-    """Return the element of a parameter part in words, and the part as details for JSON."""
-    if not part.code:
-        return "", {key: part.code}
-    points = directory.at("parameter", part.parameter, part.index)
-    alone = all(point.index is None for point in points)
-    details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
-    return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
 
 def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:

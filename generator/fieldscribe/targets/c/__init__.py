@@ -26,9 +26,8 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     """Yield the headers of points and frames, and the conformance program: path below the output folder, and text."""
     scope = scope_of(device)
     points = generated_points(device, scope)
-    view, frames = device_view(device, points, scope), frames_of(device)
-    bus = frames.bus_view(device, points, scope)
-    context, sections = {"device": view, "bus": bus}, frames.sections(bus)
+    view, frames = device_view(device, points, scope), frames_of(device).header(device, points, scope)
+    context, sections = {"device": view, "bus": frames.context}, frames.sections
     yield f"c/{device.id}.h", header(device, view, points, scope, render)
     texts = {name: section.text(render) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)

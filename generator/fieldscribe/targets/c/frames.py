@@ -90,20 +90,45 @@ class Frames:
         return folded("".join(texts))
 
 
+@dataclass(frozen=True, slots=True)
+class FramesHeader:
+    """The header of frames of a device: what its template calls `bus`, the frames of points, and all identifiers.
+
+    `sections` has the frames of points by the names of their texts in the template.
+    """
+
+    context: Mapping[str, object]
+    sections: Mapping[str, Frames]
+    identifiers: tuple[Named, ...]
+
+
+def frames_header(
+    device: Device, layouts: Layouts, sections: Mapping[str, Frames], identifiers: Iterable[Named], **context: Any
+) -> FramesHeader:
+    """Return the header of a family's frames: `identifiers` and `context` are what only this family has in it."""
+    exceptions = zip(device.bus.exceptions, context.get("exceptions", ()), strict=False)
+    guard = f"{layouts.scope.upper}_{device.family.upper()}_H"
+    aliases = tuple(alias for frames in sections.values() for alias in frames.aliases(layouts.scope))
+    shared = {"guard": guard, "units": device.bus.units, "layouts": layouts.descriptors, "aliases": aliases, **sections}
+    names = (
+        (Owner("target", "what the header of frames needs"), (guard,)),
+        *identifiers,
+        *((Owner("exception", code.name), (name,)) for code, (name, _, _) in exceptions),
+        (Owner("target", "the layouts of points in words"), [layout.name for layout in layouts.descriptors]),
+        *(named for frames in sections.values() for named in frames.names()),
+        *old_names_of(aliases),
+    )
+    return FramesHeader({**shared, **context}, sections, names)
+
+
 class CFamily(Protocol):
     """The part `targets.c` of a family. Its template and its runtime have the family's name."""
 
     NAMED_CODES: tuple[str, ...]
     """The kinds of codes for which a function gives the name."""
 
-    def bus_view(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> Any:
-        """Return the view of the header of frames, `<family>.h.j2`."""
-
-    def sections(self, bus: Any) -> Mapping[str, Frames]:
-        """Return the frames of points in that header, by the names of their texts in the template."""
-
-    def identifiers(self, device: Device, bus: Any, scope: HeaderScope) -> Iterator[Named]:
-        """Return every identifier in that header, with its owner, but those of `header_names`."""
+    def header(self, device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+        """Return the header of frames, `<family>.h.j2`."""
 
 
 def frames_of(device: Device) -> CFamily:
@@ -126,14 +151,14 @@ class Layouts:
     """Collects the layouts of a device, each once, by name."""
 
     def __init__(self, scope: HeaderScope) -> None:
-        self._prefix = scope.prefix
+        self.scope = scope
         self._known: dict[str, Descriptor] = {}
 
     def of(self, point: Point, high_first: Sequence[int]) -> str:
         """Return a reference to the layout of a point; `high_first` are the positions of its words, high word first."""
         kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
-        name = f"{self._prefix}_layout_{kind}{_tail(point, order, mask)}"
+        name = f"{self.scope.prefix}_layout_{kind}{_tail(point, order, mask)}"
         shared = "true" if shares(point) else "false"
         value = (
             f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
@@ -146,16 +171,6 @@ class Layouts:
     def descriptors(self) -> tuple[Descriptor, ...]:
         """All layouts that points asked for."""
         return tuple(self._known.values())
-
-
-def header_names(device: Device, bus: Any, sections: Iterable[Frames]) -> Iterator[Named]:
-    """Yield the identifiers that the headers of all families have: exceptions, layouts, points and old names."""
-    for code, (name, _, _) in zip(device.bus.exceptions, getattr(bus, "exceptions", ()), strict=False):
-        yield Owner("exception", code.name), (name,)
-    yield Owner("target", "the layouts of points in words"), [layout.name for layout in bus.layouts]
-    for frames in sections:
-        yield from frames.names()
-    yield from old_names_of(bus.aliases)
 
 
 def old_names_of(aliases: Iterable[AliasView]) -> Iterator[Named]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import named_numbers
 from fieldscribe.targets.c.declarations import flag_defines
-from fieldscribe.targets.c.frames import frames_of, header_names, old_names_of
+from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import STATUSES, device_view, remark_defines
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_templates import fields_of, generated_points
@@ -58,10 +58,7 @@ def _identifiers(device: Device) -> Iterator[Named]:
         yield Owner("telegram", telegram.name), (named.name, named.words_name)
     yield from _of_points(device, points, scope)
     yield from old_names_of(view.aliases)
-    frames = frames_of(device)
-    bus = frames.bus_view(device, points, scope)
-    yield from frames.identifiers(device, bus, scope)
-    yield from header_names(device, bus, frames.sections(bus).values())
+    yield from frames_of(device).header(device, points, scope).identifiers
 
 
 def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderScope) -> Iterator[Named]:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import identifier_bits, of_bus
-from fieldscribe.families.can.frames import request_and_answer
+from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, lies, shares
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, frames_header, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Point, Role, Telegram
+    from fieldscribe.targets.c.frames import FramesHeader
     from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, PointView
+    from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES: tuple[str, ...] = ()
@@ -61,79 +62,60 @@ class GroupView:
     rows: list[tuple[str, str]]
 
 
-@dataclass(frozen=True, slots=True)
-class BusView:
-    """The CAN header of a device.
-
-    `exchanges` are the arrays of the messages that read, answer that, write, answer that; empty for a missing one.
-    """
-
-    guard: str
-    units: tuple[int, int]
-    identifier_bits: int
-    bitrate: int | None
-    messages: tuple[MessageView, ...]
-    telegrams: tuple[TelegramView, ...]
-    exchanges: tuple[str, ...]
-    exceptions: tuple[tuple[str, str, str], ...]
-    groups: tuple[GroupView, ...]
-    layouts: tuple[Descriptor, ...]
-    parameters: Frames
-    cyclic: Frames
-    aliases: tuple[AliasView, ...]
-
-
-def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
-    """Return the view of `<device>_can.h`."""
-    messages = {message.name: message for message in device.messages}
-    carriers = {
-        telegram.name: messages[telegram.message] for telegram in device.telegrams if telegram.message in messages
-    }
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+    """Return the header of frames, `<device>_can.h`."""
+    carrying = carriers(device)
     exchanges = [request_and_answer(device.messages, writes=writes) for writes in (False, True)]
+    # the arrays of the messages that read, answer that, write, answer that; empty for a missing one
     arrays = tuple(_array(message, scope) for exchange in exchanges for message in exchange)
-    reached = [each for each in placed if each.point.addresses]
+    telegrams = [
+        _telegram(telegram, carrying[telegram.name], scope)
+        for telegram in device.telegrams
+        if telegram.name in carrying and carrying[telegram.name].words
+    ]
+    groups = list(_groups(device, scope))
     layouts = Layouts(scope)
-    parameters = Frames(
-        [each for each in reached if each.point.space == "parameter" and _fits(each.point, 1)],
-        lambda point, view: _parameter(point, view, layouts, arrays),
-    )
-    cyclic = Frames(
-        [each for each in reached if each.point.telegram in carriers and _fits(each.point, 2)],
-        lambda point, view: _cyclic(point, view, layouts),
-    )
-    telegrams = [(telegram, carriers[telegram.name]) for telegram in device.telegrams if telegram.name in carriers]
-    return BusView(
-        guard=f"{scope.upper}_CAN_H",
-        units=device.bus.units,
+    return frames_header(
+        device,
+        layouts,
+        _sections(device, placed, layouts, arrays),
+        _identifiers(device, telegrams, groups, scope),
         identifier_bits=identifier_bits(device.bus),
         bitrate=of_bus(device.bus).bitrate,
-        messages=tuple(_message(message, scope) for message in device.messages),
-        telegrams=tuple(_telegram(telegram, message, scope) for telegram, message in telegrams if message.words),
+        messages=[_message(message, scope) for message in device.messages],
+        telegrams=telegrams,
         exchanges=arrays,
         exceptions=exceptions_of(device, scope),
-        groups=tuple(_groups(device, scope)),
-        layouts=layouts.descriptors,
-        parameters=parameters,
-        cyclic=cyclic,
-        aliases=(*parameters.aliases(scope), *cyclic.aliases(scope)),
+        groups=groups,
     )
 
 
-def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
+def _sections(
+    device: Device, placed: Sequence[GeneratedPoint], layouts: Layouts, arrays: Sequence[str]
+) -> dict[str, Frames]:
+    """Return the frames of parameters, and those of points in telegrams."""
+    carried = carriers(device)
+    reached = [each for each in placed if each.point.addresses]
+    parameters = [each for each in reached if each.point.space == "parameter" and _fits(each.point, 1)]
+    cyclic = [each for each in reached if each.point.telegram in carried and _fits(each.point, 2)]
+    return {
+        "parameters": Frames(parameters, lambda point, view: _parameter(point, view, layouts, arrays)),
+        "cyclic": Frames(cyclic, lambda point, view: _cyclic(point, view, layouts)),
+    }
+
+
+def _identifiers(
+    device: Device, telegrams: list[TelegramView], groups: list[GroupView], scope: HeaderScope
+) -> Iterator[Named]:
     """Yield the identifiers of the header that only this family has, with their owners."""
     fixed = (f"{scope.prefix}_can_profile", f"{scope.prefix}_can_dialogue", f"{scope.upper}_CAN_BITRATE")
-    yield Owner("target", "what the header of frames needs"), (bus.guard, *fixed)
-    for message in bus.messages:
-        yield Owner("message", message.name), (message.array,)
-    for telegram in bus.telegrams:
+    yield Owner("target", "what the header of frames needs"), fixed
+    for message in device.messages:
+        yield Owner("message", message.name), (_array(message, scope),)
+    for telegram in telegrams:
         yield Owner("telegram", telegram.name), (telegram.constant, telegram.slots_name)
-    for group in bus.groups:
+    for group in groups:
         yield Owner("group", group.title), (group.array, group.count_name)
-
-
-def sections(bus: BusView) -> dict[str, Frames]:
-    """Return parameters, and points of telegrams."""
-    return {"parameters": bus.parameters, "cyclic": bus.cyclic}
 
 
 def _array(message: Message | None, scope: HeaderScope) -> str:
@@ -153,7 +135,7 @@ def _role_number(role: Role) -> str:
 
 def _telegram(telegram: Telegram, message: Message, scope: HeaderScope) -> TelegramView:
     macro, name = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}", f"{scope.prefix}_telegram_{telegram.name}"
-    slots, array = -(-telegram.words // message.words), _array(message, scope)
+    array, slots = _array(message, scope), frame_count(telegram, message)
     return TelegramView(telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, array, message.words)
 
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import identifier_bits, of_bus
-from fieldscribe.families.can.frames import request_and_answer
+from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants, row_text
-from fieldscribe.targets.rust.layout import Item, array, assignment, binding
+from fieldscribe.targets.rust.layout import Item, Lines, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.text import rust_string
 
@@ -25,30 +24,9 @@ if TYPE_CHECKING:
 _NUMBERED = ("unit", "address", "raw", "word")
 
 
-@dataclass(frozen=True, slots=True)
-class MessageView:
-    """A message as a constant."""
-
-    doc: str
-    lines: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class TelegramView:
-    """A telegram: its final name, the lines of its name, its sizes, and the constant of its message."""
-
-    doc: str
-    name: str
-    lines: tuple[str, ...]
-    words: int
-    slots: int
-    message: str
-
-
 def context(device: Device) -> dict[str, object]:
     """Return the names that the family's template uses."""
-    bus = device.bus
-    carriers = {message.name: message for message in device.messages}
+    bus, carrying = device.bus, carriers(device)
     return {
         "example_link": str(bus.units[0]),
         "exception_type": "u16",
@@ -66,12 +44,14 @@ def context(device: Device) -> dict[str, object]:
             [f"&messages::{message.name.upper()}" for message in device.messages],
         ),
         "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16", "code")),),
-        "telegrams": tuple(
-            _telegram(telegram, carriers[telegram.message])
-            for telegram in device.telegrams
-            if telegram.message in carriers and carriers[telegram.message].words
-        ),
+        "telegrams": [_telegram(telegram, carrying[telegram.name]) for telegram in _in_frames(device)],
     }
+
+
+def _in_frames(device: Device) -> list[Telegram]:
+    """Return the telegrams that come in frames."""
+    carrying = carriers(device)
+    return [telegram for telegram in device.telegrams if telegram.name in carrying and carrying[telegram.name].words]
 
 
 def traits(subject: CratePoint, scope: CrateScope) -> Iterator[str]:
@@ -109,15 +89,14 @@ def _dialogue(messages: Sequence[Message], name: str, *, writes: bool) -> tuple[
     return name, request.name.upper(), "None" if answer is None else f"Some(&messages::{answer.name.upper()})"
 
 
-def _message(message: Message) -> MessageView:
+def _message(message: Message) -> tuple[str, Lines]:
+    """Return the comment of a message, and the lines of its constant."""
     width = "u16" if message.identifier <= 0xFFFF else "u32"
     roles = (f"        Role::{_role(role)}," for role in message.roles)
     adds_unit = "true" if message.adds_unit else "false"
     head = (f"    {field}," for field in (rust_string(message.name), mask(message.identifier, width), adds_unit))
     literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
-    return MessageView(
-        sentence(message.name), assignment(4, Item(f"pub const {message.name.upper()}", "Message"), literal)
-    )
+    return sentence(message.name), assignment(4, Item(f"pub const {message.name.upper()}", "Message"), literal)
 
 
 def _role(role: Role) -> str:
@@ -128,12 +107,14 @@ def _role(role: Role) -> str:
     return f"Constant(0x{role.number:02X})" if role.kind == "constant" else "Multiplexer"
 
 
-def _telegram(telegram: Telegram, message: Message) -> TelegramView:
-    slots = -(-telegram.words // message.words)
-    name = binding(8, Item("const NAME", "&'static str"), rust_string(telegram.name))
-    return TelegramView(
-        sentence(telegram.name), type_name(telegram.name), name, telegram.words, slots, message.name.upper()
-    )
+def _telegram(telegram: Telegram, message: Message) -> dict[str, object]:
+    return {
+        "doc": sentence(telegram.name),
+        "name": type_name(telegram.name),
+        "lines": binding(8, Item("const NAME", "&'static str"), rust_string(telegram.name)),
+        "slots": frame_count(telegram, message),
+        "message": message.name.upper(),
+    }
 
 
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
@@ -171,12 +152,9 @@ def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:
 
 def tables_of_frames(device: Device) -> Iterator[Table]:
     """Yield the tables of telegrams that come in frames."""
-    carriers = {message.name for message in device.messages if message.words}
-    received = [telegram for telegram in device.telegrams if telegram.message in carriers]
-    if received:
-        rows = tuple(
-            item_row(telegram.name, "telegrams", "telegram", type_name(telegram.name)) for telegram in received
-        )
+    names = [telegram.name for telegram in _in_frames(device)]
+    if names:
+        rows = tuple(item_row(name, "telegrams", "telegram", type_name(name)) for name in names)
         yield Table("can_taken", "can_taken", rows)
         yield Table("can_carrier", "can_carrier", rows)
 

@@ -8,8 +8,10 @@ from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import (
     CanFrame,
     build,
+    carriers,
     carries,
     checksum,
+    frame_count,
     identifier,
     parse,
     places,
@@ -102,10 +104,10 @@ def frames(lines: Lines, device: Device) -> None:
         addresses = [address for point in members if point.space == "parameter" for address in point.addresses]
         if addresses and reads is not None:
             lines.add("group", group.name, list(dict.fromkeys(addresses)))
-    messages = {message.name: message for message in device.messages}
+    carrying = carriers(device)
     for telegram in device.telegrams:
-        if telegram.message in messages:
-            _telegram(lines, device, telegram, messages[telegram.message])
+        if telegram.name in carrying:
+            _telegram(lines, device, telegram, carrying[telegram.name])
 
 
 def _builds(lines: Lines, units: tuple[int, int], message: Message) -> None:
@@ -142,7 +144,7 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram, message: Message
             received = _Received(lines, telegram, message, point, device.bus.units[0])
             received.text() if point.form == "text" else received.number()
     if message.words:
-        lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
+        lines.add("size", "frames", telegram.name, frame_count(telegram, message))
         for sender in dict.fromkeys(device.bus.units):
             _damaged_frames(lines, telegram, message, sender)
 
@@ -200,7 +202,7 @@ class _Received:
         self._answer([])
         self._answer([first])
         self._answer([first, self._frame(high, 0xFEDC)])
-        other = self._frame((high + 1) % (-(-self.telegram.words // per_frame)), 0x0F0F)
+        other = self._frame((high + 1) % frame_count(self.telegram, self.message), 0x0F0F)
         self._answer([other, CanFrame(first.id ^ 1, first.data), CanFrame(first.id, first.data[:7])])
         self._answer([CanFrame(first.id, with_flipped(first.data, 0)), self._frame(0xFF, 0x1111)])
         if high == low:

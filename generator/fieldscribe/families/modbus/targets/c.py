@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import SPACES, profile_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, lies, shares
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, frames_header, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.modbus import Profile
     from fieldscribe.model import Block, Command, Device, Point
+    from fieldscribe.targets.c.frames import FramesHeader
     from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, Define, PointView
+    from fieldscribe.targets.c.views import Define, PointView
     from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES: tuple[str, ...] = ()
@@ -44,77 +45,54 @@ class CommandView:
     defines: tuple[Define, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class BusView:
-    """The Modbus header of a device; `block_most` is the number of items of the largest block."""
-
-    guard: str
-    functions: tuple[tuple[str, str, str, str], ...]
-    units: tuple[int, int]
-    broadcast: str
-    pads: str
-    rtu: str
-    tcp: str
-    blocks: tuple[BlocksView, ...]
-    block_most: Define
-    layouts: tuple[Descriptor, ...]
-    frames: Frames
-    commands: tuple[CommandView, ...]
-    exceptions: tuple[tuple[str, str, str], ...]
-    aliases: tuple[AliasView, ...]
-
-
-def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
-    """Return the view of `<device>_modbus.h`."""
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+    """Return the header of frames, `<device>_modbus.h`."""
     profile = profile_of(device.bus)
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
     counts = [block.count for blocks in device.blocks.values() for block in blocks]
+    blocks = [_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks]
+    block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
+    commands = [_command(command, scope) for command in device.commands]
     frames = Frames(
         placed, lambda point, view: _frame(point, view, profile, layouts) if point.place.addresses else None
     )
-    functions = (
+    functions = [
         (unsigned(code.number), f"{most}U", _bool(code.number in profile.broadcasts), c_comment(code.name))
         for code in device.bus.functions
         if (most := profile.most.get(code.number)) is not None
-    )
-    return BusView(
-        guard=f"{scope.upper}_MODBUS_H",
-        functions=tuple(functions),
-        units=profile.units,
+    ]
+
+    def identifiers() -> Iterator[Named]:
+        target = (f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
+        yield Owner("target", "what the header of frames needs"), target
+        if blocks:
+            yield Owner("target", "the largest block"), (block_most[0],)
+        for view in blocks:
+            yield Owner("group", view.name), (view.array,)
+        for command, command_view in zip(device.commands, commands, strict=True):
+            names = command_view.descriptor.name, *(name for name, _ in command_view.defines)
+            yield Owner("command", command.name), names
+
+    return frames_header(
+        device,
+        layouts,
+        {"frames": frames},
+        identifiers(),
+        functions=functions,
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if profile.broadcast is None else f"{profile.broadcast}U",
         pads=_bool(profile.pad_coil_bytes_even),
         rtu=_bool("rtu" in profile.framings),
         tcp=_bool("tcp" in profile.framings),
-        blocks=tuple(_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks),
-        block_most=(f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))),
-        layouts=layouts.descriptors,
-        frames=frames,
-        commands=tuple(_command(command, scope) for command in device.commands),
+        blocks=blocks,
+        block_most=block_most,
+        commands=commands,
         exceptions=exceptions_of(device, scope),
-        aliases=tuple(frames.aliases(scope)),
     )
 
 
 def _bool(value: bool) -> str:
     return "true" if value else "false"
-
-
-def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
-    """Yield the identifiers of the header that only this family has, with their owners."""
-    fixed = (bus.guard, f"{scope.prefix}_modbus_functions", f"{scope.prefix}_modbus_profile")
-    yield Owner("target", "what the header of frames needs"), fixed
-    if bus.blocks:
-        yield Owner("target", "the largest block"), (bus.block_most[0],)
-    for blocks in bus.blocks:
-        yield Owner("group", blocks.name), (blocks.array,)
-    for command, view in zip(device.commands, bus.commands, strict=True):
-        yield Owner("command", command.name), (view.descriptor.name, *(name for name, _ in view.defines))
-
-
-def sections(bus: BusView) -> dict[str, Frames]:
-    """Return the requests of points."""
-    return {"frames": bus.frames}
 
 
 def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) -> Frame | None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, lies, shares
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, frames_header, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Owner
@@ -19,43 +18,17 @@ if TYPE_CHECKING:
 
     from fieldscribe.families import Codes
     from fieldscribe.model import Code, Device, Point
+    from fieldscribe.targets.c.frames import FramesHeader
     from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import AliasView, PointView
+    from fieldscribe.targets.c.views import PointView
     from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
 
 
-@dataclass(frozen=True, slots=True)
-class CodesView:
-    """A list of codes: enumerators with comments, and the function that returns the name of a code."""
-
-    title: str
-    kind: str
-    function: str
-    entries: tuple[tuple[str, str, str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class BusView:
-    """The USS header of a device: `frames` read and write parameters, `words` are points of process data."""
-
-    guard: str
-    units: tuple[int, int]
-    broadcast: str
-    pkw: tuple[int, ...]
-    pzd: tuple[int, int]
-    tasks: tuple[tuple[str, str, str], ...]
-    codes: tuple[CodesView, ...]
-    layouts: tuple[Descriptor, ...]
-    frames: Frames
-    words: Frames
-    aliases: tuple[AliasView, ...]
-
-
-def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> BusView:
-    """Return the view of `<device>_uss.h`."""
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+    """Return the header of frames, `<device>_uss.h`; `frames` read and write parameters, `words` are process data."""
     bus = device.bus
     telegrams = {telegram.name for telegram in device.telegrams}
     tasks = frozenset(code.number for code in bus.functions)
@@ -65,35 +38,36 @@ def bus_view(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScop
     layouts = Layouts(scope)
     frames = Frames(parameters, lambda point, view: _frame(point, view, tasks, layouts))
     words = Frames(process_data, lambda point, view: _word(point, view, layouts, scope))
-    return BusView(
-        guard=f"{scope.upper}_USS_H",
-        units=bus.units,
+    kinds = [kind for kind in FAMILY.codes if bus.codes(kind.section)]
+    return frames_header(
+        device,
+        layouts,
+        {"frames": frames, "words": words},
+        _identifiers(device, kinds, scope),
         broadcast="FIELDSCRIBE_USS_NO_BROADCAST" if bus.broadcast is None else hexadecimal(bus.broadcast, 2),
         pkw=of_bus(bus).pkw,
         pzd=of_bus(bus).pzd,
-        tasks=tuple(_task(code, scope) for code in bus.functions),
-        codes=tuple(_codes(kind, bus.codes(kind.section), scope) for kind in FAMILY.codes if bus.codes(kind.section)),
-        layouts=layouts.descriptors,
-        frames=frames,
-        words=words,
-        aliases=(*frames.aliases(scope), *words.aliases(scope)),
+        tasks=[_task(code, scope) for code in bus.functions],
+        codes=[_codes(kind, bus.codes(kind.section), scope) for kind in kinds],
     )
 
 
-def identifiers(device: Device, bus: BusView, scope: HeaderScope) -> Iterator[Named]:
+def _identifiers(device: Device, kinds: list[Codes], scope: HeaderScope) -> Iterator[Named]:
     """Yield the identifiers of the header that only this family has, with their owners."""
     target = Owner("target", "what the header of frames needs")
-    yield target, [bus.guard, *(f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile"))]
-    yield target, [codes.function for codes in bus.codes]
-    kinds = {kind.kind: kind for kind in FAMILY.codes}
-    for view in bus.codes:
-        for code, (name, _, _, _) in zip(device.bus.codes(kinds[view.kind].section), view.entries, strict=True):
-            yield Owner(kinds[view.kind].key, code.name), (name,)
+    yield target, [f"{scope.prefix}_{name}" for name in ("uss_tasks", "uss_pkw", "uss_profile")]
+    yield target, [_name_function(kind, scope) for kind in kinds]
+    for kind in kinds:
+        for code in device.bus.codes(kind.section):
+            yield Owner(kind.key, code.name), (_enumerator(kind, code, scope),)
 
 
-def sections(bus: BusView) -> dict[str, Frames]:
-    """Return parameters and process data."""
-    return {"frames": bus.frames, "words": bus.words}
+def _name_function(kind: Codes, scope: HeaderScope) -> str:
+    return f"{scope.prefix}_{kind.kind}_name"
+
+
+def _enumerator(kind: Codes, code: Code, scope: HeaderScope) -> str:
+    return f"{scope.upper}_{upper(kind.kind)}_{upper(code.name)}"
 
 
 def _task(code: Code, scope: HeaderScope) -> tuple[str, str, str]:
@@ -102,13 +76,13 @@ def _task(code: Code, scope: HeaderScope) -> tuple[str, str, str]:
     return f"{scope.upper}_TASK_{upper(code.name)}", answers, c_comment(code.title["en"])
 
 
-def _codes(kind: Codes, codes: tuple[Code, ...], scope: HeaderScope) -> CodesView:
-    prefix = f"{scope.upper}_{upper(kind.kind)}"
-    entries = (
-        (f"{prefix}_{upper(code.name)}", str(code.number), c_string(code.name), c_comment(code.title["en"]))
+def _codes(kind: Codes, codes: tuple[Code, ...], scope: HeaderScope) -> dict[str, object]:
+    """Return a list of codes: enumerators with comments, and the function that returns the name of a code."""
+    entries = [
+        (_enumerator(kind, code, scope), str(code.number), c_string(code.name), c_comment(code.title["en"]))
         for code in codes
-    )
-    return CodesView(f"{kind.kind.capitalize()}s", kind.kind, f"{scope.prefix}_{kind.kind}_name", tuple(entries))
+    ]
+    return {"title": f"{kind.kind.capitalize()}s", "function": _name_function(kind, scope), "entries": entries}
 
 
 def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> Frame | None:
