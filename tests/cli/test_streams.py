@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import main
-from fieldscribe.families.decoded_frame import BoundedMemo
+from fieldscribe.cli import decoded_frames, main
+from fieldscribe.conversation import decode_state, meanings
 from support.described import shipped
 from support.places import ROOT
 
@@ -120,7 +120,12 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
 ) -> None:
     text = log(200)
     told = decode("-", given=text)
-    monkeypatch.setattr(BoundedMemo, "__missing__", lambda self, key: self._make(key))
+    for module, limit in (
+        (decode_state, "_MOST_ITEMS"),
+        (meanings, "_MOST_NUMBERS"),
+        (decoded_frames, "_MOST_LABELS"),
+    ):
+        monkeypatch.setattr(module, limit, 1)
     assert decode("-", given=text) == told
 
 
@@ -174,7 +179,6 @@ def test_a_closed_pipe_ends_quietly() -> None:
 MEASURED = """
 import re, sys, time
 from fieldscribe.cli import main
-from fieldscribe.families.decoded_frame import BoundedMemo
 main(["decode", "woodward_mpu2s", "--log", sys.argv[1]])
 peak = re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())
 print(peak[1], time.process_time(), file=sys.stderr)

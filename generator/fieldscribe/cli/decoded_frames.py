@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import lru_cache
 from typing import TYPE_CHECKING, Protocol
 
 from fieldscribe.cli.terminal import is_coloured, print_rows
-from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import bits_label
 from fieldscribe.report import visible
 from fieldscribe.wording.frames import spaced
@@ -44,7 +44,7 @@ class _TextPrinter:
     def __init__(self, device: Device) -> None:
         labels = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
         width = max(map(len, labels | {"Checksum"}))
-        self._margins: BoundedMemo[str, str] = BoundedMemo(_MOST_LABELS, lambda label: f"\n  {label:<{width}}  ")
+        self._margin = lru_cache(_MOST_LABELS)(lambda label: f"\n  {label:<{width}}  ")
         self._coloured = is_coloured(sys.stdout)
         self._separator = ""
 
@@ -55,8 +55,7 @@ class _TextPrinter:
             sys.stdout.write(self._separator)
             print_rows(heading, rows)
         else:  # print_rows would ask for the widest label of each frame
-            margins = self._margins
-            lines = [margins[label] + text for label, text in rows]
+            lines = [self._margin(label) + text for label, text in rows]
             sys.stdout.write(f"{self._separator}{heading}{''.join(lines)}\n")
         self._separator = "\n"
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
@@ -41,20 +42,12 @@ class PointFormatter:
         self._raw_text = raw_form(point)
         self._absent = absence(device, point) if written else ""
         self._meanings = Meanings(device, point)
-        self._items: dict[Any, Item] = {}
+        # typed: a special code equals the plain number, and is no quantity
+        self._cached_item = lru_cache(_MOST_ITEMS, typed=True)(self._item)
 
     def item(self, raw: int, settings: Settings) -> Item:
         """Return the point with the meaning of its raw number; if it is written, also why the device refuses it."""
-        key: Any = raw
-        if self.needs:  # the types too: a special code equals the plain number, and is no quantity
-            values = [settings.get(name) for name in self.needs]
-            key = (raw, *values, *map(type, values))
-        item = self._items.get(key)
-        if item is None:
-            if len(self._items) >= _MOST_ITEMS:
-                self._items.clear()
-            item = self._items[key] = self._item(raw, settings)
-        return item
+        return self._cached_item(raw, *[settings.get(name) for name in self.needs])
 
     def lacks(self, settings: Settings) -> bool:
         """Return True if the scale needs numbers of other points that are not among these."""
@@ -66,7 +59,8 @@ class PointFormatter:
         text = meaning.flags.sentence(raw) if meaning.flags else meaning.text
         return f"{text} ({self._raw_text(raw)})"
 
-    def _item(self, raw: int, settings: Settings) -> Item:
+    def _item(self, raw: int, *values: int | Fraction | None) -> Item:
+        settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}
         point, meaning, number = self._point, self._meanings.of(raw, settings), self._raw_text(raw)
         finding, remark = self._absent, self._absent
         if self._written and not finding:

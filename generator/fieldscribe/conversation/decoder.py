@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
@@ -10,13 +11,13 @@ from fieldscribe.conversation.encoding import family_part
 from fieldscribe.conversation.frame_warnings import FrameWarnings
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families.decoded_frame import (
+    MOST_STATES,
     CutFrame,
     Element,
     Masks,
     OpenRequests,
     Piece,
     ProcessData,
-    RecentlyUsed,
     Span,
     Word,
 )
@@ -67,7 +68,7 @@ class StreamDecoder:
         self._warnings = FrameWarnings(device, self._directory)
         self._texts = PointTextCache(device, self._directory)
         self._open_requests = OpenRequests()
-        self._states: RecentlyUsed[int | None, DecodeState] = RecentlyUsed()
+        self._state_of_unit = lru_cache(MOST_STATES)(self._new_state)
 
     def requests(self, options: Options) -> list[FrameResult]:
         """Decode the request that the following frames answer, if the options give one. Raises UnclearError."""
@@ -82,7 +83,7 @@ class StreamDecoder:
     def decode(self, frame: Any, *, expecting: bool = False) -> FrameResult:
         """Decode the next frame; any bytes are safe. `expecting`: the following frames answer it."""
         decoded = self._frame_decoder.decode(frame, self._open_requests, expecting=expecting)
-        state = self._states.of(decoded.unit, self._new_state)
+        state = self._state_of_unit(decoded.unit)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         self._open_requests.follow(decoded, expecting=expecting)
         notes = self._warnings.notes(decoded)
@@ -90,5 +91,6 @@ class StreamDecoder:
             notes = (*notes, frame.note)
         return decoded.with_items(items, self._warnings.findings(decoded), notes)
 
-    def _new_state(self) -> DecodeState:
+    def _new_state(self, unit: int | None) -> DecodeState:
+        del unit  # each unit has a state of its own
         return DecodeState(self._device, self._directory, self._texts, self._given, dict(self._given))

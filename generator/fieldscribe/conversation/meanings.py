@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
@@ -13,7 +13,6 @@ from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure
-from fieldscribe.families.decoded_frame import BoundedMemo
 from fieldscribe.families.frame_results import Bits, bits_label
 from fieldscribe.report import visible
 from fieldscribe.text import line
@@ -105,7 +104,7 @@ class FlagTexts:
         self._flags, self._width = point.flags, point.width
         self._lowest = point.bits[1] if point.bits else 0
         self._named = sum(mask_of(flag.width) << flag.low for flag in point.flags)
-        self._bits = [BoundedMemo(_MOST_NUMBERS, partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
+        self._bits = [lru_cache(_MOST_NUMBERS)(partial(_flag_bits, flag, self._lowest)) for flag in point.flags]
 
     def sentence(self, raw: int) -> str:
         """Return all flags in one sentence: those that are true first."""
@@ -125,7 +124,7 @@ class FlagTexts:
     def bits(self, raw: int) -> list[Bits]:
         """Return each flag, and each set bit that the manual does not name."""
         pairs = zip(self._flags, self._bits, strict=True)
-        named = [bits[raw >> flag.low & mask_of(flag.width)] for flag, bits in pairs]
+        named = [bits(raw >> flag.low & mask_of(flag.width)) for flag, bits in pairs]
         return named + [_nameless_bit(self._lowest + bit) for bit in self._nameless(raw)]
 
     def _nameless(self, raw: int) -> list[int]:

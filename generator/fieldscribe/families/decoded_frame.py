@@ -7,7 +7,7 @@ device and makes a `FrameResult` of it.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fieldscribe.families.frame_results import FrameResult, Item
 
@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from fieldscribe.model import Telegram
+
+
+MOST_STATES = 256
+"""For how many units, or telegrams of units, a decoder keeps a state: those used last. A stream may last for days."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,44 +184,6 @@ def cut_apart(data: bytes, sound_size: Callable[[bytes], int], least: int) -> li
         result.append(frame)
         begin += len(piece)
     return [*result]
-
-
-Key = TypeVar("Key")
-Value = TypeVar("Value")
-_MOST_RECENT = 256
-
-
-class RecentlyUsed(Generic[Key, Value]):
-    """One value per key, for the keys used last: a stream may last for days."""
-
-    def __init__(self) -> None:
-        self._values: dict[Key, Value] = {}
-        self._last: Key | None = None
-
-    def of(self, key: Key, make: Callable[[], Value]) -> Value:
-        """Return the value of this key; make it if there is none."""
-        if key == self._last and self._values:
-            return self._values[key]
-        value = self._values[key] = self._values.pop(key) if key in self._values else make()
-        self._last = key
-        if len(self._values) > _MOST_RECENT:
-            del self._values[next(iter(self._values))]
-        return value
-
-
-class BoundedMemo(dict[Key, Value]):
-    """Computes the value of a key once; forgets all values when there are too many: a stream may last for days."""
-
-    def __init__(self, most: int, make: Callable[[Key], Value]) -> None:
-        super().__init__()
-        self._most, self._make = most, make
-
-    def __missing__(self, key: Key) -> Value:
-        value = self._make(key)
-        if len(self) >= self._most:
-            self.clear()
-        self[key] = value
-        return value
 
 
 class FrameDecoder(Protocol):

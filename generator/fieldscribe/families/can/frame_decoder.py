@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import remarks
@@ -20,7 +21,7 @@ from fieldscribe.families.can.frames import (
 )
 from fieldscribe.families.can.notation import read_frames, read_identifier
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.families.decoded_frame import DecodedFrame, Piece, RecentlyUsed, Word
+from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, Piece, Word
 from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import check_text, strange_unit
@@ -42,8 +43,9 @@ class CanFrameDecoder:
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._identifier = None if can_id is None else read_identifier(can_id)
-        self._receivers: RecentlyUsed[tuple[int | None, str], Receiver] = RecentlyUsed()
+        self._receiver = lru_cache(MOST_STATES)(self._new_receiver)
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
+        self._messages = {message.name: message for message in device.messages}
         asks = [message for message in device.messages if message.direction == "request" and carries(message, "raw")]
         writing = {message.name for message in asks}
         self._writing = writing | {message.name for message in device.messages if message.answers in writing}
@@ -102,10 +104,12 @@ class CanFrameDecoder:
             return DecodedFrame(replace(result, findings=(remarks.multiplexer_finding(message, telegram),)))
         if head.differences or head.wrong_sum:
             return DecodedFrame(replace(result, notes=(remarks.DAMAGED,)))
-        sender = head.unit, telegram.name
-        receiver = self._receivers.of(sender, lambda: Receiver(telegram, message, head.unit or 0))
+        receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
         return DecodedFrame(result, (piece,), head.unit)
+
+    def _new_receiver(self, message: str, unit: int) -> Receiver:
+        return Receiver(self._telegrams[message], self._messages[message], unit)
 
     def _parameter(self, head: Head, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
         result, frame = self._result(head, pasted), pasted.frame
