@@ -17,7 +17,7 @@ from fieldscribe.model import Factor, Linear
 from fieldscribe.resolve.values import FactError, Written
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.formula.normal import Affine
@@ -41,18 +41,6 @@ def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
     if any(names(end) for ends in alternatives for end in ends):
         return None
     return tuple((evaluate(low, {}), evaluate(high, {})) for low, high in alternatives)
-
-
-@lru_cache(maxsize=16384)
-def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) -> tuple[tuple[int, int], ...] | None:
-    """Return the raw intervals of a range in units; `ratio` and `offset` are (numerator, denominator) of the scale."""
-    intervals = constant_range(text)
-    if intervals is None:
-        return None
-    (up, down), (add, part) = ratio, offset
-    rule = Fraction(up, down), Fraction(add, part)
-    ends = [tuple(half_away(end * rule[0] + rule[1]) for end in pair) for pair in intervals]
-    return tuple((high, low) if up < 0 else (low, high) for low, high in ends)
 
 
 class Bounds:
@@ -178,23 +166,6 @@ class Bounds:
             return Linear((limit.ratio + limit.offset) * scale.ratio, scale.offset, scale.factors)
         return Linear(limit.ratio * scale.ratio, scale.offset, (*limit.factors, *scale.factors))
 
-    def constant(
-        self, facts: PointFacts, text: str, in_units: bool
-    ) -> Sequence[tuple[int | Fraction, int | Fraction]] | None:
-        """Return the ends of a range in raw numbers; None if the range or the scale needs a point."""
-        if not in_units:
-            return constant_range(text)
-        if "scale" in facts.failed:
-            raise FactError
-        cases = self.scales.cases(facts)
-        if cases is None:
-            return encoded_range(text, (1, 1), (0, 1))
-        rule = cases[0].rule
-        if len(cases) > 1 or rule.factors:
-            return None
-        ratio, offset = rule.ratio, rule.offset
-        return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
-
     def limit(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
         """Return one end of a range as a rule that gives it for the value 1. Raises FormulaError or FactError."""
         rule = limit_rule(end, lambda name, part: self._of_another(facts, name, part, Written(text, span)))
@@ -222,16 +193,11 @@ class Bounds:
             return self.encodings[facts].holds[end]
         text, span = as_text(facts.get(key)), facts.span(key)
         pick = max if end else min
+        in_units = key != "range"
+        side = 1 - end if in_units and self.falls(facts) else end
         try:
-            constant = self.constant(facts, text, key != "range")
-            if constant is not None:
-                candidates = [Fraction(ends[end]) for ends in constant]
-            else:
-                side = 1 - end if key != "range" and self.falls(facts) else end
-                rules = [
-                    self.limit(facts, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
-                ]
-                candidates = [corner for rule in rules for corner in self.corners(rule)]
+            rules = [self.limit(facts, ends[side], text, span, in_units) for ends in parse_range(text).alternatives]
+            candidates = [corner for rule in rules for corner in self.corners(rule)]
         except (FormulaError, FactError):
             return self.encodings[facts].holds[end]
         return max(least, min(greatest, half_away(pick(candidates))))

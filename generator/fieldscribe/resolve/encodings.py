@@ -46,7 +46,7 @@ class Encodings:
 
     def of(self, facts: PointFacts, kind: int) -> Encoding:
         """Return the encoding of a point."""
-        return self._memo.of(kind, facts, self._encoding, lambda _: True)
+        return self._memo.of(kind, facts, self._encoding)
 
     def _encoding(self, facts: PointFacts) -> Encoding:
         space = _space_of(self._scope, facts)

@@ -124,16 +124,15 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     rows: Map = point.get("each") or Map(point.file, point.start)
     overrides: dict[str, Map] = {}
     spelt: dict[str, str] = {}
-    for key in rows:
-        if _decimal_key(key) in overrides:
-            first = [(rows.key_span(spelt[_decimal_key(key)]), "first given here")]
+    known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
+    for key, override in rows.items():
+        number = _decimal_key(key)
+        if overrides.setdefault(number, override) is not override:
+            first = [(rows.key_span(spelt[number]), "first given here")]
             message = f"the element {key} is given twice"
             scope.report.error("duplicate-name", message, rows.key_span(key), "say it once", first)
-        spelt.setdefault(_decimal_key(key), key)
-        overrides.setdefault(_decimal_key(key), rows[key])
-    known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
-    for key in rows:
-        if elements and _decimal_key(key) not in known:
+        spelt.setdefault(number, key)
+        if elements and number not in known:
             message = f"`{point['name']}` has no element {key}"
             hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
             scope.report.error("unknown-element", message, rows.key_span(key), hint)

@@ -72,18 +72,22 @@ class Memo(Generic[Fact]):
 
     def __init__(self, report: Report) -> None:
         self._report = report
-        self.known: dict[Hashable, Fact] = {}
+        self._known: dict[Hashable, Fact] = {}
 
     def of(
-        self, key: Hashable, point: PointFacts, work: Callable[[PointFacts], Fact], general: Callable[[Fact], bool]
+        self,
+        key: Hashable,
+        point: PointFacts,
+        work: Callable[[PointFacts], Fact],
+        general: Callable[[Fact], bool] = lambda _: True,
     ) -> Fact:
         """Return the fact of a point; `general` says whether it holds for all points with the key."""
-        known = self.known.get(key)
+        known = self._known.get(key)
         if known is not None:
             return known
         before = self._report.count
         fact = work(point)
         sound = self._report.count == before and not point.failed and not self._report.full
         if sound and general(fact):
-            self.known[key] = fact
+            self._known[key] = fact
         return fact

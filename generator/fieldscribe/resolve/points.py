@@ -98,7 +98,7 @@ class _Points:
         get, shape = facts.get, found.shape
         code, old_names = get("code"), get("was")
         place, write_place = self._places.of(facts, encoding, kind)
-        terms = self._terms.known.get(kind) or self._new_terms(facts, kind, encoding, found)
+        terms = self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
         default, default_raw = self._default(facts, kind, shape)
         return Point(
             facts.name,
@@ -126,10 +126,7 @@ class _Points:
         if facts.layer("default") is None and facts.layer("default_in_units") is None:
             return None, None
         stated = kind, hashable(facts.get("default")), hashable(facts.get("default_in_units"))
-        return self._defaults.of(stated, facts, lambda _: _default_of(self._scope, facts, shape), lambda _: True)
-
-    def _new_terms(self, facts: PointFacts, kind: int, encoding: Encoding, found: ShapeAndLimits) -> Terms:
-        return self._terms.of(kind, facts, partial(self._terms_of, encoding, found), _are_general)
+        return self._defaults.of(stated, facts, lambda _: _default_of(self._scope, facts, shape))
 
     def _terms_of(self, encoding: Encoding, found: ShapeAndLimits, facts: PointFacts) -> Terms:
         get, scope, shape = facts.get, self._scope, found.shape

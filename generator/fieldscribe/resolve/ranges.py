@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from decimal import Decimal
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.exact import half_away
@@ -18,6 +17,7 @@ from fieldscribe.resolve.values import FactError, formula_finding
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
+    from fractions import Fraction
     from collections.abc import Iterable
 
     from fieldscribe.diagnostics import Span
@@ -70,16 +70,11 @@ class Ranges:
         if isinstance(raw, Seq) and not printed and self._two_meanings(raw, span):
             return None
         try:
-            pairs = self._constant(facts, text, span, in_units)
-            if pairs is None:
-                alternatives = parse_range(text).alternatives
-                pairs = [
-                    (self._bound(facts, low, text, span, in_units), self._bound(facts, high, text, span, in_units))
-                    for low, high in alternatives
-                ]
-                if in_units and self.bounds.falls(facts):
-                    pairs = [(high, low) for low, high in pairs]
-            listed = parse_range(text).listed
+            parsed = parse_range(text)
+            pairs = [
+                (self._bound(facts, low, text, span, in_units), self._bound(facts, high, text, span, in_units))
+                for low, high in parsed.alternatives
+            ]
         except FormulaError as error:
             suggestion = suggest_interval(text)
             if text.lstrip()[:1] in _ONE_SIDED:
@@ -95,13 +90,15 @@ class Ranges:
         except FactError as error:
             error.report(self.report)
             return None
+        if in_units and self.bounds.falls(facts):
+            pairs = [(high, low) for low, high in pairs]
         checked = [printed or self._checked(facts, low, high, span) for low, high in pairs]
         if not all(checked):
             return None
         intervals = [Interval(low, high) for low, high in pairs]
         fixed = [interval.fixed for interval in intervals if interval.fixed is not None]
         moving = [interval for interval in intervals if interval.fixed is None]
-        return Allowed((*_merged(fixed), *moving), listed, ())
+        return Allowed((*_merged(fixed), *moving), parsed.listed, ())
 
     def _two_meanings(self, raw: Seq, span: Span) -> bool:
         """Report `[0, 100]`: it is a list of two numbers here, and the ends of an interval in other tools."""
@@ -113,28 +110,17 @@ class Ranges:
         self.report.error("two-meanings", message, span, hint)
         return True
 
-    def _constant(self, facts: PointFacts, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
-        """Return the ends of a range that needs no point; None if it or the scale needs one."""
-        pairs = self.bounds.constant(facts, text, in_units)
-        if pairs is None:
-            return None
-        return [(self._whole(low, span), self._whole(high, span)) for low, high in pairs]
-
-    def _whole(self, exact: int | Fraction, span: Span) -> int:
-        """Return a limit as a whole raw number. Raises FactError."""
-        if exact.denominator == 1:
-            return exact.numerator
-        hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
-        message = f"the limit {number_text(Fraction(exact))} is not a whole raw number"
-        raise FactError("bad-number", message, span, hint)
-
     def _bound(self, facts: PointFacts, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
-        """Return one end of a range: a raw number, or a limit that other points set."""
+        """Return one end: a raw number, or a limit that other points set. Raises FormulaError or FactError."""
         rule = self.bounds.limit(facts, end, text, span, in_units)
         if rule.factors:
             return self._limit(facts, rule, span)
         exact = rule.ratio + rule.offset
-        return half_away(exact) if in_units else self._whole(exact, span)
+        if in_units or exact.denominator == 1:
+            return half_away(exact)
+        hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
+        message = f"the limit {number_text(exact)} is not a whole raw number"
+        raise FactError("bad-number", message, span, hint)
 
     def _checked(self, facts: PointFacts, low: Bound, high: Bound, span: Span) -> bool:
         """Return True if the type holds both ends and the interval is not empty; report it otherwise."""
