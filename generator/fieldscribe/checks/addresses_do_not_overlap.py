@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.coexistence import Coexistence
+from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 _WHOLE = (15, 0)
 _MOST = 512
 _APART = ", or say by `when`, `variants`, `since` or `until` that they are never there at once"
-_Key = tuple[str, str | None, int, int]
-"""Space, telegram, index (0 where addresses of the space have no index) and address."""
 
 
 def check(analysis: Analysis) -> None:
@@ -42,14 +40,14 @@ class _Overlaps:
     """Collects the points at each address and reports those that share bits."""
 
     def __init__(self, analysis: Analysis) -> None:
-        self.taken: dict[_Key, list[ResolvedPoint]] = {}
+        self.taken: dict[WordKey, list[ResolvedPoint]] = {}
         self._analysis = analysis
         self._coexistence = Coexistence(analysis)
         self._reported_rows: set[int] = set()
 
     def add(self, resolved: ResolvedPoint, address: int, key: str) -> None:
         """Add a point at the address that it has by this key."""
-        others = self.taken.setdefault(_key(self._analysis, resolved.point, address), [])
+        others = self.taken.setdefault(word_key(self._analysis, resolved.point, address), [])
         if others:
             self._compare(resolved, others, address, key)
         others.append(resolved)
@@ -86,12 +84,6 @@ def _stands_here(other: ResolvedPoint, address: int) -> tuple[Span, str]:
     if address in other.point.addresses:
         return other.facts.span("at"), f"`{other.point.name}` stands here"
     return other.facts.span("write_at"), f"`{other.point.name}` is written here"
-
-
-def _key(analysis: Analysis, point: Point, address: int) -> _Key:
-    terms = point.terms
-    index = point.index if point.index and terms.space in analysis.scope.family.indexed else 0
-    return terms.space, terms.telegram, index, address
 
 
 def _place_in_words(analysis: Analysis, point: Point, address: int) -> str:
@@ -155,7 +147,7 @@ def _writes_a_value(command: Command, point: Point) -> bool:
     return whole and known and point.written.addresses == (command.address,)
 
 
-def _check_commands(analysis: Analysis, taken: dict[_Key, list[ResolvedPoint]]) -> None:
+def _check_commands(analysis: Analysis, taken: dict[WordKey, list[ResolvedPoint]]) -> None:
     raws = {str(node["name"]): node for node in reversed(list(analysis.scope.listed("commands")))}
     for command in analysis.commands:
         span = raws[command.name].span("at")

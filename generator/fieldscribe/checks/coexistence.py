@@ -1,4 +1,4 @@
-"""Tells which points can exist in the same device, by their variants, conditions and firmware versions."""
+"""Tells which points share a word, and which can exist in the same device: by variants, conditions and versions."""
 
 from __future__ import annotations
 
@@ -13,6 +13,16 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.points import ResolvedPoint
+
+WordKey = tuple[str, str | None, int, int]
+"""Space, telegram, index (0 where addresses of the space have no index) and address."""
+
+
+def word_key(analysis: Analysis, point: Point, address: int) -> WordKey:
+    """Return what tells the word of a point at an address from all other words of the device."""
+    terms = point.terms
+    index = point.index if point.index and terms.space in analysis.scope.family.indexed else 0
+    return terms.space, terms.telegram, index, address
 
 
 class Coexistence:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.checks.coexistence import Coexistence
+from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
 
 if TYPE_CHECKING:
     from fieldscribe.model import Fixed, Point
@@ -22,11 +22,15 @@ _MOST = 64
 def check(analysis: Analysis) -> None:
     """Report fixed bits that no allowed number has, that two points write differently, or that another point takes."""
     coexistence = Coexistence(analysis)
-    words: dict[tuple[str, str | None, int, int], list[ResolvedPoint]] = {}
+    words: dict[WordKey, list[ResolvedPoint]] = {}
+
+    def written_word(point: Point) -> WordKey:
+        return word_key(analysis, point, min(point.written.addresses))
+
     fixed = [resolved for resolved in analysis.resolved if resolved.point.fixed is not None]
     for resolved in analysis.resolved if fixed else ():
         if resolved.point.writable and resolved.point.bits is not None and resolved.point.addresses:
-            words.setdefault(_word(analysis, resolved.point), []).append(resolved)
+            words.setdefault(written_word(resolved.point), []).append(resolved)
     for resolved in fixed:
         point = resolved.point
         if point.fixed is None or resolved.facts.failed & {"type", "range", "fixed"}:
@@ -37,18 +41,12 @@ def check(analysis: Analysis) -> None:
             hint = "numbers are the whole word, fixed bits with it: correct the range, or leave `fixed` out"
             analysis.report.error("two-meanings", message, resolved.facts.span("fixed"), hint)
         if point.bits is not None and point.addresses:
-            others = words[_word(analysis, point)][:_MOST]
+            others = words[written_word(point)][:_MOST]
             behind = False
             for other in others:
                 if other is not resolved and not coexistence.exclude(resolved, other):
                     _compare(analysis, resolved, point.fixed, other, behind=behind)
                 behind = behind or other is resolved
-
-
-def _word(analysis: Analysis, point: Point) -> tuple[str, str | None, int, int]:
-    """Return the key of the word that is written: space, telegram, index and address."""
-    index = (point.index or 0) if point.space in analysis.scope.family.indexed else 0
-    return point.space, point.telegram, index, min(point.written.addresses)
 
 
 def _compare(analysis: Analysis, resolved: ResolvedPoint, fixed: Fixed, other: ResolvedPoint, *, behind: bool) -> None:

@@ -118,7 +118,8 @@ class Analysis:
     def _device_of(self, resolved: list[Point]) -> Device:
         scope, header = self.scope, self.scope.header
         variants = {axis: tuple(entry["values"]) for axis, entry in scope.axes.items()}
-        points = tuple(self._with_errata(resolved))
+        ids = {about: tuple(dict.fromkeys(each.erratum.id for each in errata)) for about, errata in self.cited.items()}
+        points = tuple([replace(point, errata=ids[point.name]) if point.name in ids else point for point in resolved])
         return Device(
             id=str(header["device"]),
             version=str(header.get("version", _NO_VERSION)),
@@ -141,12 +142,6 @@ class Analysis:
             messages=self.messages,
             telegrams=tuple(telegram for telegram, _ in self.places.telegrams.values()),
         )
-
-    def _with_errata(self, points: Iterable[Point]) -> Iterator[Point]:
-        """Yield the points with the ids of the errata that name them."""
-        ids = {about: tuple(dict.fromkeys(each.erratum.id for each in errata)) for about, errata in self.cited.items()}
-        for point in points:
-            yield replace(point, errata=ids[point.name]) if point.name in ids else point
 
     def _blocks(self, points: Iterable[Point], variants: dict[str, tuple[str, ...]]) -> dict[str, tuple[Block, ...]]:
         """Return the reads that the family plans for each group."""

@@ -17,8 +17,8 @@ from fieldscribe.resolve.values import FactError, formula_finding
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
-    from fractions import Fraction
     from collections.abc import Iterable
+    from fractions import Fraction
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.point_facts import PointFacts
