@@ -125,7 +125,7 @@ def markdown(text: str) -> str:
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     for sign, entity in _AUTOLINKS:
         cleaned = cleaned.replace(sign, entity)
-    return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned) if _needs_escape(cleaned) else cleaned
+    return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned)
 
 
 def csv_cell(text: str) -> str:
@@ -141,7 +141,3 @@ def csv_cell(text: str) -> str:
     if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
         cleaned = "'" + cleaned
     return '"' + cleaned.replace('"', '""') + '"' if any(char in cleaned for char in ',"') else cleaned
-
-
-def _needs_escape(text: str) -> bool:
-    return any(char in text for char in "\\`*_{}[]()#+-!|~")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from operator import itemgetter
 from struct import unpack_from
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     from fieldscribe.model import Point
 
@@ -58,23 +57,12 @@ def split(raw: int, count: int) -> tuple[int, ...]:
 
 
 def raw_of(point: Point, words: Sequence[int]) -> int:
-    """Return the raw number of a point from its words; for a text, all words as one number."""
-    return raw_reader(point, range(len(words)))(words)
-
-
-def raw_reader(point: Point, places: Sequence[int]) -> Callable[[Sequence[int]], int]:
-    """Return a function from words to the raw number of a point, whose own words are at `places`, high part first."""
-    first, several, own = places[0], len(places) > 1, itemgetter(*places)
+    """Return the raw number of a point from its words, high part first; for a text, all words as one number."""
+    pattern = joined(words)
     if point.text is not None:
-        return lambda words: joined(own(words) if several else (words[first],))
-    width, signed, low = point.width, point.info.signed, 0 if point.bits is None else point.bits[1]
-    if several:
-        mask = mask_of(width)
-        return lambda words: number_of(joined(own(words)) >> low & mask, width, signed=signed)
-    if width == 16 and not signed:
-        return own
-    mask, sign = mask_of(width), 1 << (width - 1) if signed else 0
-    return lambda words: ((words[first] >> low & mask) ^ sign) - sign
+        return pattern
+    low = 0 if point.bits is None else point.bits[1]
+    return number_of(pattern >> low & mask_of(point.width), point.width, signed=point.info.signed)
 
 
 def words_of(point: Point, raw: int) -> tuple[int, ...]:

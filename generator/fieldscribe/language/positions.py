@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from contextlib import suppress
+from typing import Any, NamedTuple
 
 import yaml
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 Place = tuple[int, int]
 """Line and column, counted from 1."""
@@ -31,14 +29,15 @@ def find_positions(text: str) -> Positions:
     result = Positions({}, {}, {})
     # The mappings and lists that are open: the event at the start of each, and those of the values inside.
     opened: list[tuple[Any, list[Any]]] = []
-    for event in _events(text):
-        if isinstance(event, yaml.CollectionEndEvent):
-            _add(result, *opened.pop())
-        elif isinstance(event, yaml.NodeEvent):
-            if opened:
-                opened[-1][1].append(event)
-            if isinstance(event, yaml.CollectionStartEvent):
-                opened.append((event, []))
+    with suppress(yaml.YAMLError):  # the reader has reported it
+        for event in iter(yaml.CSafeLoader(text).get_event, None):
+            if isinstance(event, yaml.CollectionEndEvent):
+                _add(result, *opened.pop())
+            elif isinstance(event, yaml.NodeEvent):
+                if opened:
+                    opened[-1][1].append(event)
+                if isinstance(event, yaml.CollectionStartEvent):
+                    opened.append((event, []))
     while opened:
         _add(result, *opened.pop())
     return result
@@ -54,16 +53,6 @@ def _add(result: Positions, start: Any, inside: list[Any]) -> None:
     keys = result.keys[offset] = {}
     for key, value in zip(inside[::2], inside[1::2], strict=False):
         keys.setdefault(getattr(key, "value", ""), (*_place(key), *_content_place(value)))
-
-
-def _events(text: str) -> Iterator[Any]:
-    """Yield the parser's events up to the first error: the reader has reported that one."""
-    loader = yaml.CSafeLoader(text)
-    try:
-        while (event := loader.get_event()) is not None:
-            yield event
-    except yaml.YAMLError:
-        return
 
 
 def _content_place(event: Any) -> Place:

@@ -164,11 +164,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("unit", _DECIMAL, "a unit is a symbol such as `Hz`: `fieldscribe units` lists them; a factor belongs to `scale`"),
     ("unit", rf"\[({_PLAIN})\]", r"{key}: \1"),
     ("when", rf"\{{(\w+: {_PLAIN}(?:, \w+: {_PLAIN}){{0,3}})\}}", _comparisons),
-    (
-        "printed",
-        r"(?!true|false)[^\[\]{}]{1,59}",
-        r"say which number it is: `printed: {wire: \g<0>}`, or a name of `numbering`",
-    ),
+    ("printed", r"(?!true|false)[^\[\]{}]{1,59}", _WHICH_NUMBER),
     ("line", r"([0-9]{1,9})\s*(?:-|\.\.|,|to).*", r"write the line where it begins: `line: \1`"),
     ("index", r".*\.\..*", r"several are `indices: \g<0>`"),
     ("set", r".*\.\..*", r"several are `sets: \g<0>`"),

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from fractions import Fraction
 
 
@@ -95,17 +94,13 @@ class Range:
 
 def names(expression: Expression) -> tuple[Name, ...]:
     """Return all names of an expression in the order of the text, with repetitions."""
-    return tuple(_names(expression))
-
-
-def _names(expression: Expression) -> Iterator[Name]:
     match expression:
         case Name():
-            yield expression
-        case Negate(operand):
-            yield from _names(operand)
-        case Binary(_, left, right):
-            yield from _names(left)
-            yield from _names(right)
+            return (expression,)
         case Power10(Name() as exponent):
-            yield exponent
+            return (exponent,)
+        case Negate(operand):
+            return names(operand)
+        case Binary(_, left, right):
+            return names(left) + names(right)
+    return ()
