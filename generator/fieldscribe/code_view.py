@@ -63,7 +63,7 @@ def for_code(device: Device) -> Device:
 
 
 def _without_texts(things: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Things with their names as titles, without notes and places in the manual."""
+    """Return these things with their names as titles, without notes and places in the manual."""
     empty = {"note": {}, "source": _NOWHERE}
     return tuple(
         replace(thing, title=_title(thing.name), **{key: empty[key] for key in empty if hasattr(thing, key)})
@@ -71,11 +71,11 @@ def _without_texts(things: tuple[Any, ...]) -> tuple[Any, ...]:
     )
 
 
-def _family_facts(own: FamilyFacts) -> FamilyFacts:
-    """The facts of one family, its codes with their names as titles."""
-    values = {field.name: getattr(own, field.name) for field in fields(own)}
-    codes = {name: value for name, value in values.items() if value and isinstance(value, tuple)}
-    return replace(own, **{name: _without_texts(value) for name, value in codes.items() if isinstance(value[0], Code)})
+def _family_facts(facts: FamilyFacts) -> FamilyFacts:
+    """Return the facts of one family, its codes with their names as titles."""
+    values = {field.name: getattr(facts, field.name) for field in fields(facts)}
+    codes = {name: held for name, held in values.items() if held and isinstance(held, tuple) and type(held[0]) is Code}
+    return replace(facts, **{name: _without_texts(held) for name, held in codes.items()})
 
 
 def _point(point: Point, shape: Shape, terms: Terms) -> Point:
@@ -154,5 +154,5 @@ def _special(special: Special) -> Special:
 
 @lru_cache(maxsize=65536)
 def _title(name: str) -> Titles:
-    """`base_frequency` as `Base frequency`."""
+    """Return `base_frequency` as `Base frequency`."""
     return {"en": name.replace("_", " ").capitalize()}

@@ -100,15 +100,15 @@ def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Lin
     at = min(max(span.column - 1, 0), len(text))
     start = 0 if at <= BEFORE + 10 else at - BEFORE
     end = len(text) if len(text) <= at + AFTER + 10 else at + AFTER
-    before, meant = (
+    before, marked = (
         visible(text[start:at].lstrip() if start else text[start:at]),
         text[at : min(at + span.width, end)],
     )
     before = f"... {before}" if start else before
-    after = visible(text[at + len(meant) : end]) + (" ..." if end < len(text) else "")
+    after = visible(text[at + len(marked) : end]) + (" ..." if end < len(text) else "")
     number = f"{span.line:>{margin}}"
-    yield [("frame", f"{number} | "), ("", f"{before}{visible(meant)}{after}".rstrip())]
-    mark = "^" * max(1, columns(visible(meant)))
+    yield [("frame", f"{number} | "), ("", f"{before}{visible(marked)}{after}".rstrip())]
+    mark = "^" * max(1, columns(visible(marked)))
     yield [("frame", " " * margin + " | "), (style, " " * columns(before) + mark)]
 
 

@@ -134,12 +134,12 @@ class Places:
 class Key:
     """One key: its name, the places where it may stand, and the shape of its value.
 
-    `required` are the places that must have it; `needs` are the keys that must stand beside it. An `own` key identifies
-    a point, so that further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS, NUMBERS, TEXTS,
-    or "" for all.
+    `required` are the places that must have it; `needs` are the keys that must stand beside it. A key of the `identity`
+    tells a point from others, so further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS,
+    NUMBERS, TEXTS, or "" for all.
     """
 
-    __slots__ = ("inherited", "name", "needs", "of", "own", "places", "required", "shape")
+    __slots__ = ("identity", "inherited", "name", "needs", "of", "places", "required", "shape")
 
     def __init__(  # noqa: PLR0913  # likewise
         self,
@@ -150,7 +150,7 @@ class Key:
         *kinds: Kind,
         required: bool | tuple[Place, ...] = (),
         needs: tuple[str, ...] = (),
-        own: bool = False,
+        identity: bool = False,
         of: str = "",
     ) -> None:
         self.name = name
@@ -161,7 +161,7 @@ class Key:
             places = Places(*places)
         self.places, self.inherited = places.all, places.inherited
         self.required = required if isinstance(required, tuple) else self.places if required else ()
-        self.needs, self.own, self.of = needs, own, of
+        self.needs, self.identity, self.of = needs, identity, of
 
 
 WHOLE_NUMBERS, NUMBERS, TEXTS = "whole numbers", "numbers", "texts"

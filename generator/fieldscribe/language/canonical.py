@@ -108,8 +108,8 @@ class _Layout:
 
     def _open(self, piece: Piece) -> None:
         above = self.within[-1].column if self.within else -_INDENT
-        beside = piece.kind == "sequence" and self.last == ":"
-        self.within.append(_Frame(piece.kind, piece.column, above if beside else above + _INDENT))
+        below_key = piece.kind == "sequence" and self.last == ":"
+        self.within.append(_Frame(piece.kind, piece.column, above if below_key else above + _INDENT))
         self.opened = True
 
     def _column(self, piece: Piece) -> int:

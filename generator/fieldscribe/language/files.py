@@ -92,7 +92,7 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
             near = nearest(name, others)
             hint = f"did you mean `{near}`?" if near else "create it or take it off the list"
             report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, hint)
-        elif path.is_symlink() and not _leads_beside(path, device_file):
+        elif path.is_symlink() and not _stays_in_folder(path, device_file):
             hint = "parts stand beside device.yaml: copy the file, or link the whole folder"
             report.error("part-outside", f"`{name}` is a link that leads out of the folder", span, hint)
         else:
@@ -100,7 +100,7 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
     return list(paths.values())
 
 
-def _leads_beside(link: Path, device_file: Path) -> bool:
+def _stays_in_folder(link: Path, device_file: Path) -> bool:
     """Return True if a link leads into the folder of the description, or of the file that device.yaml links to."""
     folder = os.path.dirname(os.path.realpath(link))
     return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))

@@ -158,8 +158,8 @@ class MappingCheck:
     def _plan(self, keys: tuple[str, ...]) -> Plan:
         """Return the plan for these keys; it is kept for the next mapping that has the same."""
         missing = {key: f"the key `{key}` is missing" for key in required(self.place) if key not in keys}
-        for key, beside in needs(self.place).items():
-            for needed in beside:
+        for key, others in needs(self.place).items():
+            for needed in others:
                 if key in keys and needed not in keys:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
         entries = tuple((key, self._check_of(key)) for key in keys)
@@ -200,9 +200,9 @@ def _check_aliased(check: Check, value: Any, holder: Any, at: Any, report: Repor
     if report.full:
         return False
     if check not in value.uses:
-        copy, own = value.copied(), Report()
-        is_right = check(copy, holder, at, own)
-        report.extend(own if value.span() == holder.span(at) else own.also(holder.span(at), "used here"))
+        copy, findings = value.copied(), Report()
+        is_right = check(copy, holder, at, findings)
+        report.extend(findings if value.span() == holder.span(at) else findings.also(holder.span(at), "used here"))
         value.uses[check] = copy, is_right
     holder[at], is_right = value.uses[check]
     return bool(is_right)

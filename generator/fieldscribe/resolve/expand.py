@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.keys import inherited, keys_of, own
+from fieldscribe.language.keys import identifying_keys, inherited, keys_of
 from fieldscribe.language.keys.places import FORMAT, POINT, USE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
@@ -25,7 +25,7 @@ MOST_POINTS = 100_000
 _LAST_SET = 999
 _AXES = frozenset(("sets", "indices", "set", "index"))
 """Keys of a row that stands for several points, or for one of several."""
-_OWN = own(POINT)
+_OWN = identifying_keys(POINT)
 """Keys that a further set does not inherit from the row that it repeats; the title is extended instead."""
 _OF_RECORDS = inherited(USE)
 """Keys that the use of a record may set for all its members."""

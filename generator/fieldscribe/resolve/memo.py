@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from fieldscribe.language.keys import keys_of, own
+from fieldscribe.language.keys import identifying_keys, keys_of
 from fieldscribe.language.keys.places import POINT, SOURCE
 from fieldscribe.language.nodes import Map, Seq
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Fact = TypeVar("Fact")
 
-_IDENTITY = own(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "was", "write_at", "each"}
+_IDENTITY = identifying_keys(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "was", "write_at", "each"}
 """Keys that identify a point. No fact of other keys depends on them."""
 
 _NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))

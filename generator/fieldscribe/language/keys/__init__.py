@@ -51,8 +51,8 @@ for _key in TABLE:
 
 def keys_of(place: Place) -> dict[str, Key]:
     """Return the keys that may stand in a place, by name."""
-    own_keys = _AT.get(place, {})
-    return own_keys if place.may_be is None else keys_of(place.may_be) | own_keys
+    keys = _AT.get(place, {})
+    return keys if place.may_be is None else keys_of(place.may_be) | keys
 
 
 def required(place: Place) -> tuple[str, ...]:
@@ -80,9 +80,9 @@ def facts_of(place: Place, *subjects: str) -> tuple[str, ...]:
     return tuple(name for name, key in keys_of(place).items() if key.of in subjects)
 
 
-def own(place: Place) -> frozenset[str]:
+def identifying_keys(place: Place) -> frozenset[str]:
     """Return the keys of a place that identify a point, so that further sets do not inherit them."""
-    return frozenset(name for name, key in keys_of(place).items() if key.own)
+    return frozenset(name for name, key in keys_of(place).items() if key.identity)
 
 
 def lists_with(place: Place, name: str) -> tuple[str, ...]:

@@ -12,9 +12,16 @@ _NAMED = (places.ENTRY, places.FLAG, places.SPECIAL_CODE, places.CODE, *CITED)
 _CITING = Places(*POINTS, USE, *CITED, places.ERRATUM, places.SOURCE, inherited=(USE,))
 
 WHICH = (
-    Key("name", (POINT, USE, *_NAMED), NAME, required=True, own=True),
-    Key("code", Places(*POINTS, USE, inherited=(USE,)), "The manual's own short name.", ["A020"], Text(40), own=True),
-    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", ["trip"], NAMED, own=True),
+    Key("name", (POINT, USE, *_NAMED), NAME, required=True, identity=True),
+    Key(
+        "code",
+        Places(*POINTS, USE, inherited=(USE,)),
+        "The manual's own short name.",
+        ["A020"],
+        Text(40),
+        identity=True,
+    ),
+    Key("record", (POINT, USE), "The name of one of `records`; `at` is its base.", ["trip"], NAMED, identity=True),
     Key(
         "at",
         (POINT, SET, VARIANT, USE, MEMBER),
@@ -24,7 +31,7 @@ WHICH = (
         Whole(),
         Text(200),
         NOTHING,
-        own=True,
+        identity=True,
     ),
     Key(
         "write_at",
@@ -43,7 +50,7 @@ WHICH = (
         [{"error": {"line": 701}}],
         by(forms.NAME, MEMBER.shape),
         needs=("record",),
-        own=True,
+        identity=True,
     ),
     Key(
         "bits",
@@ -64,7 +71,7 @@ WHICH = (
         Whole(),
         Text(40),
         by(forms.SET, SET.shape, least=1),
-        own=True,
+        identity=True,
     ),
     Key(
         "indices",
@@ -73,7 +80,7 @@ WHICH = (
         [3, "0..1"],
         Whole(),
         Text(40),
-        own=True,
+        identity=True,
     ),
     Key(
         "set",
@@ -81,7 +88,7 @@ WHICH = (
         "The only set of the point; it adds no suffix. Beside `sets` by number: the point's own set, 1 by default.",
         [2],
         Whole(0, 999),
-        own=True,
+        identity=True,
     ),
     Key(
         "index",
@@ -89,7 +96,7 @@ WHICH = (
         "The only element of the array that is described; it adds no suffix.",
         [1],
         Whole(0, 65535),
-        own=True,
+        identity=True,
     ),
     Key(
         "each",
@@ -106,7 +113,7 @@ WHICH = (
         by(forms.VARIANT, VARIANT.shape, least=1),
     ),
     Key("was", POINT, "Former names; each stays usable as a deprecated alias.", [["main_frequency"]], Items(NAME, 1)),
-    Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), own=True),
+    Key("title", (DEVICE, GROUP, *POINTS, USE, *_TITLED), TITLE, required=(DEVICE,), identity=True),
     Key("note", (DEVICE, GROUP, *POINTS, USE, places.BUS, places.COMMAND), NOTE),
     Key("document", places.SOURCE, "One of the documents that device.yaml names.", ["manual"], Text()),
     Key(
@@ -119,7 +126,7 @@ WHICH = (
     Key("section", _CITING, "The section of the manual; quote it if it looks like a number.", ["4.2.10"], Text(200)),
     Key("page", _CITING, "The printed page number.", [21], Whole(), Text()),
     Key("lines", Places(*FACTS, USE, places.CODE, *CITED, places.ERRATUM, inherited=(USE,)), places.LINES.shape),
-    Key("printed", POINTS, places.PRINTED.shape, own=True),
+    Key("printed", POINTS, places.PRINTED.shape, identity=True),
     Key("format", POINT, "The name of one of `formats`.", ["percent_tenth"], NAMED),
 )
 """The keys that identify a point and cite the manual."""
