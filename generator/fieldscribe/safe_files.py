@@ -30,6 +30,10 @@ class UnfitFileError(OSError):
     """The file is no regular one, or larger than the limit; `strerror` says which."""
 
 
+class UnsafePathError(Exception):
+    """A path leads out of its folder."""
+
+
 class Content(NamedTuple):
     """The bytes of a file, and its state when they were read."""
 
@@ -70,6 +74,15 @@ def read_regular(path: str | os.PathLike[str], most: int) -> Content:
     if len(data) > most:
         raise UnfitFileError(EFBIG, _too_large(most), str(path))
     return Content(data, state_of(status))
+
+
+def inside(out: Path, path: str) -> Path:
+    """Return the full path of an output in the folder `out`. Raises UnsafePathError if it lies outside."""
+    place, root = out / path, os.path.realpath(out)
+    folder = os.path.realpath(place.parent)
+    if place.name == ".." or not f"{folder}{os.sep}".startswith(f"{root.rstrip(os.sep)}{os.sep}"):
+        raise UnsafePathError(f"it leads out of the folder {out}")
+    return place
 
 
 def state_of(status: os.stat_result) -> State:

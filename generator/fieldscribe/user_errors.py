@@ -1,26 +1,8 @@
-"""The options for frames that a user gives, and the errors for a request that cannot be met."""
+"""The errors for a request of a user that cannot be met, and hints with near names."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
-
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """The options for frames, None if not given; `own` has those of single families, by name."""
-
-    framing: str | None = None
-    unit: int | None = None
-    request: str | None = None
-    index: int | None = None
-    own: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
 class UnclearError(Exception):

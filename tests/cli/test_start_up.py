@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+import time
+from typing import TYPE_CHECKING
 
 from fieldscribe.resources import descriptions_dir
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_check_imports_nothing_that_it_does_not_need() -> None:
@@ -17,3 +23,19 @@ def test_check_imports_nothing_that_it_does_not_need() -> None:
     command = [sys.executable, "-I", "-c", code, str(descriptions_dir() / "jumo_controller")]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_generate_with_nothing_changed_imports_as_little(tmp_path: Path) -> None:
+    code = (
+        "import sys\nfrom fieldscribe.cli import main\nmain(sys.argv[1:])\n"
+        "print(sorted({'dataclasses', 'hashlib', 'yaml', 'fieldscribe.families'} & set(sys.modules)))"
+    )
+    words = ["generate", str(descriptions_dir() / "jumo_controller"), "--target", "docs", "--out", str(tmp_path)]
+    command = [sys.executable, "-I", "-c", code, *words]
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    for _ in range(3):  # files are trusted two seconds after they were written
+        done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+        if done.stdout.splitlines()[-1] == "[]":
+            return
+        time.sleep(2.1)
+    raise AssertionError(done.stdout)

@@ -15,7 +15,7 @@ from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
 from fieldscribe.model import Role
-from fieldscribe.user_errors import Options, RefusedError, UnclearError
+from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
@@ -26,7 +26,7 @@ from support.models import named
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fieldscribe.families.frame_results import FrameResult
+    from fieldscribe.families.frame_results import FrameResult, Options
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from fieldscribe.conversation.decoder import decode
-from fieldscribe.user_errors import Options
+from fieldscribe.families.frame_results import Options
 from support.described import shipped
 
 WRITE, READ = "05 06 10 28 01 F4 0C 91", "08 01 00 06 00 05 1C 91"

@@ -15,7 +15,7 @@ from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.telegrams import Request, parse, telegram
-from fieldscribe.user_errors import Options, UnclearError
+from fieldscribe.user_errors import UnclearError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.asked import asked
@@ -25,7 +25,7 @@ from support.frames_by_hand import coded, uss_bytes
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from fieldscribe.families.frame_results import FrameResult
+    from fieldscribe.families.frame_results import FrameResult, Options
 
 DEVICE = shipped("siemens_mm4")
 SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])

@@ -9,11 +9,11 @@ from fieldscribe.conversation.decoder import decode
 from fieldscribe.conversation.explanation import explain_point, write_text
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
+from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, rust
-from fieldscribe.user_errors import Options
 from support.described import kitchen_sink
 from support.models import named
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from fieldscribe.user_errors import Options
+from fieldscribe.families.frame_results import Options
 
 _SHARED = ("framing", "unit", "request", "index")
 

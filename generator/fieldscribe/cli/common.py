@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, TextIO
 from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.source import MOST_BYTES
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
 from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
@@ -238,6 +237,8 @@ def print_json(data: object) -> None:
 
 def _line_reader() -> ReadLines:
     """Return a function that reads the lines of a file that findings name, each file once; None if it cannot."""
+    from fieldscribe.language.source import MOST_BYTES  # a `generate` with nothing changed starts without it
+
     known: dict[str, list[str] | None] = {}
 
     def read(name: str) -> list[str] | None:

@@ -10,8 +10,9 @@ from fieldscribe.cli.frame_options import add_family_options, add_framing, add_w
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
 from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
+from fieldscribe.families.frame_results import Options
 from fieldscribe.report import visible
-from fieldscribe.user_errors import Options, RefusedError, UnclearError
+from fieldscribe.user_errors import RefusedError, UnclearError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

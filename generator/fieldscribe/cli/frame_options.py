@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.cli.common import StopError
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import families, family
-from fieldscribe.user_errors import Options, RefusedError, UnclearError
+from fieldscribe.families.frame_results import Options
+from fieldscribe.user_errors import RefusedError, UnclearError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace

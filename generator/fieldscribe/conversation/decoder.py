@@ -29,9 +29,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.arithmetic.codec import Settings
     from fieldscribe.families.decoded_frame import FrameDecoder
-    from fieldscribe.families.frame_results import FrameResult
+    from fieldscribe.families.frame_results import FrameResult, Options
     from fieldscribe.model import Device
-    from fieldscribe.user_errors import Options
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Span: span_items,

@@ -21,9 +21,8 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.frame_results import BuiltFrames
+    from fieldscribe.families.frame_results import BuiltFrames, Options
     from fieldscribe.model import Device, Point
-    from fieldscribe.user_errors import Options
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,10 @@
-"""What a user gets: decoded frames, and the frames that write a point."""
+"""What a user gives and gets: options for frames, decoded frames, and the frames that write a point."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
@@ -13,6 +14,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from fieldscribe.model import Bus, Point
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """The options for frames, None if not given; `own` has those of single families, by name."""
+
+    framing: str | None = None
+    unit: int | None = None
+    request: str | None = None
+    index: int | None = None
+    own: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.output.contents import Contents, contents_of
 from fieldscribe.output.manifests import carries_head, made_of, manifest_text
-from fieldscribe.safe_files import kind_of, read_regular, state_of
+from fieldscribe.safe_files import UnsafePathError, inside, kind_of, read_regular, state_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,10 +22,6 @@ TargetFiles = dict[str, dict[str, Contents]]
 
 _MOST_BYTES = 512 << 20
 _NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor the recorded checksum"
-
-
-class UnsafePathError(Exception):
-    """An output path leads out of the output folder."""
 
 
 @dataclass(slots=True)
@@ -97,15 +93,6 @@ def plan_of(
 def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
     """Return the files that changed after these states were taken."""
     return [path for path, state in states.items() if _state(out / path) != state]
-
-
-def inside(out: Path, path: str) -> Path:
-    """Return the full path of an output. Raises UnsafePathError if it lies outside the output folder."""
-    place, root = out / path, os.path.realpath(out)
-    folder = os.path.realpath(place.parent)
-    if place.name == ".." or not f"{folder}{os.sep}".startswith(f"{root.rstrip(os.sep)}{os.sep}"):
-        raise UnsafePathError(f"it leads out of the folder {out}")
-    return place
 
 
 class _Planner:

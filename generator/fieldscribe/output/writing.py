@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.plan import inside
-from fieldscribe.safe_files import state_of
+from fieldscribe.safe_files import inside, state_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.can.frames import CanFrame, parse
-from fieldscribe.user_errors import Options
+from fieldscribe.families.frame_results import Options
 from support import wrong_bytes
 from support.described import made
 from support.python_families import CanUnit, can_device

@@ -16,8 +16,8 @@ from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.families.frame_results import Options
     from fieldscribe.model import Device, Message, Point
-    from fieldscribe.user_errors import Options
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

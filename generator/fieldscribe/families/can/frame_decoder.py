@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.families.can.notation import Pasted
     from fieldscribe.families.decoded_frame import OpenRequests
+    from fieldscribe.families.frame_results import Options
     from fieldscribe.model import Device, Message, Telegram
-    from fieldscribe.user_errors import Options
 
 _KINDS = {"request": "request", "response": "reply"}
 

@@ -17,8 +17,8 @@ from fieldscribe.wording.frames import spaced
 
 if TYPE_CHECKING:
     from fieldscribe.arithmetic.codec import Settings
+    from fieldscribe.families.frame_results import Options
     from fieldscribe.model import Device, Point
-    from fieldscribe.user_errors import Options
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

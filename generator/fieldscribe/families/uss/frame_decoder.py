@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.families.decoded_frame import OpenRequests
+    from fieldscribe.families.frame_results import Options
     from fieldscribe.model import Device
-    from fieldscribe.user_errors import Options
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 

@@ -14,8 +14,8 @@ from fieldscribe.user_errors import UnclearError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fieldscribe.families.frame_results import Options
     from fieldscribe.model import Bus, Device
-    from fieldscribe.user_errors import Options
 
 VARIABLE = 127
 """The setting of the parameter part whose length depends on the request."""
