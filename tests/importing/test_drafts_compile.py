@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import zipfile
 from itertools import count
 from typing import TYPE_CHECKING
@@ -100,7 +101,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 NUMBERS = count()
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "40")),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 @given(st.lists(st.sampled_from(HEADINGS), max_size=6, unique=True), ROWS, st.sampled_from(OPTIONS))
 @example(["Register", "Range"], [["", ""], ["", "", "1-16", "65536 = x; 2 = y"]], ["--space", "coil"])
 def test_a_draft_compiles(

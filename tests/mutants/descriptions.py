@@ -13,11 +13,11 @@ import json
 import os
 import random
 import shutil
-import signal
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from mutants.children import StoppedError, in_child
 from mutants.fact_changes import changes_of, siblings
 from mutants.facts import read
 from mutants.judges import KILLED, ROOT, SURVIVED, Verdict
@@ -111,20 +111,20 @@ class DescriptionJudge:
 
     def _first(self, device: str) -> set[str]:
         """What the audit reports without a change; all else passes. What this imports is imported here."""
-        file = self.work / f"{device}.json"
 
-        def judge() -> bool:
-            found = sorted(_audited(device, self.manuals))
+        def work(tell: Callable[[Any], None]) -> None:
+            os.chdir(self.work)
+            reported = sorted(_audited(device, self.manuals))
             noticed = _check(device) or _second_reading(device)
-            file.write_text(json.dumps([found, [name for name in sys.modules if name.startswith(_KEPT)]]), "utf-8")
-            return noticed
+            modules = [name for name in sys.modules if name.startswith(_KEPT)]
+            tell({"reported": reported, "noticed": noticed, "modules": modules})
 
-        assert not _noticed(judge, self.work), f"it is noticed without a change: {device}"
-        found, modules = json.loads(file.read_text("utf-8"))
-        for module in modules:
+        (told,) = in_child(work, LIMIT)
+        assert not told["noticed"], f"it is noticed without a change: {device}"
+        for module in told["modules"]:
             with contextlib.suppress(ImportError):
                 importlib.import_module(module)
-        return set(found)
+        return set(told["reported"])
 
     def verdict(self, mutant: Mutant) -> Verdict:
         """The first that notices."""
@@ -143,21 +143,16 @@ class DescriptionJudge:
 
 
 def _noticed(judge: Callable[[], bool], folder: Path) -> bool:
-    """Runs a judge in a process of its own, so that no module remembers another mutant; a crash notices it too."""
-    sys.stdout.flush()
-    process = os.fork()
-    if process:
-        return os.waitpid(process, 0)[1] != 0
-    noticed = True
-    try:
-        signal.alarm(LIMIT)
+    """Run a judge in a process of its own, so that no module remembers another mutant; a crash notices it too."""
+
+    def work(tell: Callable[[Any], None]) -> None:
         os.chdir(folder)
-        silent = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(silent, 1)
-        os.dup2(silent, 2)
-        noticed = judge()
-    finally:
-        os._exit(1 if noticed else 0)
+        tell({"noticed": judge()})
+
+    try:
+        return bool(in_child(work, LIMIT)[0]["noticed"])
+    except StoppedError:
+        return True
 
 
 def _check(device: str) -> bool:

@@ -224,7 +224,7 @@ def test_steps_are_never_fused(compiler: str, standard: str, sample: Path, tmp_p
 
 
 @pytest.mark.parametrize("build", [*FLOATS.values(), ("-DFIELDSCRIBE_FLOAT32",)], ids=" ".join)
-@pytest.mark.parametrize("language", ["c99", "c++17"])
+@pytest.mark.parametrize("language", ["c99", pytest.param("c++17", marks=pytest.mark.full(seconds=1))])
 def test_headers_have_no_clang_warning_at_all(
     language: str, build: tuple[str, ...], folders: Folders, tmp_path: Path
 ) -> None:
@@ -239,18 +239,21 @@ def test_headers_have_no_clang_warning_at_all(
 
 @pytest.fixture(scope="session")
 def conformance(folders: Folders, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The conformance program of a made device, which gcc builds once."""
+    """The conformance program of a made device, built once."""
 
     def program(device: str) -> Path:
-        source, flags = conformance_source(folders[device], device), ("-std=c99", *WARNINGS)
+        source, flags = conformance_source(folders[device], device), QUICKEST.flags
         return made_once(
-            tmp_path_factory, f"built-{device}", lambda out: compiled("gcc", flags, source, out / "program")
+            tmp_path_factory, f"built-{device}", lambda out: compiled(QUICKEST.compiler, flags, source, out / "program")
         )
 
     return lambda device: program(device) / "program"
 
 
-@pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
+@pytest.mark.parametrize(
+    "device",
+    ["sample_drive", *(pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in ("kitchen_can", "kitchen_uss"))],
+)
 def test_conformance_catches_each_kind(
     device: str, folders: Folders, conformance: Callable[[str], Path], tmp_path: Path
 ) -> None:

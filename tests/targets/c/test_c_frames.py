@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
 from support import wrong_bytes
 from support.c_device import SANITIZING, STANDARDS, WARNINGS, driver, program, run_program, write_headers
 from support.described import made, shipped
 from support.models import changed
+from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -298,7 +298,7 @@ def users(
     return [*made, path]
 
 
-@pytest.mark.parametrize("language", ["c", "c++"])
+@pytest.mark.parametrize("language", ["c", pytest.param("c++", marks=pytest.mark.full(seconds=1))])
 def test_many_files_share_one_definition(language: str, folder: Path, tmp_path: Path) -> None:
     flags = ("-std=c99",) if language == "c" else ("-x", "c++", "-std=c++11")
     files = users(tmp_path, 3, defined=1)
@@ -306,7 +306,7 @@ def test_many_files_share_one_definition(language: str, folder: Path, tmp_path: 
     succeed([*build, "-Wno-missing-declarations", "-o", tmp_path / "one", *files])
 
 
-@pytest.mark.parametrize("language", ["c", "c++"])
+@pytest.mark.parametrize("language", ["c", pytest.param("c++", marks=pytest.mark.full(seconds=1))])
 def test_a_forgotten_or_doubled_definition_does_not_link(language: str, folder: Path, tmp_path: Path) -> None:
     """The linker names the function."""
     flags = ("-std=c99",) if language == "c" else ("-x", "c++", "-std=c++11")
@@ -328,6 +328,7 @@ def linked(count: int, folder: Path, out: Path) -> Path:
     return image
 
 
+@pytest.mark.full(seconds=2)
 def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
     """A third file that uses Modbus costs its own calls and tables alone."""
     sizes = []
@@ -429,10 +430,11 @@ def test_no_line_is_longer_than_a_screen(folder: Path) -> None:
         assert [line for line in path.read_text("utf-8").splitlines() if len(line) > 120] == [], path.name
 
 
-def test_the_drive_is_small() -> None:
-    """What a firmware team is asked to vendor for the frames of 236 points, and of 268."""
-    for name, lines, size in (("hitachi_l200", 700, 45_000), ("woodward_mpu2s", 2000, 110_000)):
-        outputs = c.outputs(shipped(name), render)
-        header = next(text for path, text in outputs if path.endswith((f"{name}_modbus.h", "_can.h")))
-        assert header.count("\n") <= lines
-        assert len(header.encode()) <= size
+@pytest.mark.parametrize(
+    ("header", "lines", "size"), [("hitachi_l200_modbus.h", 700, 45_000), ("woodward_mpu2s_can.h", 2000, 110_000)]
+)
+def test_what_a_firmware_team_vendors_for_frames_is_small(header: str, lines: int, size: int) -> None:
+    """Frames of 236 points, and of 268."""
+    text = (ROOT / "generated/c" / header).read_text("utf-8")
+    assert text.count("\n") <= lines
+    assert len(text.encode()) <= size
