@@ -1,4 +1,4 @@
-"""Transports that expect what is sent and answer as they were told."""
+"""Transports with a script: they expect given requests and give the scripted answers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class Script:
-    """A transport of every family that expects what is sent and answers as it was told; `needs` in any order."""
+    """A transport of every family that follows a script; requests in `needs` may come in any order."""
 
     def __init__(self, vector: Vector, frame: Callable[[int, bytes], Any]) -> None:
         self.framing = vector["framing"] or "uss"  # only Modbus has several
@@ -46,7 +46,7 @@ class Script:
 
     @property
     def done(self) -> bool:
-        """Whether all was sent that should be."""
+        """Whether every request of the script was sent."""
         return not self._steps
 
 
@@ -68,7 +68,7 @@ AsyncScript = async_twin(Script, "exchange", "send", "receive")
 
 
 def now(result: Any) -> Any:
-    """A result, also of a coroutine that never really waits."""
+    """Return a result, also that of a coroutine that never really waits."""
     if not hasattr(result, "send"):
         return result
     try:

@@ -1,4 +1,4 @@
-"""Work in a child process, so that no module remembers an earlier mutant, bounded in time and memory."""
+"""Runs a function in a child process with limits of time and memory, so that no module keeps an earlier mutant."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TIME, BROKE_DOWN = "time", "break-down"
 
 
 class StoppedError(Exception):
-    """The child did not come to its end: TIME or BROKE_DOWN, and what it had told; its traceback is a note."""
+    """A child ended early: TIME or BROKE_DOWN, and its answers so far; its traceback is a note."""
 
     def __init__(self, why: str, told: list[Any]) -> None:
         super().__init__(why)
@@ -32,7 +32,7 @@ class StoppedError(Exception):
 
 
 def in_child(work: Callable[[Callable[[Any], None]], None], seconds: int) -> list[Any]:
-    """What `work` tells the function that it gets, as data of JSON. Raises StoppedError.
+    """Run `work` in a child and return the JSON values that it passes to its argument. Raises StoppedError.
 
     The seconds are those of a processor; by the clock it may take four times as long, as machines are shared.
     """

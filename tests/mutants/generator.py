@@ -43,7 +43,7 @@ NOBODY, IMPORT = "nobody", "it does not import"
 
 
 class GeneratorJudge:
-    """Knows who enters which function, and asks them."""
+    """Knows which outputs and tests enter a function, and runs them against a mutant."""
 
     def __init__(self, work: Path, compiled_devices: Iterable[str], tests: Iterable[Path]) -> None:
         sys.pycache_prefix = str(work / "python")
@@ -61,7 +61,7 @@ class GeneratorJudge:
         self.sound: dict[str, bool] = {}
 
     def verdict(self, mutant: Mutant) -> Verdict:
-        """Who notices it first."""
+        """Return the first output or test that notices the mutant."""
         path = HOUSE / mutant.path
         try:
             code = compile(mutant.text, path, "exec", dont_inherit=True)
@@ -76,7 +76,7 @@ class GeneratorJudge:
                 return Verdict(KILLED, by)
 
     def _asked(self, codes: Codes, changed: str, place: str) -> str:
-        """Who notices a change of a file, in a child."""
+        """Return the name of what notices a changed file, judged in a child process."""
 
         def work(tell: Callable[[Any], None]) -> None:
             use(codes)
@@ -88,7 +88,7 @@ class GeneratorJudge:
             return str(stopped)
 
     def _output_that_differs(self, place: str) -> str:
-        """The first, in the order of devices, those of tests first."""
+        """Return the first output that differs; the devices of the tests come first."""
         for judge, device, target, made in self.outputs:
             if place in judge.enters and _differs(device, target, made):
                 return judge.name
@@ -101,7 +101,7 @@ class GeneratorJudge:
         return ""
 
     def chosen(self, place: str) -> dict[Path, list[str]]:
-        """The tests that may notice, by file: those that enter little first, as far as the time goes."""
+        """Return the tests to run, by file, within the time limit: those that enter few functions first."""
         known = [(file, test) for file in self.files for test in entering(file, place) if self._may_judge(test)]
         found: dict[Path, list[str]] = {}
         left = TESTED
@@ -174,7 +174,7 @@ def _differs(device: str, target: str, made: dict[str, str]) -> bool:
 
 
 def _failing(path: Path, names: list[str]) -> str:
-    """The first of these tests that fails, or the file if it cannot be read."""
+    """Return the first of these tests that fails, or the file if it cannot be imported."""
     chosen = Chosen(names)
     code = run_tests([path], chosen, "-x")
     return chosen.failing or (path.relative_to(ROOT).as_posix() if code else "")

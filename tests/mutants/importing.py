@@ -1,4 +1,4 @@
-"""Imports of the compiler from memory: with one changed module, or with each function telling that it was entered."""
+"""Imports the compiler from memory: with one changed module, or with functions that record their calls."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def compiled() -> dict[str, CodeType]:
 
 @cache
 def telling() -> dict[str, CodeType]:
-    """The code of each module, whose functions note in SEEN that they were entered."""
+    """Return the code of each module, with functions that record in SEEN that they were entered."""
     setattr(builtins, _TELLS, SEEN.add)
     found = {}
     for path in PACKAGE.rglob("*.py"):

@@ -33,7 +33,7 @@ Way = tuple[str, tuple[str, ...]]
 
 
 class Verdict(NamedTuple):
-    """What became of a mutant, and what noticed it, or why it is left out."""
+    """The outcome of a mutant, and what noticed it or why it is left out."""
 
     outcome: str
     by: str
@@ -61,7 +61,7 @@ class Judge:
         self.prepare()
 
     def prepare(self) -> None:
-        """What is made once."""
+        """Prepare what all mutants share."""
 
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Whether all vectors of a device pass. Raises DoesNotBuildError."""
@@ -115,7 +115,7 @@ class Judge:
         return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
 
     def run(self, *words: object, memory: int = MEMORY) -> subprocess.CompletedProcess[str]:
-        """Runs a program that may be wrong in any way. Raises TimeoutExpired."""
+        """Run a program that may do anything, within limits. Raises TimeoutExpired."""
         return subprocess.run(
             [str(word) for word in words],
             cwd=self.work,
@@ -128,7 +128,7 @@ class Judge:
         )
 
     def compile(self, *words: object, folder: Path | None = None) -> str:
-        """Runs a compiler; what it said. Raises DoesNotBuildError."""
+        """Run a compiler and return its messages. Raises DoesNotBuildError."""
         command = [str(word) for word in words]
         done = subprocess.run(
             command, cwd=folder or self.work, capture_output=True, text=True, check=False, timeout=BUILD_LIMIT
@@ -229,7 +229,7 @@ class OfRust(Judge):
         self.cargo("test", "--no-run", "--test", "conformance")
 
     def cargo(self, *words: str) -> str:
-        """Runs cargo, with what is there already if that is enough."""
+        """Run cargo offline; the first failure is tried again with the network."""
         command = ("cargo", *words, "-j1", "--target-dir", self.target)
         try:
             return self.compile(*command, "--offline", folder=self.work / "rust")

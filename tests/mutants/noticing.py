@@ -1,4 +1,4 @@
-"""Who could notice a change of a function: the outputs and the tests that enter it, measured once.
+"""Measures which outputs and tests enter a function of the compiler: only those can notice a change of it.
 
 A measurement stays good while the functions of the compiler have the same names and the test file is the same: what
 changes inside of a function rarely changes who enters it.
@@ -38,7 +38,7 @@ MEASURED = 120
 
 @dataclass(frozen=True, slots=True)
 class Witness:
-    """A test, or the output of a device for a target: what it enters, and how long it takes."""
+    """A test, or the output of a device for a target: the functions it enters, and its seconds."""
 
     name: str
     seconds: float
@@ -88,7 +88,7 @@ def _loaded(device: str) -> tuple[Device | None, str]:
 
 
 def measured_output(device: str, target: str, folder: Path) -> tuple[Witness, dict[str, str]]:
-    """What a device compiled to a target enters, and what the sound compiler makes of it."""
+    """Return the functions that compiling a device to a target enters, and the output."""
 
     def work(tell: Callable[[Any], None]) -> None:
         use(telling())
@@ -103,7 +103,7 @@ def measured_output(device: str, target: str, folder: Path) -> tuple[Witness, di
 
 
 def measured_tests(path: Path, folder: Path) -> FileOfTests:
-    """What the tests of a file enter, those of the core suite that pass."""
+    """Return the functions that the passing core tests of a file enter."""
     shared = [*TESTS.glob("*.py"), *(TESTS / "support").glob("*.py")]
     told = _TOLD.get(path.name)
     file = folder / f"{path.stem}-{_digest([path, *shared, *([TESTS / told] if told else [])], _names())}.json"
@@ -181,7 +181,7 @@ def _names() -> str:
 
 
 def _kept(file: Path, measure: Callable[[], list[Any]]) -> list[Any]:
-    """What was measured before, or is now; functions are written once, by their numbers."""
+    """Return the stored measurement, or measure now and store it; the file lists each function once."""
     if file.exists():
         names, rows = json.loads(file.read_text("utf-8"))
         return [row | {"enters": [names[number] for number in row["enters"]]} for row in rows]

@@ -1,4 +1,4 @@
-"""What is known of mutants already: one line of JSON for each, in a folder that git ignores."""
+"""Stored verdicts: one line of JSON for each mutant, in a folder that git ignores."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Results:
         self._known = dict(_entry(line) for line in lines if line.endswith("}"))
 
     def get(self, key: str) -> Verdict | None:
-        """What became of a mutant in an earlier run."""
+        """Return the verdict of an earlier run, if there is one."""
         return self._known.get(key)
 
     def put(self, key: str, verdict: Verdict) -> None:
-        """Keep a verdict at once, so that a run may be stopped anywhere."""
+        """Store a verdict at once, so that a run can be stopped anywhere."""
         self._known[key] = verdict
         with self.file.open("a", encoding="utf-8") as file:
             file.write(json.dumps({"key": key, "outcome": verdict.outcome, "by": verdict.by}) + "\n")

@@ -1,4 +1,4 @@
-"""What is printed: killed by kind, and the survivors."""
+"""The printed table: killed by kind, and the survivors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What somebody asked for on the command line, as the commands hand it on."""
+"""Options of the command line, as the commands pass them on."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _SHARED = ("framing", "unit", "request", "index")
 
 
 def asked(**given: Any) -> Options:
-    """Options, those that only some families have among them."""
+    """Return options; those that only some families know go into `own`."""
     shared = {name: value for name, value in given.items() if name in _SHARED}
     return Options(
         **shared, own={name: given[name] for name in given if name not in _SHARED and given[name] is not None}

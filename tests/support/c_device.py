@@ -61,17 +61,17 @@ DRIVERS = {"gcc": "g++", "clang": "clang++"}
 
 
 def driver(compiler: str, standard: str) -> str:
-    """The command that compiles and links that standard."""
+    """Return the command that compiles and links that standard."""
     return DRIVERS[compiler] if standard.startswith("c++") else compiler
 
 
 def write_c(device: Device, out: Path) -> Path:
-    """Generates headers, conformance program, runtime and vectors of a device; returns the folder."""
+    """Generate headers, conformance program, runtime and vectors of a device; return the folder."""
     return generate(device, out, c, vectors)
 
 
 def write_headers(device: Device, out: Path) -> Path:
-    """Generates the same without the vectors; returns the folder."""
+    """Generate the same without the vectors; return the folder."""
     return generate(device, out, c)
 
 
@@ -89,7 +89,7 @@ def run_program(text: str, way: str, includes: Path, out: Path, *flags: str, sta
 
 
 def conformance_source(folder: Path, device: str) -> Path:
-    """The generated conformance program."""
+    """Return the path of the generated conformance program."""
     return folder / "c" / "conformance" / f"{device}_conformance.c"
 
 
@@ -221,13 +221,13 @@ MADE: Mapping[str, Callable[[], Device]] = {
 
 
 class Folders(dict[str, "Path"]):
-    """Where headers, conformance program and vectors of a made device are; generated when they are first asked for."""
+    """Maps a made device to the folder of its headers, program and vectors, which is generated at first use."""
 
     def __init__(self, factory: pytest.TempPathFactory) -> None:
         super().__init__()
         self._factory = factory
 
     def __missing__(self, device: str) -> Path:
-        """What another process of the run generated is taken from there."""
+        """Generate the files of a device, or use those that another process of the run has generated."""
         place = made_once(self._factory, f"c-{device}", lambda out: write_c(MADE[device](), out))
         return self.setdefault(device, place)

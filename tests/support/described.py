@@ -34,12 +34,12 @@ _GROUP = {"group": "main", "space": "holding", "source": '{document: manual, sec
 
 
 def head(**said: str) -> str:
-    """The document of a Modbus device; what is said of a key, as YAML, stands there instead or behind it."""
+    """Return the document of a Modbus device; a keyword replaces the YAML of a key or adds one."""
     return _mapping({**_HEAD, **said})
 
 
 def group(points: str, **said: str) -> str:
-    """The document of a group with these lines of points, said in the same way."""
+    """Return the document of a group with these lines of points; keywords as for `head`."""
     return _mapping({**_GROUP, **said}) + f"points:\n{points}"
 
 
@@ -48,39 +48,39 @@ def _mapping(values: dict[str, str]) -> str:
 
 
 def together(*documents: str) -> str:
-    """One file of several documents."""
+    """Return the text of one file with several documents."""
     return "---\n".join(documents)
 
 
 def described(points: str, **said: str) -> str:
-    """A description whose head says that, with one group of points."""
+    """Return a description with one group of points; keywords change its head."""
     return together(head(**said), group(points))
 
 
 def write(folder: Path, device: str, **parts: str) -> Path:
-    """Writes the device.yaml, whose path is returned, and its parts by name."""
+    """Write device.yaml and its parts by name; return the path of device.yaml."""
     write_files({f"{name}.yaml": text for name, text in {"device": device, **parts}.items()}, folder)
     return folder / "device.yaml"
 
 
 def compile_in(folder: Path, device: str, **parts: str) -> tuple[Device | None, tuple[Diagnostic, ...]]:
-    """The device of these files, and the findings."""
+    """Return the device of these files, and the findings."""
     return compiled(write(folder, device, **parts))
 
 
 def compiled(file: Path) -> tuple[Device | None, tuple[Diagnostic, ...]]:
-    """The device of a device.yaml, and the findings."""
+    """Return the device of a device.yaml, and the findings."""
     report = Report()
     return load_device(file, report), report.findings
 
 
 def loaded_in(folder: Path, device: str, **parts: str) -> Device:
-    """The device of these files, which have no error."""
+    """Return the device of these files, which have no error."""
     return loaded(write(folder, device, **parts))
 
 
 def loaded(file: Path) -> Device:
-    """The device of a device.yaml without errors."""
+    """Return the device of a device.yaml without errors."""
     device, findings = compiled(file)
     assert device is not None, findings
     return device
@@ -88,7 +88,7 @@ def loaded(file: Path) -> Device:
 
 @cache
 def made(name: str) -> Device:
-    """One of the devices that were made for the tests, which has no findings."""
+    """Return one of the devices in `devices/`, which has no findings."""
     device, findings = compiled(DEVICES / name / "device.yaml")
     assert findings == ()
     assert device is not None
@@ -96,11 +96,11 @@ def made(name: str) -> Device:
 
 
 def kitchen_sink() -> Device:
-    """The one that uses every mechanism of the language."""
+    """Return the device that uses every mechanism of the language."""
     return made("kitchen_sink")
 
 
 @cache
 def shipped(name: str) -> Device:
-    """A device of the shipped descriptions."""
+    """Return a device of the shipped descriptions."""
     return loaded(descriptions_dir() / name / "device.yaml")

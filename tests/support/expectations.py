@@ -14,7 +14,7 @@ _MARKS = ("# error:", "# warning:", "#   hint:", "#   also:")
 
 
 def findings_of(case: Path) -> tuple[Diagnostic, ...]:
-    """What the compiler finds in a case: one file, or a folder as a user would name it."""
+    """Return the compiler's findings in a case: one file, or a folder as a user would name it."""
     report = Report()
     devices = [case] if case.is_file() else find_devices([case], report)
     for device_file in devices:
@@ -35,7 +35,7 @@ def wording(case: Path, findings: tuple[Diagnostic, ...]) -> list[str]:
 
 
 def expected(case: Path) -> list[str]:
-    """The expectation that stands in the case."""
+    """Return the expected findings that the case states."""
     if case.is_dir():
         file = case / SIDECAR
         return file.read_text("utf-8").splitlines() if file.exists() else []
@@ -44,7 +44,7 @@ def expected(case: Path) -> list[str]:
 
 
 def accept(case: Path) -> None:
-    """Write what the compiler finds as the expectation."""
+    """Write the present findings into the case as the expected ones."""
     if case.is_dir():
         (case / SIDECAR).write_text("".join(f"{line}\n" for line in wording(case, findings_of(case))), "utf-8")
         return

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def write_files(texts: Mapping[str, str], out: Path) -> Path:
-    """Writes files by their paths in a folder, even what is no text; returns the folder."""
+    """Write files, text or bytes, by their paths in a folder; return the folder."""
     out.mkdir(parents=True, exist_ok=True)
     for path, text in texts.items():
         (out / path).parent.mkdir(parents=True, exist_ok=True)
@@ -25,7 +25,7 @@ def write_files(texts: Mapping[str, str], out: Path) -> Path:
 
 
 def generate(device: Device, out: Path, *targets: ModuleType) -> Path:
-    """Writes what these targets make of a device, and their runtimes; returns the folder."""
+    """Write the outputs of these targets for a device, and their runtimes; return the folder."""
     for target in targets:
         copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in target.runtime(device)}
         write_files({**dict(target.outputs(device, render)), **copies}, out)

@@ -47,7 +47,7 @@ class Example(NamedTuple):
 
 
 class Ran(NamedTuple):
-    """What an example did."""
+    """The result of an example."""
 
     code: int
     said: str
@@ -92,7 +92,7 @@ def workplace(folder: Path) -> Path:
 
 
 def ran(example: Example, folder: Path, capsys: pytest.CaptureFixture[str], patch: pytest.MonkeyPatch) -> Ran:
-    """What an example does in the folder; what it is piped into is not run, and what feeds it is a log of candump."""
+    """Run an example in the folder: without its pipe, and with a log of candump as its input."""
     read = folder / (example.file if example.sign == "<" else "candump.log")
     patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(read.read_bytes()), encoding="utf-8"))
     with chdir(folder):
@@ -132,5 +132,5 @@ def asked_for(folder: Path) -> None:
 
 
 def stops_at_once(patch: pytest.MonkeyPatch) -> None:
-    """What runs for ever ends behind its first run."""
+    """Let commands that run for ever end after their first round."""
     patch.setattr(threading.Event, "wait", lambda _event, _seconds=None: True)

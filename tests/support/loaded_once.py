@@ -20,7 +20,7 @@ _load = pipeline.load_device
 
 
 def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
-    """As that of the pipeline; it compiles each time what tests write, and where the caller wants to know the files."""
+    """Load a device as the pipeline does, but only once if it is part of this repository."""
     place = device_file.resolve()
     known = _loaded(place) if inputs is None and ROOT in place.parents else None
     return known or _load(device_file, report, inputs)
@@ -28,7 +28,7 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
 
 @cache
 def _loaded(device_file: Path) -> Device | None:
-    """A device that no test changes; None where it has findings, which are told each time."""
+    """Return a device that no test changes; None if it has findings, which each load must report."""
     report = Report()
     device = _load(device_file, report)
     return None if report.findings else device

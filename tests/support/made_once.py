@@ -1,4 +1,4 @@
-"""Folders that all processes of a run share: whoever asks first fills one, the others wait for it."""
+"""Folders that all processes of a run share: the first user fills a folder, the others wait."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
-    """The folder of that name, which `make` fills once a run; tests only read it."""
+    """Return the folder of that name, which `make` fills once a run; tests only read it."""
     base = factory.getbasetemp()
     if base.name.startswith("popen-"):  # of one process of xdist: the folder above is that of the run
         base = base.parent

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 
 def write_package(device: Device, out: Path) -> Path:
-    """Generates the device's package and the runtime; returns the folder to import them from."""
+    """Generate the device's package and the runtime; return the folder to import them from."""
     return generate(device, out, target) / "python"
 
 
 def imported(folder: Path, package: str) -> Iterator[Any]:
-    """The package while a test runs, with its own copy of the runtime; afterwards what was loaded before is back."""
+    """Yield the package with its own copy of the runtime; afterwards the earlier modules are back."""
     before = {name: module for name, module in sys.modules.items() if _is_generated(name, package)}
     for name in before:
         del sys.modules[name]
@@ -44,7 +44,7 @@ def _is_generated(module: str, package: str) -> bool:
 
 
 def error(function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
-    """The error that a call raises."""
+    """Return the error that a call raises; a call without an error fails the test."""
     try:
         result = function(*arguments, **options)
     except Exception as raised:
@@ -53,7 +53,7 @@ def error(function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
 
 
 def status(function: Callable[..., Any], *arguments: Any) -> tuple[str, str]:
-    """The status and the message of the error that a call raises; `ok` if it raises none."""
+    """Return the status and the message of the error that a call raises; `ok` if it raises none."""
     try:
         function(*arguments)
     except Exception as raised:

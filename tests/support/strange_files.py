@@ -1,4 +1,4 @@
-"""What may lie in a file's place on a stranger's disk."""
+"""Things that can lie in place of a file: links, pipes, folders."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KINDS = ("lock link", "folder", "pipe", "device", "huge", "unreadable")
 
 
 def put(kind: str, place: Path) -> None:
-    """Put one there."""
+    """Put one of them in that place."""
     if kind == "lock link":
         place.symlink_to("someone@host.4711:1700000000")  # as an editor does
     elif kind == "folder":

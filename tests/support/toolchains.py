@@ -47,7 +47,7 @@ LIMIT = 300
 
 
 def tool(name: str) -> str:
-    """The path of a tool; without it the test is skipped, or fails where CI is set."""
+    """Return the path of a tool; without it the test is skipped, or fails where CI is set."""
     path = shutil.which(name)
     if path is None:
         _do_without(name, _PACKAGES.get(name, name))
@@ -55,7 +55,7 @@ def tool(name: str) -> str:
 
 
 def language_server() -> tuple[str, ...]:
-    """The command that starts yaml-language-server; the same without node or the server."""
+    """Return the command that starts yaml-language-server; without it as for `tool`."""
     node = tool("node")
     if not _LANGUAGE_SERVER.is_file():
         _do_without("yaml-language-server", "npm, and run `sh generator/setup.sh tests`, which fetches the server")
@@ -63,7 +63,7 @@ def language_server() -> tuple[str, ...]:
 
 
 def gcc_for_32_bits() -> str:
-    """The path of a gcc that makes programs of 32 bits too; the same without it."""
+    """Return the path of a gcc that can build 32-bit programs; without it as for `tool`."""
     path = tool("gcc")
     asked = [path, "-m32", "-x", "c", "-o", os.devnull, "-"]
     program = "#include <stdio.h>\nint main(void) { return 0; }"
@@ -74,7 +74,7 @@ def gcc_for_32_bits() -> str:
 
 
 def crates(project: Path) -> None:
-    """Fetches the crates that a project of cargo needs, once; without them the test is skipped or fails, as above."""
+    """Fetch the crates that a cargo project needs, once; without them as for `tool`."""
     fetched = run([tool("cargo"), "fetch", "--offline"], cwd=project)
     if fetched.returncode != 0 and run([tool("cargo"), "fetch"], cwd=project).returncode != 0:
         _do_without("what cargo fetches from crates.io", "it by `cargo fetch` with the network, which keeps it")
@@ -89,20 +89,20 @@ def _do_without(name: str, packages: str) -> NoReturn:
 
 
 def run(command: Sequence[str | Path], *, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """Runs a tool or a program to its end, whatever its exit code."""
+    """Run a tool or a program to its end, whatever its exit code."""
     words = [str(word) for word in command]
     return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False, timeout=LIMIT)
 
 
 def succeed(command: Sequence[str | Path], *, cwd: Path | None = None) -> str:
-    """What a tool printed; a test fails with its messages when it does."""
+    """Return what a tool printed; if the tool fails, the test fails with its messages."""
     done = run(command, cwd=cwd)
     assert done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}\n{done.stderr}"
     return done.stdout
 
 
 def compiled(compiler: str, flags: Sequence[str], source: Path, program: Path) -> Path:
-    """Compiles one source file to a program without a single warning."""
+    """Compile one source file to a program without a warning; return the program."""
     message = succeed([tool(compiler), *flags, "-Werror", "-o", program, source])
     assert not message
     return program

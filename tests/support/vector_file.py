@@ -126,7 +126,7 @@ def spoil(text: str, language: str = "python") -> tuple[str, dict[str, int]]:
 
 
 def _other(form: str, field: str) -> str:
-    """Another field of the form."""
+    """Return another field of the same form."""
     if form == "int":
         return str(int(field) ^ 1)
     more = {"ints": "0", "names": "x", "pairs": "x=0", "script": "00=00", "frames": "1=00"}
@@ -137,7 +137,7 @@ def _other(form: str, field: str) -> str:
 
 
 def vectors_of(text: str) -> list[Vector]:
-    """All vectors of a text."""
+    """Return all vectors of a text."""
     return list(File(text))
 
 
@@ -162,7 +162,7 @@ def plain(vector: Vector) -> Vector:
 
 
 def counts_of(text: str, language: str = "python") -> dict[str, int]:
-    """How many vectors of each kind the head of a text announces for a language."""
+    """Return the number of vectors of each kind that the head of a text announces for a language."""
     file = File(text, language)
     list(file)
     return file.counts

@@ -19,7 +19,7 @@ WRONG = {
 
 
 def spoiled(place: int) -> bytes:
-    """The right frame with one byte another."""
+    """Return the right frame with one byte changed."""
     return RIGHT[:place] + bytes((RIGHT[place] ^ 0x20,)) + RIGHT[place + 1 :]
 
 

@@ -1,4 +1,4 @@
-"""What the runtime promises whatever the device is, on made devices: it is part of what every package ships."""
+"""Checks of the runtime itself, on made devices: every package ships it, so they run for every package."""
 
 from __future__ import annotations
 

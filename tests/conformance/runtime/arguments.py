@@ -1,4 +1,4 @@
-"""What is handed over by mistake: errors of the runtime's own that say what is expected."""
+"""Wrong arguments: the runtime raises its own errors, which say what it expects."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Index:
 
 
 WRONG: tuple[Any, ...] = (None, "5", b"\1", [1], {}, 1.5, 1j, Thing(), Thing, 10**5000)
-"""What is no raw number, no word and no address."""
+"""Values that are neither raw numbers nor words nor addresses."""
 
 
 def _points(package: Package) -> dict[str, Any]:
@@ -298,7 +298,7 @@ def check_uss_requests(package: Package) -> None:
 
 
 def check_can_frames(package: Package) -> None:
-    """Frames, words and telegrams that are none."""
+    """Wrong frames, words and telegrams are refused."""
     can, request = package.can, package.runtime.RequestError
     device, can_kind = can_kinds(package)[0](Bus(package), 9), can_kinds(package)[0]
     decoder = can.Decoder(can_kind, "beat", 9)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def refusal(function: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
-    """What a call raises."""
+    """Return the error that a call raises."""
     try:
         result = now(function(*arguments, **more))
     except Exception as error:
@@ -22,7 +22,7 @@ def refusal(function: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
 
 
 def refuses(kind: Any, message: str, function: Callable[..., Any], *arguments: Any, **more: Any) -> None:
-    """Whether a call raises just that kind of error with just that message."""
+    """Assert that a call raises exactly that type of error with exactly that message."""
     error = refusal(function, *arguments, **more)
     assert (type(error), str(error)) == (kind, message), repr(error)
 
@@ -84,7 +84,7 @@ class Memory:
         return request[1:6]
 
     def since(self) -> list[tuple[int, int, int]]:
-        """What was asked since the last time."""
+        """Return the requests since the last call of this method."""
         asked, self.asked = self.asked, []
         return asked
 

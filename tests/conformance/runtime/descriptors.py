@@ -192,7 +192,7 @@ def check_shown(package: Package) -> None:
 
 
 def check_looked_at(package: Package) -> None:
-    """What Python's own tools ask of any object is answered, whatever the variant has."""
+    """`inspect`, `hasattr` and `getattr` work on devices of every variant."""
     for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
         for variants in ({}, {"model": "b"}, {"model": "c"}):
             device = kind(line({}), 1, variants)

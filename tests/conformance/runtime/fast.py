@@ -1,4 +1,4 @@
-"""The quick way: it takes what is usual, leaves the rest to the slow way, and both give the same."""
+"""The fast path takes usual values and leaves others to the slow path; both give the same results."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ NOTHING: dict[str, int] = {}
 
 
 def _slow(number: Any, raws: Any = NOTHING) -> Any:
-    """Stands for the slow way."""
+    """Stands for the slow path."""
     return SLOW, number, raws
 
 
 def _is_slow(way: Callable[..., Any], *numbers: Any) -> bool:
-    """Whether a way leaves these to the slow one, and says all that it was told."""
+    """Whether a path passes these values to the slow path with all its arguments."""
     told = {"other": 1}
     return all(way(number, told) == (SLOW, number, told) and way(number) == (SLOW, number, {}) for number in numbers)
 
 
 class _Asked:
-    """The slow way by a rule, which remembers what it was asked."""
+    """A slow path that computes by a rule and records its calls."""
 
     def __init__(self, rule: Any, asked: list[float]) -> None:
         self.rule, self.asked = rule, asked
@@ -156,7 +156,7 @@ def check_codes_on_the_way(package: Package) -> None:
 
 
 def check_points_are_quick(package: Package) -> None:
-    """Whatever form a point has, it takes the quick way for what is usual, and the slow one has nothing to do."""
+    """Every form of point uses the fast path for usual values."""
     runtime = package.runtime
     names = runtime.NamedNumber("Names", {"ONE": 1, "TWO": 2})
     codes = runtime.Codes({"off": 0}, writable=("off",))

@@ -1,4 +1,4 @@
-"""Whole numbers, bits, enums, texts and digits: what is taken, what is refused, and with which words."""
+"""Integers, bits, enums, texts and digits: accepted and refused values, with the messages."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def check_types(package: Package) -> None:
 
 
 def check_whole(package: Package) -> None:
-    """An integer is taken, and nothing that only looks like one."""
+    """Integers are accepted; values that only look like integers are refused."""
     runtime = package.runtime
     point = _point(package, runtime.Integer(runtime.U16), allowed=((2, 5), (9, 9)))
     assert (point.encode(5), point.label, point.raw_limits, point.allowed) == (5, "A1 one", (2, 9), ((2, 5), (9, 9)))

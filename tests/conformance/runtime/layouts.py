@@ -1,4 +1,4 @@
-"""Words that travel together: what is in them, and what is wrong with them."""
+"""Layouts: points of words that are transferred together, decoded and encoded at once."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def check_layouts(package: Package) -> None:
 
 
 def check_layout_needs(package: Package) -> None:
-    """What scales need is in the words, or told."""
+    """A scale takes the points that it needs from the words, or from an argument."""
     runtime = package.runtime
     every = list(table(package, **_points(package)).POINTS.values())
     last = runtime.Layout(every, range(17, 18))

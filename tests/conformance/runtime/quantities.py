@@ -21,7 +21,7 @@ def _point(package: Package, form: Any, **facts: Any) -> Any:
 
 
 def check_scaled(package: Package) -> None:
-    """A quantity, and what is none."""
+    """A scaled quantity is converted; NaN, text and numbers out of range are refused."""
     runtime = package.runtime
     point = _point(package, runtime.Scaled(runtime.U16, runtime.Rule(num=10), decimals=1), allowed=((5, 100), (7, 7)))
     assert (point.encode(1.25), point.encode(Decimal("0.5")), point.encode(Fraction(1)), point.decode(5)) == (
@@ -87,7 +87,7 @@ def check_exact(package: Package) -> None:
 
 
 def check_floating(package: Package) -> None:
-    """Numbers of two widths, with limits and without."""
+    """binary32 and binary64 numbers, with limits and without."""
     runtime = package.runtime
     point = _point(package, runtime.Floating(runtime.F32, units=((0.1, 2.0), (5.0, 6.0))))
     assert (point.encode(0.1), point.decode(0x40000000), point.told(0x3FC00000)) == (0x3DCCCCCD, 2.0, "1.5 V")

@@ -64,7 +64,7 @@ class Line:
         return frame + bytes((check,))
 
     def since(self) -> list[tuple[int, ...]]:
-        """The telegrams since the last time."""
+        """Return the telegrams since the last call of this method."""
         asked, self.asked = self.asked, []
         return asked
 

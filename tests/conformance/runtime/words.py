@@ -139,7 +139,7 @@ def check_coded(package: Package) -> None:
 
 
 def check_around(package: Package) -> None:
-    """What stands around a form has everything of it."""
+    """A form with special codes has all attributes of the form that it wraps."""
     runtime = package.runtime
     rule = runtime.Rule(num=10, factors=(runtime.Factor("other"),))
     scaled = runtime.Scaled(runtime.S16, rule, decimals=2)
