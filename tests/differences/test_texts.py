@@ -130,27 +130,29 @@ BELOW_1 = "(below 1.0 the middle number says what breaks)"
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "weight", "advice"),
+    ("old", "new", "weight", "release", "advice"),
     [
-        ("1.2.3", "1.2.3", "wire", "the version must take a major step: 2.0.0 or more, it says 1.2.3"),
-        ("1.2.3", "2.0.0", "api", "a major step of the version: 1.2.3 -> 2.0.0"),
-        ("1.2.3", "1.3.0", "compatible", "a minor step of the version: 1.2.3 -> 1.3.0"),
-        ("1.2.3", "1.2.4", "behaviour", "the version must take a minor step: 1.3.0 or more, it says 1.2.4"),
-        ("1.2.3", "1.2.4", "docs", "a patch step of the version: 1.2.3 -> 1.2.4"),
+        ("1.2.3", "1.2.3", "wire", "2.0.0", "the version must take a major step: 2.0.0 or more, it says 1.2.3"),
+        ("1.2.3", "2.0.0", "api", "2.0.0", "a major step of the version: 1.2.3 -> 2.0.0"),
+        ("1.2.3", "1.3.0", "compatible", "1.3.0", "a minor step of the version: 1.2.3 -> 1.3.0"),
+        ("1.2.3", "1.2.4", "behaviour", "1.3.0", "the version must take a minor step: 1.3.0 or more, it says 1.2.4"),
+        ("1.2.3", "1.2.4", "docs", "1.2.4", "a patch step of the version: 1.2.3 -> 1.2.4"),
         (
             "0.2.3",
             "0.2.4",
             "wire",
+            "0.3.0",
             f"the version must take a major step: 0.3.0 or more, it says 0.2.4 {BELOW_1}",
         ),
-        ("dev", "dev", "docs", "a patch step of the version (dev is not a version like 1.2.3)"),
+        ("dev", "dev", "docs", "dev", "a patch step of the version (dev is not a version like 1.2.3)"),
     ],
 )
-def test_the_step_that_the_version_must_take(old: str, new: str, weight: str, advice: str) -> None:
+def test_the_step_that_the_version_must_take(old: str, new: str, weight: str, release: str, advice: str) -> None:
     compared = comparison(difference(weight, POINT, fact="address", old=1, new=2), old=old, new=new)
     lines = ["".join(text for _, text in line).strip() for line in as_text([compared])]
     assert advice in lines
     assert lines[0] == f"pump {old}" + (f" -> {new}" if old != new else "")
+    assert next(iter(as_markdown([compared]))) == f"## pump {release}"
 
 
 @pytest.mark.parametrize(("old", "new"), [(None, "1.0.0"), ("1.0.0", None)])

@@ -205,7 +205,8 @@ def test_usual_headings(heading: str, role: str | None) -> None:
 def test_names_are_short_and_unique() -> None:
     assert snake("Überlast-Alarm der Schwelle (OL)", "x") == "ueberlast_alarm_schwelle_ol"
     assert snake("1. Hochlaufzeit", "f002") == "f002_1_hochlaufzeit"
-    assert snake("t > 5 °C", "x") == "t_above_5_deg_c"
+    assert snake("t > 5 % °C", "x") == "t_above_5_percent_deg_c"
+    assert snake("äöüÄÖÜß", "x") == "aeoeueaeoeuess"
     assert [snake(title, "x") for title in ("", "---", "The", "9")] == ["x", "x", "the", "x_9"]
     assert snake("word " * 40, "x") == "_".join(["word"] * 9)
     names = Names()

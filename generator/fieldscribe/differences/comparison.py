@@ -157,8 +157,6 @@ def _changed_words(old: list[str], new: list[str]) -> tuple[str, str]:
     """The words in which two names differ, as in titles: of `ramp_set_2` and `slope_set_2` Ramp and Slope."""
     while len(old) > 1 and len(new) > 1 and old[-1] == new[-1]:
         old, new = old[:-1], new[:-1]
-    while len(old) > 1 and len(new) > 1 and old[0] == new[0]:
-        old, new = old[1:], new[1:]
     return " ".join(old).capitalize(), " ".join(new).capitalize()
 
 

@@ -101,12 +101,11 @@ class Columns:
 
     def heading(self, role: str) -> str:
         """Return the heading of the first column with this role."""
-        return next((self.headings[place] for place in self.places.get(role, ()) if place < len(self.headings)), "")
+        return next((self.headings[place] for place in self.places.get(role, ())), "")
 
     def is_hex(self, place: int) -> bool:
         """Return True if the heading says that the numbers are hexadecimal."""
-        heading = self.headings[place].casefold() if place < len(self.headings) else ""
-        return re.search(r"\bhex|0x|\(h\)", heading) is not None
+        return re.search(r"\bhex|0x|\(h\)", self.headings[place].casefold()) is not None
 
     @property
     def hold_points(self) -> bool:
