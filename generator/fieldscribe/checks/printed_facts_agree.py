@@ -54,7 +54,7 @@ def check(analysis: Analysis) -> None:
 def _doubtful(printed: Map, point: Point) -> list[str]:
     """Return the printed keys that are not plainly the numbers of the point, and need a closer look."""
     references, addresses = point.place.references, point.place.addresses
-    wire = None if not addresses else addresses[0] if point.shape.text is not None else min(addresses)
+    wire = _first_word(point, addresses) if addresses else None
     return [
         key
         for key, value in printed.items()
@@ -103,19 +103,19 @@ def _numbers(analysis: Analysis, resolved: ResolvedPoint) -> Mapping[str, int]:
     """
     known: dict[str, int] = {}
     for place in resolved.point.places:
-        addresses, prefix = place.addresses, "" if place is resolved.point.place else _WRITE
-        known[prefix + WIRE] = first = addresses[0] if resolved.point.text is not None else min(addresses)
-        known |= _numbered(analysis, resolved, first, prefix)
+        addresses, way = place.addresses, "" if place is resolved.point.place else _WRITE
+        words = {way: _first_word(resolved.point, addresses)}
         if len(addresses) > 1:
-            for part, address in ((_LOW, addresses[-1]), (_HIGH, addresses[0])):
-                known[prefix + part + WIRE] = address
-                known |= _numbered(analysis, resolved, address, prefix + part)
+            words |= {way + _LOW: addresses[-1], way + _HIGH: addresses[0]}
+        for prefix, address in words.items():
+            numbers = {WIRE: address, **analysis.places.references(resolved.facts, address)}
+            known |= {prefix + name: number for name, number in numbers.items()}
     return known
 
 
-def _numbered(analysis: Analysis, resolved: ResolvedPoint, address: int, prefix: str) -> dict[str, int]:
-    numbers = analysis.places.references(resolved.facts, address)
-    return {prefix + name: number for name, number in numbers.items()}
+def _first_word(point: Point, addresses: tuple[int, ...]) -> int:
+    """Return the address that manuals print: the first word of a text, else the lowest word."""
+    return addresses[0] if point.shape.text is not None else min(addresses)
 
 
 def _number(analysis: Analysis, resolved: ResolvedPoint, key: str, printed: Map, numbers: Mapping[str, int]) -> None:
