@@ -75,7 +75,7 @@ def _compare_meaning(analysis: Analysis, located: LocatedFrame, carries: Carries
         wanted, carried = located.frame.meaning[point.item], carries(point)
         if carried != wanted:
             text = "does not carry it" if carried is None else f"carries raw {carried}"
-            message = f"`{word}` is said to be raw {wanted}, the frame {text}"
+            message = f"`says` gives raw {wanted} for `{word}`, the frame {text}"
             analysis.report_printed(PrintedFact(located.about, "says", says[word], None, says.span(word), message))
 
 
@@ -125,7 +125,7 @@ def report_wrong_error(analysis: Analysis, located: LocatedFrame, carried: int |
     stated = located.node.get("error")
     if stated is not None and stated != carried:
         text = "refuses nothing" if carried is None else f"carries {carried}"
-        message = f"the error {stated} is said to be answered, the frame {text}"
+        message = f"`error` gives {stated}, the frame {text}"
         analysis.report_printed(located.printed("error", stated, carried, message, at="error"))
 
 

@@ -79,7 +79,7 @@ def item_of(name: str, variant: Variant | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What points of a group share beside their shape: space, unit, how they are kept, and when they exist.
+    """Facts that points of a group share in addition to their shape, such as space and unit.
 
     `bits` are the (high, low) bits of the word, None for whole words. `steps` has pairs (from raw, step in raw).
     `generated` is False for points that are only documented; `reason` says why. `untyped` is what the manual prints in
@@ -234,7 +234,7 @@ class Point:
 
     @property
     def rank(self) -> tuple[bool, str, int]:
-        """Return the rank of the point: what is shown once for many points is shown at the one of least rank.
+        """Return the rank of the point: a text that many points share stands at the point of least rank.
 
         The rank follows the address, because new points usually have higher addresses than old ones, wherever they
         stand in the description. A point without an address comes last.

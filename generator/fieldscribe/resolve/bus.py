@@ -31,8 +31,8 @@ def bus_of(scope: Scope) -> Bus:
             scope.report.error("missing-key", "no file of the device says `bus`", scope.header.span(), hint)
         return NO_BUS
     for second in holders[1:]:
-        first = [(holders[0].key_span("bus"), "first said here")]
-        scope.report.error("duplicate-name", "`bus` is said twice", second.key_span("bus"), "write it once", first)
+        first = [(holders[0].key_span("bus"), "first given here")]
+        scope.report.error("duplicate-name", "`bus` is given twice", second.key_span("bus"), "write it once", first)
     node: Map = holders[0]["bus"]
     _check_keys(scope, node, keys)
     functions = codes_under(scope, node, "functions")

@@ -211,8 +211,8 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[PointFacts]:
         return
     for key in use:
         if key not in keys_of(USE) and not key.startswith("x-"):
-            message = f"`{key}` cannot be said for a whole record"
-            scope.report.error("record-key", message, use.key_span(key), "say it for one member under `members`")
+            message = f"`{key}` cannot be given for a whole record"
+            scope.report.error("record-key", message, use.key_span(key), "give it for one member under `members`")
     members = {point["name"] for point in record["points"]}
     for name in use.get("members", {}):
         if name not in members:

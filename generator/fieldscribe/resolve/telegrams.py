@@ -76,7 +76,7 @@ def _check_carrier(scope: Scope, node: Map, messages: Mapping[str, Message], bef
         return
     message, other = messages.get(carrier), next((earlier for earlier in before if earlier.message == carrier), None)
     if message is not None and message.direction != direction:
-        text = f"`{name}` is said to be {direction}, its message `{carrier}` is {message.direction}"
+        text = f"`{name}` has the direction {direction}, its message `{carrier}` has {message.direction}"
         scope.report.error("wrong-choice", text, node.span("direction"), f"write `direction: {message.direction}`")
     elif other is not None:
         text = f"the message `{carrier}` carries `{other.name}` already"
