@@ -29,7 +29,7 @@ class Thing(NamedTuple):
     place: Span | None
 
 
-class _EnumFound(NamedTuple):
+class _LocatedEnum(NamedTuple):
     """An enum with the place of its entries: under `enums`, or in its point."""
 
     name: str
@@ -55,7 +55,7 @@ def given_names(analysis: Analysis) -> Iterator[tuple[str, str, Named]]:
                 yield "generated code", name, thing
     for enum in _enums(analysis):
         for name in (enum.name, *enum.was):
-            yield "the enums of generated code", name, Thing(*enum.thing)
+            yield "the enums of generated code", name, enum.thing
 
 
 def _other_names(analysis: Analysis, facts: PointFacts, was: tuple[str, ...]) -> Iterator[tuple[str, Thing]]:
@@ -83,28 +83,25 @@ def _point_words(facts: PointFacts) -> str:
     return f"the point {_short(facts)}"
 
 
-def _enums(analysis: Analysis) -> Iterator[_EnumFound]:
+def _enums(analysis: Analysis) -> Iterator[_LocatedEnum]:
     """Yield the enums of generated points, each once, in the order of the points."""
     seen: set[tuple[str, int]] = set()
     for resolved in analysis.resolved:
-        point, facts = resolved.point, resolved.facts
-        if not point.generated or (point.enum is None and point.digits is None):
-            continue
-        key, enum = ("enum", point.enum) if point.digits is None else ("digits", point.digits.enum)
-        if enum is None:
+        shape, facts = resolved.point.shape, resolved.facts
+        key, enum = ("enum", shape.enum) if shape.digits is None else ("digits", shape.digits.enum)
+        if enum is None or not resolved.point.generated:
             continue
         enum_as_written = facts.get("enum") if key == "enum" else facts.get("digits")["enum"]
-        entries: Map = (
-            analysis.scope.named_enums[enum_as_written] if isinstance(enum_as_written, str) else enum_as_written
-        )
+        by_name = isinstance(enum_as_written, str)
+        entries: Map = analysis.scope.named_enums[enum_as_written] if by_name else enum_as_written
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
         thing = Thing(f"the enum of `{facts.name}`", facts.span(key))
-        if isinstance(enum_as_written, str):
+        if by_name:
             section = next(file["enums"] for file in analysis.scope.files if enum_as_written in file.get("enums", {}))
             thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
-        yield _EnumFound(enum.name, enum.was, thing, entries)
+        yield _LocatedEnum(enum.name, enum.was, thing, entries)
 
 
 class IdentifierPlaces:
@@ -124,7 +121,7 @@ class IdentifierPlaces:
         return Thing(self._words(owner), self._place(owner))
 
     @cached_property
-    def _enums(self) -> dict[str, _EnumFound]:
+    def _enums(self) -> dict[str, _LocatedEnum]:
         return {enum.name: enum for enum in reversed(list(_enums(self._analysis)))}
 
     def _facts(self, point: Owner) -> PointFacts:
