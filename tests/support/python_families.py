@@ -191,17 +191,14 @@ def uss_device() -> Device:
 
 
 class CanUnit:
-    """A unit on a CAN bus, and the bus: `others` are frames that come before each answer."""
+    """A unit on a CAN bus, and the bus; a parameter holds no number above that in `most`."""
 
     def __init__(self, frame: Callable[[int, bytes], Any], number: int) -> None:
         self.frame = frame
         self.number = number
         self.parameters: dict[int, int] = {}
-        self.others: list[Any] = []
         self.waiting: list[Any] = []
         self.log: list[str] = []
-        self.silent = False
-        self.spoils = 0
         self.most: dict[int, int] = {}
 
     def send(self, frame: Any) -> None:
@@ -210,15 +207,13 @@ class CanUnit:
         data = frame.data
         check = bytes(data[at] ^ data[at + 2] ^ data[at + 4] for at in (0, 1))
         assert (frame.id, len(data), data[6:]) == (0x33F, 8, check)
-        self.waiting += self.others
-        if data[1] != self.number or self.silent:
+        if data[1] != self.number:
             return
         address = int.from_bytes(data[2:4], "big")
         if data[0] == 0xEE:
             self.parameters[address] = min(int.from_bytes(data[4:6], "big"), self.most.get(address, 0xFFFF))
         body = data[:4] + self.parameters.get(address, 0).to_bytes(2, "big")
-        check = bytes(body[at] ^ body[at + 2] ^ body[at + 4] ^ (self.spoils > 0) for at in (0, 1))
-        self.spoils -= 1
+        check = bytes(body[at] ^ body[at + 2] ^ body[at + 4] for at in (0, 1))
         self.waiting.append(self.frame(0x320 + self.number, body + check))
 
     def receive(self) -> Any:
@@ -234,10 +229,7 @@ class CanUnit:
 
 
 class UssDrive:
-    """A drive on a USS line: parameters are words (one or two) by number and index, `answer` its process data.
-
-    Whatever is written, parameters in `keeps` get those words. The next `late` tasks are not answered yet.
-    """
+    """A drive on a USS line: parameters are words (one or two) by number and index, `answer` its process data."""
 
     def __init__(self, pkw: int = 4, pzd: int = 2) -> None:
         self.pkw, self.pzd = pkw, pzd
@@ -245,11 +237,7 @@ class UssDrive:
         self.eeprom: dict[tuple[int, int], tuple[int, ...]] = {}
         self.task: tuple[int, ...] = ()
         self.answer: tuple[int, ...] = (0, 0, 0, 0)
-        self.refuses: dict[int, int] = {}
         self.log: list[str] = []
-        self.change: Callable[[bytes], bytes] = bytes
-        self.keeps: dict[int, tuple[int, ...]] = {}
-        self.late = 0
 
     def exchange(self, request: bytes) -> bytes:
         """The reply to a request."""
@@ -262,22 +250,18 @@ class UssDrive:
         part = self._part(words[:sent]) if sent else []
         data = b"".join(word.to_bytes(2, "big") for word in (*part, *self.answer[: self.pzd]))
         body = bytes((2, len(data) + 2, request[2])) + data
-        return self.change(body + bytes((_xor(body),)))
+        return body + bytes((_xor(body),))
 
     def _part(self, words: list[int]) -> list[int]:
         task, low = words[0] >> 12, words[0] & 0x07FF
         page = sum((words[1] >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
         number, index = low + 2000 * page, words[1] & 0xFF
-        if task == 0 or self.late:
-            self.late -= task != 0
+        if task == 0:
             return [0] * len(words)
-        if number in self.refuses:
-            return [0x7000 | low, words[1], self.refuses[number], 0][: len(words)]
         single_last = self.pkw == 4
         if task != 1:
             double = task in (3, 8, 11, 13)
             value = tuple(words[2:4]) if double else (words[3 if single_last else 2],)
-            value = self.keeps.get(number, value)
             self.ram[number, index] = value
             if task > 8:
                 self.eeprom[number, index] = value

@@ -101,67 +101,6 @@ def hear_kitchen(text: str) -> FrameResult:
     return decode(made("kitchen_can"), {}, [text], Options())[0]
 
 
-def test_bits_keep_their_neighbours_and_constants(mpu: Any, package: Any, unit: CanUnit) -> None:
-    unit.parameters[19] = 0x3FF6
-    mpu.controller.write(package.Switch.ON)
-    assert unit.parameters[19] == 0xFFF6
-    mpu.slow_ramp.write(True)
-    assert unit.parameters[19] == 0xFF0F
-    assert mpu.controller.read() is package.Switch.ON
-    unit.parameters[19] = 0x4000
-    assert mpu.controller.read() == 1  # an undefined pattern survives
-
-
-def test_constant_bits_of_whole_words(mpu: Any, package: Any, unit: CanUnit) -> None:
-    mpu.command_word.write(package.CommandWord.START)
-    assert unit.parameters[30] == 0x0406 | 1 & ~0x040F
-    assert error(mpu.command_word.write_raw, 1).status == "out_of_range"
-    mpu.command_word.write_raw(0x8406)
-    assert mpu.command_number.encode(5) == 0x8005
-    assert error(mpu.command_number.encode, 0x100).status == "out_of_range"
-    assert error(mpu.command_number.check, 5).status == "out_of_range"
-    assert mpu.command_number.decode(5) == 5
-
-
-def test_texts(mpu: Any, unit: CanUnit) -> None:
-    mpu.fault_text.write("Low oil")
-    assert [unit.parameters[address] for address in (739, 738, 737, 736)] == [0x4C6F, 0x7720, 0x6F69, 0x6C20]
-    assert mpu.fault_text.read() == "Low oil"
-    unit.parameters.update({740: 0xFF80, 741: 0x0020})
-    assert mpu.label.read() == "ÿ\x80\x00"
-    mpu.label.write("Ölä")
-    assert mpu.label.read() == "Ölä"
-    for point, value in (("fault_text", "123456789"), ("fault_text", "Öl"), ("fault_text", "\n"), ("label", "€")):
-        assert error(getattr(mpu, point).write, value).status == "out_of_range"
-    message = str(error(mpu.fault_text.write, "much too long"))
-    assert message == "fault_text: much too long is no text of at most 8 printable ascii characters"
-    assert error(mpu.fault_text.write, 5).status == "out_of_range"
-    assert error(mpu.fault_text.write_raw, 0).status == "out_of_range"
-    assert type(mpu).fault_text.encode("") == 0x2020202020202020
-    mpu.fault_text.write_raw(0x4142434445464748)
-    assert mpu.fault_text.read() == "ABCDEFGH"
-    for raw in (-1, 1 << 64, 0x2020202020202020 | 1 << 64, 0x2020202020202000):
-        assert error(mpu.fault_text.check, raw).status == "out_of_range"
-
-
-def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
-    unit.parameters[404] = 1257
-    assert mpu.delays.read() == (1, 2, 5, 7)
-    assert mpu.delays.read()[0] is package.Delay.STEP_1
-    mpu.delays.write((5, package.Delay.STEP_0, 1, 2))
-    assert unit.parameters[404] == 5012
-    assert type(mpu).delays.decode(12345) == (12, 3, 4, 5)
-    assert error(mpu.delays.write, (1, 2, 3, 5)).status == "unknown_value"
-    assert error(mpu.delays.write, (1, 2, package.Switch.OFF, 5)).status == "unknown_value"
-    assert error(mpu.delays.write, (1, 2)).status == "wrong_length"
-    assert str(error(mpu.delays.write, None)) == "delays: takes 4 digits, not None"
-    assert error(mpu.delays.write, (1, 2, True, 5)).status == "wrong_type"
-    assert error(mpu.delays.check, 1234).status == "unknown_value"
-    assert mpu.delays.name_of(5) == "step_5"
-    unit.parameters[404] = 1
-    assert mpu.read_many(["delays", "fault_text"]) == {"delays": (0, 0, 0, 1), "fault_text": "\0" * 8}
-
-
 def test_points_of_other_variants(package: Any, unit: CanUnit) -> None:
     small = package.SampleCan(unit, 5, size="small")
     assert str(error(getattr, small, "spare")) == "spare exists only for size large"

@@ -73,62 +73,6 @@ def test_parameters(drive: Any, line: UssDrive) -> None:
     assert all(frame[22:30] == "00000000" for frame in line.log)  # nothing is commanded meanwhile
 
 
-def test_arrays_and_pages(drive: Any, line: UssDrive) -> None:
-    drive.baud_rate.write(6)
-    drive.baud_rate.write(7, keep=True)
-    drive.answer_source.write(0x12345678)
-    drive.answer_source.write(5, keep=True)
-    assert line.ram == {(2010, 1): (7,), (2016, 3): (0, 5)}
-    assert line.eeprom == line.ram
-    assert [frame[6:14] for frame in line.log] == ["700a8001", "c00a8001", "80108003", "b0108003"]
-    assert drive.baud_rate.read() == 7
-    assert drive.answer_source.read_raw() == 5
-    assert drive.read_at("parameter", 2016, 3) == (0, 5)
-    drive.write_at("parameter", 2016, 1, 2, index=3)
-    assert line.ram[2016, 3] == (1, 2)
-
-
-def test_bits_and_kinds_of_memory(drive: Any, line: UssDrive) -> None:
-    line.ram[800, 0] = (0xA5A5,)
-    drive.mode.write(3)
-    assert line.ram[800, 0] == (0xA535,)
-    drive.mode.write(4, keep=True)
-    assert line.eeprom[800, 0] == (0xA545,)
-    assert error(drive.reaction.write, 5, keep=True).__class__ is TypeError  # the manual says that it is not kept
-    drive.unlock.write(5, keep=True)
-    assert not hasattr(drive.unlock, "read")
-
-
-def test_process_data(drive: Any, package: Any, line: UssDrive) -> None:
-    line.ram.update({(2000, 0): f32(50.0), (2009, 0): (0,)})
-    drive.main_setpoint.write(40.0)
-    assert line.task == (0, 0x3333)  # no word counts before a point of it is written, with its constant bits
-    drive.control_word.write(package.ControlWord.of(start=True))
-    assert line.task == (0x0401, 0x3333)
-    line.answer = (0x0401, 0x4000, 0, 0)
-    assert drive.status_word.read() == package.StatusWord.START | package.StatusWord.VALID
-    assert drive.main_actual_value.read() == 50.0
-    assert line.task == (0x0401, 0x3333)
-    assert error(drive.control_word.write_raw, 1).status == "out_of_range"
-    assert error(drive.energy.read).status == "bad_link"
-    assert error(drive.jog.write, 1).status == "bad_link"
-    assert line.task == (0x0401, 0x3333)
-
-
-def test_bits_of_process_data(package: Any, uss: Any) -> None:
-    line = UssDrive(pkw=127, pzd=4)
-    drive = package.SampleUss(line, 3, uss.Link(127, 4))
-    line.answer = (1, 2, 3, 4)
-    drive.jog.write(2)
-    assert line.task == (0, 0, 4, 0)
-    assert drive.energy.read() == 3 << 16 | 4
-    line.log.clear()
-    line.ram.update({(2000, 0): f32(50.0), (2009, 0): (1,)})
-    values = drive.read_many(["status_word", "main_actual_value", "energy", "baud_rate"])
-    assert values == {"status_word": 1, "main_actual_value": 0.02, "energy": 3 << 16 | 4, "baud_rate": 0}
-    assert len(line.log) == 4  # one telegram for the process data
-
-
 def test_factors_that_are_numbers(drive: Any, package: Any, line: UssDrive) -> None:
     setpoint = package.SampleUss.main_setpoint
     fifty = struct.unpack(">I", struct.pack(">f", 50.0))[0]
@@ -166,23 +110,6 @@ def test_bits_bring_the_constants_of_their_word(tmp_path: Path) -> None:
         drive = package.TwoInOne(line, 3, sys.modules["fieldscribe_runtime.uss"].Link(4, 2))
         drive.part.write(2)
         assert line.task == (0x0404, 0)
-
-
-def test_groups_leave_out_what_the_link_does_not_carry(package: Any, uss: Any) -> None:
-    def read(group: str, pkw: int, pzd: int) -> dict[str, Any]:
-        line = UssDrive(pkw, pzd)
-        line.ram.update(dict.fromkeys([(1082, 0), (2000, 0)], f32(50.0)) | {(2016, 3): (0, 0), (731, 0): (0, 0)})
-        result: dict[str, Any] = package.SampleUss(line, 3, uss.Link(pkw, pzd)).read_many(group)
-        return result
-
-    assert set(read("answer", 4, 2)) == {"status_word", "main_actual_value"}
-    assert set(read("answer", 4, 4)) == {"status_word", "main_actual_value", "energy"}
-    assert set(read("answer", 0, 2)) == {"status_word"}  # the scale of the other one cannot be read
-    assert read("main", 0, 2) == {}
-    assert "maximum_frequency" not in read("main", 3, 2)
-    assert {"maximum_frequency", "command_source"} <= set(read("main", 4, 0))
-    drive = package.SampleUss(UssDrive(4, 2), 3, uss.Link(4, 2))
-    assert error(drive.read_many, ["energy"]).status == "bad_link"  # who asks for it by name is told
 
 
 def test_the_link_is_held_against_the_variant(tmp_path: Path) -> None:
