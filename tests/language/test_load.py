@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -158,3 +160,10 @@ def test_reading_takes_time_in_proportion(piece: str) -> None:
     started = time.process_time()
     load(SourceFile("a.yaml", text), Report())
     assert time.process_time() - started < 1.5
+
+
+@pytest.mark.parametrize(("module", "loaded"), [("cli.generate", False), ("language.files", True)])
+def test_yaml_is_loaded_only_where_files_are_read(module: str, loaded: bool) -> None:
+    """`generate` with nothing changed takes a third less time without it."""
+    code = f"import sys, fieldscribe.{module}; sys.exit('yaml' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == loaded
