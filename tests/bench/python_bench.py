@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import cantools.database
 from fieldscribe.diagnostics import Report
-from fieldscribe.families.can.dbc import export_dbc
+from fieldscribe.families.can.dbc import export
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir, templates_dir
@@ -147,7 +147,7 @@ def _four_points() -> Iterator[Work]:
 def _telegram(device: Device) -> Iterator[Work]:
     """A frame of three currents, and all frames of its telegram, beside the database that `export dbc` writes."""
     runtime = importlib.import_module("fieldscribe_runtime.can")
-    message = _loaded(export_dbc(device, 1), "unit_1_messages")
+    message = _loaded(export(device, 1).decode("latin-1"), "unit_1_messages")
     draw = random.Random(1)
     frames = [runtime.Frame(801, bytes((0xDD, slot, *draw.randbytes(6)))) for slot in range(23)]
     for slot in (1, 10, 14):  # exponents that the scales of others need

@@ -16,7 +16,7 @@ from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
 from fieldscribe.export import ExportError, export_form
 from fieldscribe.families.can import of_bus
-from fieldscribe.families.can.dbc import export_dbc
+from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.dbc_signals import decimal, point_signals
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
@@ -39,10 +39,15 @@ PARAMETERS = ("read_request", "write_request", "read_answer", "write_answer")
 UNIT = 1
 
 
+def exported(device: Device, unit: int | None = None) -> str:
+    """The text of the database."""
+    return export(device, unit).decode("latin-1")
+
+
 @lru_cache
 def database(unit: int = UNIT) -> Database:
     """The database as cantools reads it, strictly."""
-    return loaded(export_dbc(DEVICE, unit))
+    return loaded(exported(DEVICE, unit))
 
 
 def loaded(text: str) -> Database:
@@ -74,7 +79,7 @@ def named_parts(one: Point) -> list[tuple[str, int]]:
 
 def test_the_head_of_a_database() -> None:
     """In the order of the format: version, symbols, bit timing, nodes, and then the messages."""
-    before, messages = export_dbc(DEVICE, UNIT).split("\nBO_ ", 1)
+    before, messages = exported(DEVICE, UNIT).split("\nBO_ ", 1)
     lines = before.splitlines()
     assert lines[:3] == [f'VERSION "{DEVICE.id} {DEVICE.version}"', "", "NS_ :"]
     assert lines[-4:] == ["", "BS_:", "", f"BU_: master unit_{UNIT}"]
@@ -84,7 +89,7 @@ def test_the_head_of_a_database() -> None:
 
 def test_a_signal_is_written_as_the_format_has_it() -> None:
     """Multiplexed ones say by which number; nothing is said where there is nothing to say."""
-    text = export_dbc(DEVICE, UNIT) + export_dbc(made("kitchen_can"), 1)
+    text = exported(DEVICE, UNIT) + exported(made("kitchen_can"), 1)
     signals = [line for line in text.splitlines() if line.startswith(" SG_ ")]
     form = r" SG_ \w+( M| m\d+M?)? : \d+\|\d+@[01][+-] \(\S+,\S+\) \[\S+\|\S+\] \"[^\"]*\" \w+"
     assert [line for line in signals if not re.fullmatch(form, line)] == []
@@ -232,7 +237,7 @@ def hostile() -> Device:
 
 def test_hostile_texts_stay_strings() -> None:
     device = hostile()
-    text = export_dbc(device, 0)
+    text = exported(device, 0)
     text.encode("latin-1")
     found = loaded(text)
     message = found.get_message_by_frame_id(0x320)
@@ -283,7 +288,7 @@ def test_little_endian_layouts() -> None:
     words = (Role("word", 1), Role("word", 0), Role("word", 3), Role("word", 2), Role("word", 5), Role("word", 4))
     cyclic = replace(CYCLIC, roles=(*CYCLIC.roles[:2], *words))
     device = replace(DEVICE, messages=(cyclic,))
-    message = loaded(export_dbc(device)).get_message_by_frame_id(0x321)
+    message = loaded(exported(device)).get_message_by_frame_id(0x321)
     data = bytes((0xDD, 0, 1, 0, 0x88, 0x13, 0, 0))
     found = message.decode(data)
     assert isinstance(found, dict)
@@ -296,7 +301,7 @@ def test_little_endian_layouts() -> None:
 def test_a_point_may_have_the_name_of_what_selects() -> None:
     twin = replace(named(DEVICE, "reserved_word_49"), name="message")
     points = tuple(twin if one.name == "reserved_word_49" else one for one in DEVICE.points)
-    message = loaded(export_dbc(replace(DEVICE, points=points))).get_message_by_frame_id(0x321)
+    message = loaded(exported(replace(DEVICE, points=points))).get_message_by_frame_id(0x321)
     found = message.decode(slot_frame(16, [7, 0, 0]).data, decode_choices=False)
     assert isinstance(found, dict)
     assert (found["message"], found["message_2"]) == (0xDD, 7)
@@ -335,13 +340,13 @@ def test_refusals(device: Device, unit: int | None, why: str) -> None:
 
 def test_extended_identifiers() -> None:
     device = replace(DEVICE, bus=replace(DEVICE.bus, family_facts=replace(of_bus(DEVICE.bus), identifier_bits=29)))
-    message = loaded(export_dbc(device)).get_message_by_frame_id(0x321, force_extended_id=True)
+    message = loaded(exported(device)).get_message_by_frame_id(0x321, force_extended_id=True)
     assert message.is_extended_frame
 
 
 def test_a_message_alone_needs_no_selector() -> None:
     alone: Message = replace(next(one for one in DEVICE.messages if one.name == "read_request"))
-    found = loaded(export_dbc(replace(DEVICE, messages=(alone,), telegrams=()))).messages[0]
+    found = loaded(exported(replace(DEVICE, messages=(alone,), telegrams=()))).messages[0]
     assert found.name == "read_request"
     assert not found.is_multiplexed()
     assert found.signals[0].name == "read_request_byte_0"
@@ -350,7 +355,7 @@ def test_a_message_alone_needs_no_selector() -> None:
 def test_the_command(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     assert main(["export", "dbc", "woodward_mpu2s", "--unit", "3", "--variant", "voltage=400V"]) == 0
     out = capfdbinary.readouterr().out
-    assert out.decode("latin-1") == export_dbc(DEVICE, 3)
+    assert out.decode("latin-1") == exported(DEVICE, 3)
     assert loaded(out.decode("latin-1")).get_message_by_frame_id(0x323)
     for words in (
         ["dbc", "hitachi_l200"],

@@ -32,13 +32,13 @@ def span_items(state: DecodeState, span: Span) -> list[Item]:
     items: list[Item] = []
     unknown: list[int] = []
     for at in here.addresses:
-        found = here.items_at(at)
-        if found is None:
+        items_here = here.items_at(at)
+        if items_here is None:
             unknown.append(at)
             continue
         items += here.unknown_items(unknown)
         unknown = []
-        items += found
+        items += items_here
     return items + here.unknown_items(unknown)
 
 

@@ -60,14 +60,14 @@ class StreamDecoder:
     """Decodes the frames of one line in their order."""
 
     def __init__(self, device: Device, settings: Settings, frame_decoder: FrameDecoder) -> None:
-        self._device = device
-        self._given = dict(settings)
+        given, directory = dict(settings), Directory(device)
+        texts = PointTextCache(device, directory)
         self._frame_decoder = frame_decoder
-        self._directory = Directory(device)
-        self._warnings = FrameWarnings(device, self._directory)
-        self._texts = PointTextCache(device, self._directory)
+        self._warnings = FrameWarnings(device, directory)
         self._open_requests = OpenRequests()
-        self._state_of_unit = lru_cache(MOST_STATES)(self._new_state)
+        self._state_of_unit = lru_cache(MOST_STATES)(
+            lambda _unit: DecodeState(device, directory, texts, given, dict(given))
+        )
 
     def requests(self, options: Options) -> list[FrameResult]:
         """Decode the request that the following frames answer, if the options give one. Raises UnclearError."""
@@ -89,7 +89,3 @@ class StreamDecoder:
         if isinstance(frame, CutFrame):
             notes = (*notes, frame.note)
         return decoded.with_items(items, self._warnings.findings(decoded), notes)
-
-    def _new_state(self, unit: int | None) -> DecodeState:
-        del unit  # each unit has a state of its own
-        return DecodeState(self._device, self._directory, self._texts, self._given, dict(self._given))

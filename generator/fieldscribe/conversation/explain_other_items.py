@@ -30,18 +30,18 @@ def explain_other_items(device: Device, what: str) -> list[tuple[list[str], Expl
     prefix, colon, rest = what.strip().partition(":")
     forced = prefix.strip().lower() if colon else ""
     text = (rest if colon else prefix).strip()
-    found = _units(device, text) if forced == "unit" else _items(device, text, forced)
+    items = _units(device, text) if forced == "unit" else _items(device, text, forced)
     return [
         ([reading], Explanation(line(heading), tuple((label, line(cell)) for label, cell in rows if cell)))
-        for reading, heading, rows in found
+        for reading, heading, rows in items
     ]
 
 
-Found = tuple[str, str, list[Row]]
+OtherItem = tuple[str, str, list[Row]]
 """How the text was read, a heading, and rows; an empty row is left out."""
 
 
-def _items(device: Device, text: str, forced: str) -> Iterator[Found]:
+def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     name = text.lower() if forced in ("", "name") else None
     number = number_of(text) if forced in ("", "wire") else None
     for command in device.commands:
@@ -88,7 +88,7 @@ def _gap(space: str, low: int, high: int) -> tuple[str, list[Row]]:
     return f"{space} {where}: closed", [("Meaning", meaning)]
 
 
-def _codes(device: Device, text: str, forced: str) -> Iterator[Found]:
+def _codes(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     """Return functions, tasks, responses, errors, ... with this name, or with this number after their kind."""
     for codes in family(device.family).codes:
         for code in device.bus.codes(codes.section):
@@ -115,7 +115,7 @@ def _named(numbers: tuple[int, ...], names: Mapping[int, str]) -> str:
     return ", ".join(f"{number} {names.get(number, '')}".strip() for number in numbers)
 
 
-def _messages(device: Device, text: str, forced: str) -> Iterator[Found]:
+def _messages(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     """Return messages with this name, or with this identifier after the name of the family."""
     own = family(device.family)
     number = _identifier(text) if own.lays_out_messages and forced == own.name else None
@@ -163,7 +163,7 @@ def _role_text(kind: str, number: int) -> str:
     return {"unit": "unit number", "multiplexer": "multiplexer: which words of the telegram follow"}.get(kind, kind)
 
 
-def _units(device: Device, symbol: str) -> Iterator[Found]:
+def _units(device: Device, symbol: str) -> Iterator[OtherItem]:
     """Return the unit with this symbol, as the device uses it; else the shipped unit."""
     used = {point.unit.symbol: point.unit for point in device.points if point.unit.symbol}
     unit = used.get(symbol) or shipped_unit(symbol)

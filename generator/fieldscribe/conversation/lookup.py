@@ -29,7 +29,7 @@ _LOOK_ALIKE = str.maketrans("oil", "011")
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A point that was found, how the text was read, and which word of the point it names (empty for all)."""
+    """A point that the text names, how the text was read, and which word of the point it names (empty for all)."""
 
     reading: str
     point: Point
@@ -76,13 +76,13 @@ def near(device: Device, what: str) -> list[str]:
 
 def _with_one_error(text: str, known: Iterable[str]) -> list[str]:
     """Return the spellings that differ in at most one character, look-alikes first."""
-    folded, found = text.translate(_LOOK_ALIKE), []
+    folded, near_spellings = text.translate(_LOOK_ALIKE), []
     for spelling in known:
         if len(spelling) == len(text) > 2:
             wrong = sum(map(ne, folded, spelling.translate(_LOOK_ALIKE)))
             if wrong < 2:
-                found.append((wrong, spelling))
-    return [spelling for _, spelling in sorted(found)]
+                near_spellings.append((wrong, spelling))
+    return [spelling for _, spelling in sorted(near_spellings)]
 
 
 def _neighbours(device: Device, number: int) -> list[str]:

@@ -91,12 +91,8 @@ def names_text(device: Device, names: Iterable[str]) -> str:
 def amount(number: Fraction) -> str:
     """Return a number as text: exact if that is short, else rounded and marked as rounded."""
     text = number_text(number)
-    return text if is_short(text) or abs(number) >= 10**300 else f"about {float(number):.9g}"
-
-
-def is_short(text: str) -> bool:
-    """Return True if the text of an exact number is no fraction, and has few decimals."""
-    return "/" not in text and (len(text) <= _MOST_DIGITS + (text[0] == "-") or "." not in text)
+    short = "/" not in text and ("." not in text or len(text.lstrip("-")) <= _MOST_DIGITS)
+    return text if short or abs(number) >= 10**300 else f"about {float(number):.9g}"
 
 
 def amount_with_unit(point: Point, number: Fraction) -> str:

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 Where = tuple[str, int, int]
 """The space or the telegram, the address, and the index that travels with it (0 without one)."""
 
-Found = tuple["Point", "Place"]
+PointPlace = tuple["Point", "Place"]
 
 
 class Directory:
-    """Which points stand at an address: those that are read there, and those that are written there."""
+    """The points of a device by address: those that are read there, and those that are written there."""
 
     def __init__(self, device: Device) -> None:
-        self._at: dict[Where, list[Found]] = {}
+        self._at: dict[Where, list[PointPlace]] = {}
         self._points: dict[Where, list[Point]] = {}
         indexed = family(device.family).indexed
         # points that the chosen variants lack come last, so that present points win their places
@@ -47,35 +47,35 @@ class Directory:
             for name in point.changes_with:
                 self._derived.setdefault(name, []).append(point)
 
-    def places(self, where: str, address: int, index: int = 0) -> list[Found]:
-        """The points that have a word at this address, each with its place."""
+    def places(self, where: str, address: int, index: int = 0) -> list[PointPlace]:
+        """Return the points that have a word at this address, each with its place."""
         return self._at.get((where, address, index), [])
 
     def at(self, where: str, address: int, index: int = 0) -> list[Point]:
-        """The points that have a word at this address."""
+        """Return the points that have a word at this address."""
         place = where, address, index
         if place not in self._points and place in self._at:  # as many as the device has
             self._points[place] = list({point.item: point for point, _ in self._at[place]}.values())
         return self._points.get(place, [])
 
-    def starting_at(self, where: str, address: int) -> list[Found]:
-        """The points whose lowest address is this one, each with its place."""
+    def starting_at(self, where: str, address: int) -> list[PointPlace]:
+        """Return the points whose lowest address is this, each with its place."""
         return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
 
     def first(self, telegram: str, name: str) -> int | None:
-        """The first address of a point of the telegram."""
+        """Return the first address of a point of the telegram; None if the telegram has no such point."""
         return self._firsts.get((telegram, name))
 
     def derived(self, name: str) -> list[Point]:
-        """The points whose values the device works out anew when this one is written."""
+        """Return the points whose values the device computes again when the named point is written."""
         return self._derived.get(name, [])
 
     def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
-        """The settings that these raw numbers give to rules, without points whose variants stand in several places."""
+        """Yield the settings that raw numbers give to rules, without points whose variants have several places."""
         for point, raw in raws:
             if self.teaches(point):
                 yield point.name, setting_of(point, raw)
 
     def teaches(self, point: Point) -> bool:
-        """Whether the raw number of a point is a setting that some rule needs."""
+        """Return True if the raw number of a point is a setting that some rule needs."""
         return point.name in self._settings

@@ -66,7 +66,7 @@ def parameters_are_reachable(subject: Analysis) -> None:
     report_missing(subject, _missing_messages)
 
 
-def _missing_messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str]]:
+def _missing_messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str, str]]:
     described = list(subject.scope.listed("messages"))
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(described):
         return  # the missing message may be one that could not be read
@@ -79,10 +79,10 @@ def _missing_messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[
     hint = "add {} under `messages`, or correct `access`"
     if not reads:
         what_to_add = hint.format("a request with `address`, and a response with `raw` that answers it")
-        yield sum(point.readable for point in points), "no message reads a parameter", what_to_add
+        yield sum(point.readable for point in points), "no message reads a parameter", "messages", what_to_add
     if write_request is None:
         what_to_add = hint.format("a request with `address` and `raw`")
-        yield sum(point.writable for point in points), "no message writes a parameter", what_to_add
+        yield sum(point.writable for point in points), "no message writes a parameter", "messages", what_to_add
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.export import ExportError
-from fieldscribe.families.can import USUAL_BITS, identifier_bits, of_bus
+from fieldscribe.families.can import of_bus
 from fieldscribe.families.can.dbc_signals import DbcMessage, messages_of
 from fieldscribe.text import dbc_string
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 
 _MASTER = "master"
-_EXTENDED = 1 << 31
 _SYMBOLS = ("NS_DESC_", "CM_", "BA_DEF_", "BA_", "VAL_", "BA_DEF_DEF_", "SG_MUL_VAL_")
 _ATTRIBUTES = (
     'BA_DEF_ BO_ "SystemMessageLongSymbol" STRING ;',
@@ -35,19 +34,14 @@ _ATTRIBUTES = (
 )
 
 
-def export(device: Device, unit: int | None) -> bytes:
-    """Return the bytes of the database. Raises ExportError."""
-    return export_dbc(device, unit).encode("latin-1")
-
-
-def export_dbc(device: Device, unit: int | None = None) -> str:
+def export(device: Device, unit: int | None = None) -> bytes:
     """Return the database of a device for one unit (1, or the lowest that it may have). Raises ExportError."""
     low, high = device.bus.units
     chosen = device.bus.usual_unit if unit is None else unit
     if not low <= chosen <= high:
         raise ExportError(f"the device cannot have unit {chosen}: units are {low} to {high}")
     messages = messages_of(device, chosen)
-    return "\n".join(_lines(device, chosen, messages)) + "\n"
+    return "".join(f"{text}\n" for text in _lines(device, chosen, messages)).encode("latin-1")
 
 
 def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[str]:
@@ -62,22 +56,18 @@ def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[st
     yield f"BU_: {_MASTER} {node}"
     for message in messages:
         yield ""
-        yield from _message(device, message, node)
+        yield from _message(message, node)
     yield ""
     yield from _comments(device, messages)
     yield from _ATTRIBUTES
     yield from _attributes(device, messages)
-    yield from _value_tables(device, messages)
-    yield from _multiplexing(device, messages)
+    yield from _value_tables(messages)
+    yield from _multiplexing(messages)
 
 
-def _number(device: Device, message: DbcMessage) -> int:
-    return message.id | _EXTENDED if identifier_bits(device.bus) > USUAL_BITS else message.id
-
-
-def _message(device: Device, message: DbcMessage, node: str) -> Iterator[str]:
+def _message(message: DbcMessage, node: str) -> Iterator[str]:
     sender, receiver = (_MASTER, node) if message.from_master else (node, _MASTER)
-    yield f"BO_ {_number(device, message)} {message.short}: {message.length} {sender}"
+    yield f"BO_ {message.id} {message.short}: {message.length} {sender}"
     for signal in message.signals:
         role = f" {signal.multiplexing}" if signal.multiplexing else ""
         sign = "-" if signal.signed else "+"
@@ -94,11 +84,10 @@ def _comments(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
     )
     yield f"CM_ {dbc_string(head)};"
     for message in messages:
-        number = _number(device, message)
-        yield f"CM_ BO_ {number} {dbc_string(message.comment)};"
+        yield f"CM_ BO_ {message.id} {dbc_string(message.comment)};"
         for signal in message.signals:
             if signal.comment:
-                yield f"CM_ SG_ {number} {signal.short} {dbc_string(signal.comment)};"
+                yield f"CM_ SG_ {message.id} {signal.short} {dbc_string(signal.comment)};"
 
 
 def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
@@ -107,26 +96,25 @@ def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
     if bitrate is not None:
         yield f'BA_ "Baudrate" {bitrate};'
     for message in messages:
-        number = _number(device, message)
         if message.name != message.short:
-            yield f'BA_ "SystemMessageLongSymbol" BO_ {number} {dbc_string(message.name)};'
+            yield f'BA_ "SystemMessageLongSymbol" BO_ {message.id} {dbc_string(message.name)};'
         for signal in message.signals:
             if signal.name != signal.short:
-                yield f'BA_ "SystemSignalLongSymbol" SG_ {number} {signal.short} {dbc_string(signal.name)};'
+                yield f'BA_ "SystemSignalLongSymbol" SG_ {message.id} {signal.short} {dbc_string(signal.name)};'
 
 
-def _value_tables(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
+def _value_tables(messages: list[DbcMessage]) -> Iterator[str]:
     for message in messages:
         for signal in message.signals:
             if signal.values:
                 named = " ".join(f"{raw} {dbc_string(name)}" for raw, name in signal.values)
-                yield f"VAL_ {_number(device, message)} {signal.short} {named} ;"
+                yield f"VAL_ {message.id} {signal.short} {named} ;"
 
 
-def _multiplexing(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
+def _multiplexing(messages: list[DbcMessage]) -> Iterator[str]:
     for message in messages:
         shorts = {signal.name: signal.short for signal in message.signals}
         for signal in message.signals:
             if signal.switch is not None:
                 name, value = signal.switch
-                yield f"SG_MUL_VAL_ {_number(device, message)} {signal.short} {shorts[name]} {value}-{value};"
+                yield f"SG_MUL_VAL_ {message.id} {signal.short} {shorts[name]} {value}-{value};"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.export import ExportError
+from fieldscribe.families.can import USUAL_BITS, identifier_bits
 from fieldscribe.families.can.frames import LENGTH, carries, frame_count, places
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Flag, Message, Point, Telegram
 
+_EXTENDED = 1 << 31
+"""The bit that marks an identifier of 29 bits."""
 _MOST_NAME = 32
 _MOST_CODES = 32
 """A longer band of special codes goes to the comment only: a database names single numbers."""
@@ -61,7 +64,7 @@ class Signal:
 
 @dataclass(slots=True)
 class DbcMessage:
-    """All messages of one identifier."""
+    """All messages of one identifier; `id` is the identifier as databases write it."""
 
     name: str
     id: int
@@ -91,7 +94,8 @@ def _message(device: Device, unit: int, group: list[Message]) -> DbcMessage:
     masters = all(message.direction == "request" for message in group)
     kinds = "requests" if masters else f"unit_{unit}_messages" if first.adds_unit else f"messages_{number:X}"
     titles = "; ".join(f"{message.name}: {message.title['en']}" for message in group)
-    result = DbcMessage(first.name if len(group) == 1 else kinds, number, len(first.roles), masters, line(titles))
+    written = number | _EXTENDED if identifier_bits(device.bus) > USUAL_BITS else number
+    result = DbcMessage(first.name if len(group) == 1 else kinds, written, len(first.roles), masters, line(titles))
     selector = _selector(group) if len(group) > 1 else None
     signals: list[Signal] = []
     if selector is not None:

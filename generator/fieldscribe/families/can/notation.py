@@ -66,14 +66,9 @@ def read_frames(texts: Sequence[str], known: int | None = None) -> list[Pasted]:
     if len(texts) == 1 and texts[0].isprintable() and (match := _LOGGED.fullmatch(texts[0])):
         return [_matched(match)]
     lines = [line.strip() for text in _joined(texts) for line in text.splitlines() or [""]]
-    if len(texts) == 1 and len(lines) == 1 and lines[0].count("#") > 1:
-        lines = _frames_of_line(lines[0])
+    if len(texts) == 1 and len(lines) == 1 and lines[0].count("#") > 1 and _SEVERAL.fullmatch(lines[0]):
+        lines = [match[0].strip() for match in _BEHIND.finditer(lines[0])]
     return [_frame(line, known) for line in lines if line or len(lines) == 1]
-
-
-def _frames_of_line(line: str) -> list[str]:
-    """Return the frames in one argument; the whole line if it holds anything else."""
-    return [match[0].strip() for match in _BEHIND.finditer(line)] if _SEVERAL.fullmatch(line) else [line]
 
 
 def read_identifier(text: str) -> int:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks import frames_agree
 from fieldscribe.checks.frames_agree import Seen
+from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
 from fieldscribe.families.modbus.exchange import build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
@@ -17,6 +17,8 @@ from fieldscribe.model import Named
 from fieldscribe.resolve.errata import PrintedFact
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.checks.frames_agree import Carries
     from fieldscribe.model import Frame, Point
     from fieldscribe.resolve.analysis import Analysis
@@ -36,23 +38,19 @@ def write_addresses_are_writable(subject: Analysis) -> None:
 
 def spaces_are_reachable(subject: Analysis) -> None:
     """Report each space with points that no function of the device can read, or write."""
-    bus = subject.scope.bus
-    if bus is None or not subject.bus_is_whole:
-        return
+    report_missing(subject, _missing_functions)
+
+
+def _missing_functions(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str, str]]:
     known = {code.number for code in subject.bus.functions}
-    points = (resolved.point for resolved in subject.resolved)
-    needed = Counter((point.terms.space, point.shape.access) for point in points if point.terms.generated)
+    hint = "list the function under `functions`, or correct `access` or `space`"
     for space, functions in SPACES.items():
+        here = [point for point in points if point.space == space]
         writers = {functions.write_one, functions.write_many} - {None}
-        for verb, letter, able in (
-            ("reads", "r", functions.read in known),
-            ("writes", "w", bool(writers & known) or not writers),
-        ):
-            count = 0 if able else needed[space, letter] + needed[space, "rw"]
-            if count:
-                message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
-                hint = "list the function under `functions`, or correct `access` or `space`"
-                subject.report.error("no-function", message, bus.key_span("functions"), hint)
+        if functions.read not in known:
+            yield sum(point.readable for point in here), f"no function reads `{space}`", "functions", hint
+        if writers and not writers & known:
+            yield sum(point.writable for point in here), f"no function writes `{space}`", "functions", hint
 
 
 def points_fit_into_one_request(subject: Analysis) -> None:

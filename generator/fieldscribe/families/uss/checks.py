@@ -109,18 +109,20 @@ def parameters_are_reachable(subject: Analysis) -> None:
     report_missing(subject, _missing_tasks)
 
 
-def _missing_tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str]]:
+def _missing_tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int, str, str, str]]:
     known = {code.number for code in subject.bus.functions}
     lengths = set(of_bus(subject.bus).pkw)
     if lengths == {0}:
-        yield len(points), "no telegram has a parameter part", "correct `pkw`, which lists its lengths in words"
+        yield len(points), "no telegram has a parameter part", "pkw", "correct `pkw`, which lists its lengths in words"
         return
     if lengths and lengths <= {0, SHORT}:
         wide = sum(point.words > 1 for point in points)
-        yield wide, f"a parameter part of {SHORT} words carries no value of 32 bits", "correct `pkw`, or the types"
+        message = f"a parameter part of {SHORT} words carries no value of 32 bits"
+        yield wide, message, "pkw", "correct `pkw`, or the types"
     hint = "list the task under `functions`, or correct `access` or `keeps`"
     if READ_TASK not in known:
-        yield sum(point.readable for point in points), f"the device has no task {READ_TASK}, which reads a value", hint
+        message = f"the device has no task {READ_TASK}, which reads a value"
+        yield sum(point.readable for point in points), message, "functions", hint
     needed: Counter[int] = Counter()
     for point in points:
         for keep in {"yes": (True,), "no": (False,), "choice": (False, True)}.get(point.keeps or "no", ()):
@@ -128,7 +130,7 @@ def _missing_tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int
                 needed[write_task(point.words, array=point.index is not None, keep=keep)] += 1
     for task, count in sorted(needed.items()):
         if task not in known:
-            yield count, f"the device has no task {task}, which writes such a value", hint
+            yield count, f"the device has no task {task}, which writes such a value", "functions", hint
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,10 +177,10 @@ def _telegram(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...
     if frame.direction == "request":
         return _request(subject, open_frame, words)
     frames_agree.report_no_request(subject, open_frame)
-    asked = seen.get(frame.answers or "")
-    if asked is None or not isinstance(asked.request, _SentRequest):
+    before = seen.get(frame.answers or "")
+    if before is None or not isinstance(before.request, _SentRequest):
         return Seen(replace(frame, valid=False))
-    link, request = asked.request.link, asked.request.request
+    link, request = before.request.link, before.request.request
     if frame.framing == "uss":
         reply = parse(subject.bus, link, request, frame.corrected)
     else:
@@ -193,7 +195,7 @@ def _telegram(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...
             what = "does not exist" if error is None else f"is not for the task {request.task}"
             return frames_agree.report_no_frame(subject, open_frame, f"the error {reply.error} {what}")
     value = (reply.width, reply.value) if reply.status == "ok" and reply.width else None
-    return Seen(frame, asked.request, _carries(subject, request, value, reply.words, "response"))
+    return Seen(frame, before.request, _carries(subject, request, value, reply.words, "response"))
 
 
 def _request(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]) -> Seen:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import insert, with_fixed, words_in, words_of
 from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
-from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, LinkOptions, default_link, link_of, write_task
+from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, default_link, link_of, write_task
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
 from fieldscribe.families.uss.telegrams import Request, build
 from fieldscribe.text import line
@@ -26,7 +26,7 @@ def frames_for(device: Device, point: Point, raw: int, settings: Settings, optio
     framing = options.framing or "uss"
     if framing == "broadcast":
         raise UnclearError("a broadcast is not built here", "take uss, pkw or pzd")
-    link, keep = link_of(device, options), LinkOptions(**options.own).keep
+    link, keep = link_of(device, options), options.own.get("keep", False)
     unit = device.bus.usual_unit if options.unit is None else options.unit
     notes: list[str] = []
     if point.telegram is not None:

@@ -15,7 +15,6 @@ from fieldscribe.families.uss.parts import (
     RESPONSE_WIDTHS,
     SIZE,
     Link,
-    LinkOptions,
     Part,
     link_of,
     part_of,
@@ -185,8 +184,7 @@ class UssFrameDecoder:
 
 def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """Return the decoder for the telegrams of the device. Raises UnclearError."""
-    direction = LinkOptions(**options.own).direction
-    return UssFrameDecoder(device, link_of(device, options), options.framing or "uss", direction)
+    return UssFrameDecoder(device, link_of(device, options), options.framing or "uss", options.own.get("direction"))
 
 
 def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:

@@ -66,17 +66,6 @@ class Link:
         return self.pkw == 4 and not self.single_first
 
 
-@dataclass(frozen=True, slots=True)
-class LinkOptions:
-    """The command-line options of the family; None for those that were not given."""
-
-    pkw: int | None = None
-    pzd: int | None = None
-    single_first: bool = False
-    direction: str | None = None
-    keep: bool = False
-
-
 def default_link(bus: Bus) -> Link:
     """Return the usual link: a parameter part of variable length (or the longest), two words of process data."""
     lengths, (low, high) = of_bus(bus).pkw, of_bus(bus).pzd
@@ -86,14 +75,13 @@ def default_link(bus: Bus) -> Link:
 def link_of(device: Device, options: Options) -> Link:
     """Return the link that the options choose. Raises UnclearError."""
     usual, lengths, (low, high) = default_link(device.bus), of_bus(device.bus).pkw, of_bus(device.bus).pzd
-    chosen = LinkOptions(**options.own)
-    if chosen.pkw is not None and chosen.pkw not in lengths:
-        message = f"--pkw {chosen.pkw}: {device.id} knows no parameter part of this length"
+    pkw, pzd = options.own.get("pkw", usual.pkw), options.own.get("pzd", usual.pzd)
+    if "pkw" in options.own and pkw not in lengths:
+        message = f"--pkw {pkw}: {device.id} knows no parameter part of this length"
         raise UnclearError(message, f"it has {', '.join(map(str, lengths))}")
-    if chosen.pzd is not None and not low <= chosen.pzd <= high:
-        raise UnclearError(f"--pzd {chosen.pzd}: {device.id} has {low} to {high} words of process data")
-    pkw = usual.pkw if chosen.pkw is None else chosen.pkw
-    return Link(pkw, usual.pzd if chosen.pzd is None else chosen.pzd, chosen.single_first)
+    if not low <= pzd <= high:
+        raise UnclearError(f"--pzd {pzd}: {device.id} has {low} to {high} words of process data")
+    return Link(pkw, pzd, options.own.get("single_first", False))
 
 
 @dataclass(frozen=True, slots=True)

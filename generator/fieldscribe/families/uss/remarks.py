@@ -23,7 +23,7 @@ _FLAWS: Mapping[str, str] = {
     "no_words": "the part is made of words of two bytes, here {are} {size}",
     "wrong_start": "a telegram begins with {start:02X}h, this with {data[0]:02X}h",
     "no_check": "the check byte is missing",
-    "wrong_length": "its length byte says {said} bytes, here are {count}",
+    "wrong_length": "its length byte says {length} bytes, here are {count}",
     "wrong_check": "the check byte is wrong",
     "odd": "its data is no whole number of words",
 }
@@ -33,13 +33,13 @@ def flaw_texts(unwrapped: Unwrapped) -> Iterator[str]:
     """Yield what is wrong with the bytes of a telegram, or of a part alone."""
     data = unwrapped.data
     count, are = len(data), "is" if len(data) == 1 else "are"
-    said = data[1] + 2 if count > 1 else 0
+    length = data[1] + 2 if count > 1 else 0
     for flaw in unwrapped.flaws:
         if flaw == "short":
             yield too_short("a telegram", LEAST_BYTES, count)
         else:
             size = counted(count, "byte")
-            yield _FLAWS[flaw].format(data=data, start=START, said=said, count=count, size=size, are=are)
+            yield _FLAWS[flaw].format(data=data, start=START, length=length, count=count, size=size, are=are)
 
 
 def checks_text(unwrapped: Unwrapped) -> str:

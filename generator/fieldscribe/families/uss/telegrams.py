@@ -139,15 +139,10 @@ def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
     return "ok", telegram(request.unit, (*words, *request.words))
 
 
-def _bad_link(bus: Bus, link: Link, words: tuple[int, ...]) -> bool:
-    low, high = of_bus(bus).pzd
-    return link.pkw not in of_bus(bus).pkw or len(words) != link.pzd or not low <= link.pzd <= high
-
-
 def _refusal(bus: Bus, link: Link, request: Request) -> str:
-    if _bad_link(bus, link, request.words):
+    (least, most), (low, high) = of_bus(bus).pzd, bus.units
+    if link.pkw not in of_bus(bus).pkw or len(request.words) != link.pzd or not least <= link.pzd <= most:
         return "bad_link"
-    low, high = bus.units
     if not low <= request.unit <= high:
         return "bad_unit"
     if request.task not in {code.number for code in bus.functions} or (link.pkw == 0 and request.task != 0):
