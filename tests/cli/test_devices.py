@@ -177,3 +177,17 @@ def test_of_points_at_one_address_the_chosen_variant_has_one(run: Callable[..., 
     assert "simple = 10" in decoded.out
     assert "double" not in decoded.out
     assert "double" not in run("explain", "small_drive", "wire:0x19", "--variant", "size=small").out
+
+
+def test_limits_of_an_unknown_scale_stay_values(run: Callable[..., Output], small: Path) -> None:
+    """They have no raw numbers, so nothing may round them."""
+    point = "- {name: slope, title: {en: Slope}, at: 30h, unit: Hz, range_in_units: 0.4..2.6, scale: ~}\n"
+    (small / "main.yaml").write_text(MAIN + point, "utf-8")
+    assert "0.4..2.6 Hz" in run("list", "small_drive").out
+    explained = run("explain", "small_drive", "slope").out
+    assert "Range          0.4..2.6 Hz\n" in explained
+    assert "Raw range" not in explained
+    points = json.loads(run("export", "json", "small_drive").out)["points"]
+    assert points[-1]["raw"]["ranges"] == [["0.4", "2.6"]]
+    run("docs", "small_drive", "--format", "csv", "--out", "tables")
+    assert ",0.4,2.6," in Path("tables/small_drive.csv").read_text("utf-8")

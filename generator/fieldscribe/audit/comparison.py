@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.alignment import Alignment, changed_words
@@ -58,7 +58,6 @@ class Comparison:
     """The errata whose printed text the new edition does not print."""
     left_to_renumber: int
     """The cited places that count the lines of the old edition, where the new one has other numbers."""
-    findings: list[str] = field(default_factory=list)
 
     @property
     def stands(self) -> bool:
@@ -171,12 +170,9 @@ class Editions:
 
     def _moved(self, line_of: Callable[[int], int | None]) -> _Mapping:
         def moved(cited: Cited) -> tuple[int, int] | None:
-            first = line_of(cited.first)
-            last = line_of(cited.last) if cited.last else 0
-            if cited.last:  # a range keeps what is left of it
-                lines = [line for old in range(cited.first, cited.last + 1) if (line := line_of(old)) is not None]
-                return (min(lines), max(lines)) if lines else None
-            return None if first is None or last is None else (first, last)
+            numbers = range(cited.first, max(cited.first, cited.last) + 1)  # a range keeps what is left of it
+            lines = [line for number in numbers if (line := line_of(number)) is not None]
+            return (min(lines), max(lines) if cited.last else 0) if lines else None
 
         return moved
 

@@ -126,7 +126,7 @@ def show_traceback(error: BaseException) -> None:
 def _run(argv: list[str]) -> int:
     if not argv or argv[0] not in COMMANDS:
         return _overview(argv)
-    from fieldscribe.cli.common import StopError  # `--help` and `--version` start without these
+    from fieldscribe.cli.common import StopError, usage_error  # `--help` and `--version` start without these
     from fieldscribe.user_errors import UnclearError
 
     command = command_module(argv[0])
@@ -147,7 +147,7 @@ def _run(argv: list[str]) -> int:
     except StopError as stop:
         return stop.tell()
     except UnclearError as error:
-        return StopError(error.message, error.hint).tell()
+        return usage_error(error.message, error.hint)
 
 
 def _unrecognised(unknown: list[str], parser: ArgumentParser) -> str:

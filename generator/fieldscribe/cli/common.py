@@ -30,13 +30,11 @@ LOCAL = Path("descriptions")
 """The usual folder of a project's descriptions."""
 
 
-class StopError(Exception):
+class StopError(UnclearError):
     """Ends a command with a message and a hint on stderr (both may be empty) and an exit code."""
 
     def __init__(self, message: str, hint: str = "", code: int = USAGE) -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
+        super().__init__(message, hint)
         self.code = code
 
     def tell(self) -> int:
@@ -161,7 +159,7 @@ def searched_devices(arguments: Namespace) -> dict[str, Path]:
 def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
     """Return the device named on the command line, with its chosen variants; print findings on stderr.
 
-    `inputs` records the files that were read. Raises StopError.
+    `inputs` records the files that were read. Raises StopError, and UnclearError for a variant.
     """
     from fieldscribe.conversation.selection import choose_variants  # `check` starts without it
 
@@ -170,10 +168,7 @@ def open_device(arguments: Namespace, inputs: Inputs | None = None) -> Device:
     if device is None:
         report_findings(report, getattr(arguments, "format", "text"))
         raise StopError("", code=FINDINGS)
-    try:
-        return choose_variants(device, getattr(arguments, "variant", []))
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
+    return choose_variants(device, getattr(arguments, "variant", []))
 
 
 def device_file(arguments: Namespace) -> Path:

@@ -86,15 +86,12 @@ def run(arguments: Namespace) -> int:
     device = open_device(arguments)
     options = options_of(device, arguments)
     settings = settings_of(device, arguments)
-    try:
-        decoder = StreamDecoder(device, settings, frame_decoder(device, options))
-        output = _Output(decoder, frame_printer(arguments.format, device), arguments.unit)
-        requests = decoder.requests(options)
-        for frames in _groups(arguments.frames):
-            output.print([*requests, *decoder.pasted(frames)]) if frames else output.follow_input()
-            requests = []
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
+    decoder = StreamDecoder(device, settings, frame_decoder(device, options))
+    output = _Output(decoder, frame_printer(arguments.format, device), arguments.unit)
+    requests = decoder.requests(options)
+    for frames in _groups(arguments.frames):
+        output.print([*requests, *decoder.pasted(frames)]) if frames else output.follow_input()
+        requests = []
     output.print(requests)
     for name in arguments.log:
         with open(name, "rb") as log:

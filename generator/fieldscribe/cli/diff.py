@@ -51,7 +51,6 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.diagnostics import Report
     from fieldscribe.differences.changes import compared
     from fieldscribe.differences.sides import EXPORT_HINT, opened
-    from fieldscribe.user_errors import UnclearError
 
     report = Report()
     exported: list[str] = []
@@ -66,8 +65,6 @@ def run(arguments: Namespace) -> int:
             if arguments.keep_names and _keep_names(arguments.new, comparisons):
                 comparisons = compared(old, stack.enter_context(opened(_known(arguments.new), Report())))
             _print(arguments.format, comparisons)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
         if not exported:
             raise

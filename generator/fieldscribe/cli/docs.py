@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
+from fieldscribe.cli import FINE
+from fieldscribe.cli.common import StopError, add_descriptions, open_device, some_path
+from fieldscribe.cli.vendor import deliver_all, print_deliveries
+from fieldscribe.vendoring.deliveries import Order
+from fieldscribe.vendoring.requests import FORMATS, DocumentRequest
 
-    from fieldscribe.vendoring.deliveries import Order
+if TYPE_CHECKING:
+    from argparse import ArgumentParser
 
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables
@@ -22,9 +27,6 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
-    from fieldscribe.cli.common import add_descriptions, some_path
-    from fieldscribe.vendoring.requests import FORMATS
-
     parser.add_argument(
         "devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml"
     )
@@ -38,8 +40,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write or compare the files; return the exit code."""
-    from fieldscribe.cli.vendor import deliver_all, print_deliveries
-
     orders, code = _orders(arguments)
     missing = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
     deliveries = deliver_all(orders, missing, "text", check=arguments.check, force=arguments.force)
@@ -47,18 +47,11 @@ def run(arguments: Namespace) -> int:
 
 
 def _orders(arguments: Namespace) -> tuple[list[Order], int]:
-    """The requests for the devices without errors, and the exit code for the others."""
-    from argparse import Namespace as Asked
-
-    from fieldscribe.cli import FINE
-    from fieldscribe.cli.common import StopError, open_device
-    from fieldscribe.vendoring.deliveries import Order
-    from fieldscribe.vendoring.requests import DocumentRequest
-
+    """Return the orders for the devices without errors, and the exit code for the others."""
     orders, code = [], FINE
     for name in arguments.devices:
         try:
-            device = open_device(Asked(device=name, descriptions=arguments.descriptions))
+            device = open_device(Namespace(device=name, descriptions=arguments.descriptions))
         except StopError as stop:
             code = max(code, stop.tell())
         else:

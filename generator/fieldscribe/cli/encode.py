@@ -12,7 +12,7 @@ from fieldscribe.conversation.encoding import encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.families.frame_results import Options
 from fieldscribe.report import visible
-from fieldscribe.user_errors import RefusedError, UnclearError
+from fieldscribe.user_errors import RefusedError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -66,8 +66,6 @@ def run(arguments: Namespace) -> int:
     settings = settings_of(device, arguments)
     try:
         encoded, sent = _encoded(device, arguments, options, settings)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
     except RefusedError as error:
         if arguments.format == "json":
             print_json({"refused": {"status": error.status, "message": error.message, "hint": error.hint}})

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
+
+from fieldscribe.cli import FINE
+from fieldscribe.cli.common import StopError, add_device, open_device, print_json
+from fieldscribe.export import ExportError, export_form, export_model
+from fieldscribe.families import families
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -18,16 +24,12 @@ _JSON = "json"
 
 
 def _forms() -> tuple[str, ...]:
-    """All forms: the model of any device, and those of some families only."""
-    from fieldscribe.families import families
-
+    """Return all forms: the model of any device, and those of some families only."""
     return (_JSON, *(form for family in families() for form in family.exports))
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
-    from fieldscribe.cli.common import add_device
-
     parser.add_argument("form", choices=_forms(), metavar="FORM", help=f"the form: {' or '.join(_forms())}")
     add_device(parser)
     parser.add_argument("--unit", type=int, metavar="N", help="dbc: the unit that sends (default: 1 or the lowest)")
@@ -35,22 +37,14 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Print the export; return the exit code."""
-    from fieldscribe.cli import FINE
-    from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.export import ExportError
-
     for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
         if value is not None and arguments.form == _JSON:
             raise StopError(f"--{option} is not for the form {arguments.form}")
     device = open_device(arguments)
     try:
         if arguments.form == _JSON:
-            from fieldscribe.export import export_model
-
             print_json(export_model(device))
         else:
-            from fieldscribe.export import export_form
-
             _print_bytes(export_form(arguments.form, device, arguments.unit))
     except ExportError as error:
         raise StopError(f"{device.id} cannot be exported as {arguments.form}: {error}") from error
@@ -59,7 +53,5 @@ def run(arguments: Namespace) -> int:
 
 def _print_bytes(data: bytes) -> None:
     """Print bytes on stdout, whatever encoding it has."""
-    import sys
-
     sys.stdout.flush()
     sys.stdout.buffer.write(data)

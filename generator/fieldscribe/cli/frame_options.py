@@ -71,25 +71,22 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     values = {name: getattr(arguments, name, None) for name in names}
     own = {name: value for name, value in values.items() if value is not None and value is not False}  # 0 is a value
     options = Options(**shared, own=own)
-    try:
-        refuse_foreign(device, options)
-    except UnclearError as error:
-        raise StopError(error.message, error.hint) from error
+    _refuse_foreign(device, options)
     return options
 
 
-def refuse_foreign(device: Device, options: Options) -> None:
-    """Refuse options that only other families take. Raises UnclearError."""
+def _refuse_foreign(device: Device, options: Options) -> None:
+    """Refuse options that only other families take. Raises StopError."""
     for name in _given(options):
         takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
         if device.family not in takers:
             flag = f"--{name.replace('_', '-')}"
             message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
-            raise UnclearError(message)
+            raise StopError(message)
     known = _framings(family(device.family))
     if options.framing is not None and options.framing not in known:
         message = f"--framing {options.framing} is not for {device.family} devices such as {device.id}"
-        raise UnclearError(message, f"it takes {', '.join(known)}")
+        raise StopError(message, f"it takes {', '.join(known)}")
 
 
 def _framings(bus_family: Family) -> tuple[str, ...]:

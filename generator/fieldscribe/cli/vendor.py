@@ -94,7 +94,7 @@ def run(arguments: Namespace) -> int:
 def deliver_all(
     orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool
 ) -> list[Delivery]:
-    """Deliver or compare the files of all orders. Raises StopError and UnclearError.
+    """Deliver or compare the files of all orders. Raises UnclearError.
 
     `missing` is the message for a missing library of an extra.
     """
@@ -103,7 +103,7 @@ def deliver_all(
     for order in orders:
         try:
             deliveries.append(_deliver(order, missing, check=check, force=force))
-        except (StopError, UnclearError):
+        except UnclearError:
             if deliveries:
                 print_deliveries(deliveries, form, check=check)  # report what is done already
             raise
@@ -161,7 +161,7 @@ def _orders_of_project(
     for wanted in project:
         try:
             orders.append(_order(arguments, wanted.request, wanted.device, wanted.out, inputs))
-        except (StopError, UnclearError) as error:
+        except UnclearError as error:
             if not error.message:
                 raise  # the findings of the description are printed already
             report.error("bad-project", error.message, wanted.place, error.hint or None)
@@ -169,7 +169,7 @@ def _orders_of_project(
 
 
 def _order(arguments: Namespace, request: CodeRequest, device: str, out: Path | None, inputs: Inputs) -> Order:
-    """Return an order, with its device loaded and its points checked. Raises StopError and UnclearError."""
+    """Return an order, with its device loaded and its points checked. Raises UnclearError."""
     if device is None or out is None:
         raise StopError(f"{'DEVICE' if device is None else '--out DIR'} is missing", f"as in {_USAGE}")
     if request.name is not None:

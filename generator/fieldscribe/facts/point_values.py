@@ -73,9 +73,9 @@ def place(place: Place) -> dict[str, object]:
 
 
 def raw(point: Point, _: Context) -> dict[str, object]:
-    """Return which raw numbers may be written; of f32 and f64 which values."""
+    """Return which raw numbers may be written; of f32, f64 and points of unknown scale which values."""
     allowed = point.allowed
-    if point.info.floating:
+    if point.info.floating or allowed.units:
         return {"ranges": [[number_text(low), number_text(high)] for low, high in allowed.units], "values": None}
     ranges = [
         [bound_of(interval.low, True, point), bound_of(interval.high, False, point)] for interval in allowed.intervals

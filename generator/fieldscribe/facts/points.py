@@ -415,7 +415,7 @@ POINT: FactTable = (
         record(
             {
                 "ranges": (
-                    "Closed ranges, ascending; for f32 and f64 in the unit.",
+                    "Closed ranges, ascending; for f32, f64 and unknown scales in the unit.",
                     list_of(list_of(ref("range_end"), 2, 2)),
                 ),
                 "values": (

@@ -44,6 +44,8 @@ class Ranges:
         type_range = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):
             if facts.layer(key) is not None:
+                if key == "range_in_units" and (values := self._values_alone(facts)):
+                    return Allowed(type_range.intervals, False, values)
                 ranged = self.intervals(facts, facts.get(key), facts.span(key), key == "range_in_units")
                 if ranged is None:
                     facts.failed.add("range")
@@ -52,6 +54,16 @@ class Ranges:
             numbers = [entry.raw for entry in enum.entries if least <= entry.raw <= greatest]
             return Allowed(_merged([(number, number) for number in numbers]), True, ()) if numbers else type_range
         return type_range
+
+    def _values_alone(self, facts: PointFacts) -> tuple[tuple[Fraction, Fraction], ...] | None:
+        """Return constant limits in the unit that have no raw numbers, as the scale is unknown; None for others."""
+        if facts.layer("scale") is None or facts.get("scale") is not None:
+            return None
+        try:
+            values = constant_range(as_text(facts.get("range_in_units")))
+        except FormulaError:
+            return None  # `intervals` reports it
+        return None if values is None or any(low > high for low, high in values) else tuple(sorted(values))
 
     def intervals(
         self, facts: PointFacts, raw: Any, span: Span, in_units: bool, *, printed: bool = False

@@ -228,7 +228,7 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
     """Return which values may be written, in the unit: `0..400 Hz`; empty if only raw numbers are known."""
     if _is_unbounded(point):
         return ""
-    if point.info.floating:
+    if point.info.floating or point.allowed.units:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
         text = " or ".join(ends)
         return (with_unit(text, point) if unit else text) if ends else "any number"
@@ -237,8 +237,8 @@ def range_text(point: Point, points: Points | None = None, *, unit: bool = True)
 
 
 def raw_range_text(point: Point, points: RenamedPoints | None = None) -> str:
-    """Return which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
-    nothing = point.info.floating or point.text is not None or _is_unbounded(point)
+    """Return which raw numbers may be written: `0..4000`; empty where the limits are values, as of f32 and f64."""
+    nothing = point.info.floating or point.allowed.units or point.text is not None or _is_unbounded(point)
     return "" if nothing else ranges_text(point, SAME, points, "")
 
 

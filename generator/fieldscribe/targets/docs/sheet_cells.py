@@ -111,8 +111,8 @@ def limits(point: Point, sheet: Sheet) -> tuple[str, ...]:
 
 def _ends_of(point: Point) -> tuple[str, str, str, str]:
     """Return the least and the greatest raw number and value; empty texts where there is none."""
-    if point.info.floating:
-        units = point.allowed.units
+    units = point.allowed.units
+    if point.info.floating or units:
         return "", "", *((decimal(number_text(units[0][0])), decimal(number_text(units[-1][1]))) if units else ("", ""))
     outer, line = _without_codes(point, wording.outer_raw(point)), _line_of(point)
     if outer is None or point.text is not None:
@@ -138,11 +138,11 @@ def _without_codes(point: Point, ends: tuple[int, int] | None) -> tuple[int, int
 def _range_of(point: Point, points: Mapping[str, Point]) -> str:
     """Return the limits as text if least and greatest are not all: other points, gaps, fractions."""
     allowed, line = point.allowed, _line_of(point)
-    parts = allowed.units if point.info.floating else allowed.intervals
+    parts = allowed.units or allowed.intervals
     unsaid = line is not None and bool(parts) and "" in _ends_of(point)[2:]
     if len(parts) <= 1 and not allowed.moves and not unsaid:
         return ""
-    text = wording.range_text(point, points) if line is not None else ""
+    text = wording.range_text(point, points) if line is not None or allowed.units else ""
     raw = "" if text else wording.raw_range_text(point)
     return f"only {text}" if text else f"only raw {raw}" if raw else ""
 
