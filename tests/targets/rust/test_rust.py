@@ -159,8 +159,9 @@ def test_numbers_of_several_bits_are_shown_by_name() -> None:
 
 
 def test_a_step_is_information() -> None:
-    points = [subject.point for subject in scope_of(kitchen_sink()).subjects]
-    docs = {one.item: PointDoc(one, ()).of(one.item, "", 0, "") for one in points}
+    scope = scope_of(kitchen_sink())
+    points = [subject.point for subject in scope.subjects]
+    docs = {one.item: PointDoc(one, scope.lowered).of(one.item, "", 0, "") for one in points}
     stepped = {one.item for one in points if one.steps}
     assert stepped == {
         item for item, doc in docs.items() if "(for information, not checked)" in " ".join(doc.split("\n    /// "))

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
-from fieldscribe.targets.placeholders import TextTemplate, placeholders
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Hashable, Iterable, Iterator
 
     from fieldscribe.model import Device
     from fieldscribe.targets.rust.conformance_rows import Spot
@@ -65,34 +66,35 @@ def conformance_tables(scope: CrateScope, device: Device) -> tuple[Table, ...]:
 def _rows(scope: CrateScope) -> Rows:
     """Return all rows of all points, each in its table."""
     rows: Rows = {}
-    plans: dict[object, _RowTemplates] = {}
+    tables_of: dict[Hashable, dict[Tokens, list[list[str]]]] = {}
+    texts = TextTemplates()
     for subject in scope.subjects:
-        enum = subject.shape.enum
+        enum = subject.enum
         fields = (subject.item, subject.name, "" if enum is None else type_name(enum.name))
-        whole = subject.key, *map(len, fields)
-        plan = plans.get(whole)
-        if plan is None:
-            plan = plans[whole] = _laid_out(subject, fields, scope, rows)
-        for appends, text in zip(plan.appends, plan.template.fill(fields).split(END), strict=True):
-            for append in appends:
-                append(text)
+        key = subject.key, *map(len, fields)
+        tables = tables_of.get(key)
+        if tables is None:
+            tables = tables_of[key] = _tables_by_row(subject, fields, scope, rows)
+        text = texts.fill(key, fields, partial(_text_of, tables))
+        for row, tables_of_row in zip(text.split(END), tables.values(), strict=True):
+            for table in tables_of_row:
+                table.append(row)
     return rows
 
 
-class _RowTemplates(NamedTuple):
-    """The different rows of points, and where each is appended."""
-
-    appends: list[list[Callable[[str], None]]]
-    template: TextTemplate
-
-
-def _laid_out(subject: CratePoint, fields: Iterable[str], scope: CrateScope, rows: Rows) -> _RowTemplates:
+def _tables_by_row(
+    subject: CratePoint, fields: Iterable[str], scope: CrateScope, rows: Rows
+) -> dict[Tokens, list[list[str]]]:
+    """Return the different rows of a point, with placeholders, and the tables of `rows` to which each belongs."""
     item, name, enum = placeholders(fields)
-    tables: dict[Tokens, list[Spot]] = {}
+    tables: dict[Tokens, list[list[str]]] = {}
     for spot, row in rows_of(subject.renamed(item, name), enum, scope):
-        tables.setdefault(row, []).append(spot)
-    appends = [[rows.setdefault(spot, []).append for spot in spots] for spots in tables.values()]
-    return _RowTemplates(appends, TextTemplate(END.join(map(row_text, tables))))
+        tables.setdefault(row, []).append(rows.setdefault(spot, []))
+    return tables
+
+
+def _text_of(rows: Iterable[Tokens]) -> str:
+    return END.join(map(row_text, rows))
 
 
 def _protocol(device: Device) -> Iterator[Table]:

@@ -35,7 +35,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield from _CONVERSIONS.get(subject.form, _whole)(subject)
     if enum:
         name = Spot("name", part=1 if subject.form == "digits" else 0)
-        yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.shape.carried)))
+        yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.carried)))
     alone = row_of(subject, ("(alone)",))
     for table, holds in (
         ("special", point.specials),
@@ -76,7 +76,7 @@ def _scaled(subject: CratePoint) -> Iterator[Row]:
 def _whole(subject: CratePoint) -> Iterator[Row]:
     """Yield the rows of a point whose raw number is its value, or the number of a name."""
     point = subject.point
-    mixed = subject.shape.carried != subject.raw
+    mixed = subject.carried != subject.raw
     how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
     if point.readable:
         yield Spot(f"decode_{how}"), _read(subject)
@@ -99,7 +99,7 @@ def _float(subject: CratePoint) -> Iterator[Row]:
 def _digits(subject: CratePoint) -> Iterator[Row]:
     point, digits = subject.point, subject.point.digits
     coded = "_coded" if point.specials else ""
-    how = bracketed(("digits", str(digits.count if digits is not None else 0), subject.shape.carried))
+    how = bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
     if point.readable:
         yield Spot(f"digits{coded}"), row_of(subject, how)
     if point.writable:

@@ -184,7 +184,7 @@ def _takes_a_value(subject: CratePoint) -> bool:
 def _inside(subject: CratePoint) -> str:
     """Return a modest value that the point takes, a tenth of the way up: people run first programs on real machines."""
     low, high = subject.point.outer
-    rule = subject.shape.rule
+    rule = subject.rule
     if rule is None:
         return "1.0"
     least = max(low, 0) if high > 0 else low

@@ -14,16 +14,17 @@ from fieldscribe.wording import (
     address_text,
     codes_text,
     condition_text,
+    count_text,
     display_text,
     resolution_text,
     scale_text,
     width_texts,
-    with_unit,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
+    from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Point
 
 _WIDTH = 104
@@ -37,16 +38,13 @@ def sentence(name: str) -> str:
 
 
 class PointDoc:
-    """The doc comment of points with the same template: all but the name, code, address and range follow from it.
+    """The doc comment of points with the same template: all but the name, code, address and range follow from it."""
 
-    `errata` are those that may be named.
-    """
-
-    def __init__(self, point: Point, errata: Collection[str]) -> None:
+    def __init__(self, point: Point, lowered: Lowered) -> None:
         self._before, self._behind = _around_address(point)
         self._type, self._facts = f"`{point.type}`", tuple(_facts(point))
         self._size = _size(point)
-        self._tail = "".join(f"    ///\n{_comment(paragraph)}" for paragraph in _paragraphs(point, errata))
+        self._tail = "".join(f"    ///\n{_comment(paragraph)}" for paragraph in _paragraphs(point, lowered))
 
     def of(self, item: str, code: str, address: int, limits: str) -> str:
         """Return the lines of a point's doc comment; `code` and `limits` are ready for Markdown."""
@@ -63,12 +61,11 @@ def _comment(paragraph: str) -> str:
     return "".join(f"    /// {line}\n" for line in wrapped(paragraph))
 
 
-def _paragraphs(point: Point, errata: Collection[str]) -> Iterator[str]:
+def _paragraphs(point: Point, lowered: Lowered) -> Iterator[str]:
     """Yield the special codes of a point, and its errata."""
     if point.specials:
         yield f"{codes_text(point, '`')}."
-    named = [f"`{name}`" for name in point.errata if name in errata]
-    if named:
+    if named := [f"`{name}`" for name in lowered.errata_of(point)]:
         yield f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}."
 
 
@@ -105,12 +102,8 @@ def _whereabouts(point: Point) -> Iterator[str]:
     if point.code:
         yield rust_code(point.code)
     if point.addresses:
-        yield _place(point, address_text(min(point.addresses)))
-
-
-def _place(point: Point, address: str) -> str:
-    before, behind = _around_address(point)
-    return f"{before} {address}{behind}"
+        before, behind = _around_address(point)
+        yield f"{before} {address_text(min(point.addresses))}{behind}"
 
 
 def _around_address(point: Point) -> tuple[str, str]:
@@ -146,7 +139,7 @@ def _resolution(point: Point) -> Iterator[str]:
     """Yield the unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
-    resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
+    resolution, scale, count = resolution_text(point), scale_text(point), count_text(point)
     if resolution and resolution != count:
         yield f"steps of {rust_code(resolution)}{' (for information, not checked)' if point.steps else ''}"
     elif scale and not resolution:
@@ -154,10 +147,3 @@ def _resolution(point: Point) -> Iterator[str]:
     if count:
         yield f"one count is {rust_code(count)}"
     yield from width_texts(point)
-
-
-def _count(point: Point) -> str:
-    """Return the unit of one count of a scaled point; empty if it has no counts."""
-    if point.form != "scaled" or point.decimals is None:
-        return ""
-    return with_unit(f"0.{'1':0>{point.decimals}}" if point.decimals else "1", point)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.placeholders import TextTemplate, placeholders
+from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
@@ -48,26 +50,23 @@ class EnumItem:
 
 @dataclass(frozen=True, slots=True)
 class FlagView:
-    """A flag: its mask, its getter and setter, its named numbers (doc, constant).
+    """A flag: the constant of its mask, its getter and setter, its named numbers (doc, constant).
 
-    `active` says that a single bit is 1 while the flag is true; `meaning` is what its name alone does not say.
+    `single` says that it is one bit, `inverted` that this bit is 0 while the flag is true. `meaning` is what its name
+    alone does not say.
     """
 
     name: str
     doc: str
     meaning: str
-    active: bool
-    constant: str
-    constant_lines: tuple[str, ...]
-    getter: str
-    setter: tuple[str, ...]
-    mask: str
     single: bool
+    inverted: bool
+    mask: str
+    constant: tuple[str, ...]
+    getter: str
     read: tuple[str, ...]
-    full: bool
-    placed: str
-    when_true: str
-    when_false: str
+    setter: tuple[str, ...]
+    changed: tuple[str, ...]
     values: tuple[tuple[str, tuple[str, ...]], ...]
 
 
@@ -89,21 +88,21 @@ class FlagsView:
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
     """Return the enums that generated points use, in the device's order, and whether one of them has many names."""
-    patterns: dict[object, tuple[TextTemplate, bool]] = {}
-    texts, long = [], False
+    templates, texts, long = TextTemplates(), list[str](), list[bool]()
+
+    def lay_out(enum: Enum, raw: str, words: tuple[str, str]) -> str:
+        view = _enum(enum, raw, *placeholders(words))
+        long.append(_is_long(view))
+        return render("rust/enum.rs.j2", {"enum": view})
+
     for enum in device.enums:
         raw = scope.enums.get(enum.name)
-        if raw is None:
-            continue
-        words = (type_name(enum.name), sentence(enum.name))
-        key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
-        known = patterns.get(key)
-        if known is None:
-            view = _enum(enum, raw, *placeholders(words))
-            known = patterns[key] = TextTemplate(render("rust/enum.rs.j2", {"enum": view})), _is_long(view)
-        texts.append(known[0].fill(words) + old_names_text(words[0], enum.was, render))
-        long |= known[1]
-    return "".join(texts), long
+        if raw is not None:
+            words = (type_name(enum.name), sentence(enum.name))
+            key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
+            text = templates.fill(key, words, partial(lay_out, enum, raw, words))
+            texts.append(text + old_names_text(words[0], enum.was, render))
+    return "".join(texts), any(long)
 
 
 def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
@@ -142,16 +141,16 @@ def constant_name(flag: Flag) -> str:
 
 def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     """Yield the words with named bits."""
-    patterns: dict[object, TextTemplate] = {}
+    templates = TextTemplates()
+
+    def lay_out(subject: CratePoint, words: tuple[str, str]) -> str:
+        return render("rust/word.rs.j2", {"word": _word(subject, *placeholders(words))})
+
     for subject in scope.subjects:
         if subject.form == "flags":
             words = (subject.name, sentence(subject.item))
-            key = (subject.key, len(subject.name))
-            pattern = patterns.get(key)
-            if pattern is None:
-                view = _word(subject, *placeholders(words))
-                pattern = patterns[key] = TextTemplate(render("rust/word.rs.j2", {"word": view}))
-            yield pattern.fill(words) + old_names_text(subject.name, subject.point.old_items, render)
+            text = templates.fill((subject.key, len(subject.name)), words, partial(lay_out, subject, words))
+            yield text + old_names_text(subject.name, subject.point.old_items, render)
 
 
 def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
@@ -174,12 +173,11 @@ def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, .
     item = Item("const FLAGS", "&'static [runtime::Flag]")
     names, printed = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
-        if view.values:
-            names += _names(f"NAMES_{place}", flag)
-            printed.append(("runtime::Flag::named", (view.name, view.mask, f"NAMES_{place}")))
-        else:
-            made = "new" if view.active or not view.single else "active_low"
-            printed.append((f"runtime::Flag::{made}", (view.name, view.mask)))
+        named = (f"NAMES_{place}",) if view.values else ()
+        if named:
+            names += _names(named[0], flag)
+        made = "named" if named else "active_low" if view.inverted else "new"
+        printed.append((f"runtime::Flag::{made}", (view.name, view.mask, *named)))
     if not names:
         return calls(4, item, printed)
     return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, printed))), "};"
@@ -205,37 +203,44 @@ def _entry(entry: Entry, enum: str) -> EntryView:
 
 
 def _flag(flag: Flag, width: int) -> FlagView:
-    raw, ones = f"u{width}", (1 << flag.width) - 1
-    bits = mask(ones << flag.low, raw)
-    single = flag.width == 1
-    constant = constant_name(flag)
-    full = ones << flag.low == (1 << width) - 1
-    masked = "self.0" if full else f"self.0 & Self::{constant}"
-    number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
-    placed = "number" if flag.low == 0 else f"(number << {flag.low})"
-    parameter = "state: bool" if single else f"number: {raw}"
-    states = (f"self.0 & !Self::{constant}", f"self.0 | Self::{constant}")
+    raw, single, constant = f"u{width}", flag.width == 1, constant_name(flag)
+    bits = mask_of(flag.width, flag.low)
+    masked = "self.0" if bits == mask_of(width) else f"self.0 & Self::{constant}"
+    values = []
+    for value in () if single else flag.values:
+        item = Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw)
+        values.append((sentence(value.name), binding(4, item, integer(value.raw))))
     return FlagView(
         name=rust_string(flag.name),
         doc=sentence(flag.name),
         meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
-        active=bool(flag.active),
-        constant=constant,
-        constant_lines=binding(4, Item(f"pub const {constant}", raw), bits),
-        getter=getter_name(flag.name),
-        setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
-        mask=bits,
         single=single,
-        read=comparison(8, masked, "!= 0" if flag.active else "== 0") if single else (number,),
-        full=full,
-        placed=placed,
-        when_true=states[flag.active],
-        when_false=states[1 - flag.active],
-        values=tuple(
-            (
-                sentence(value.name),
-                binding(4, Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw), integer(value.raw)),
-            )
-            for value in (() if single else flag.values)
+        inverted=single and not flag.active,
+        mask=mask(bits, raw),
+        constant=binding(4, Item(f"pub const {constant}", raw), mask(bits, raw)),
+        getter=getter_name(flag.name),
+        read=_read(flag, masked),
+        setter=signature(
+            4, f"pub const fn with_{flag.name}", ("self", "state: bool" if single else f"number: {raw}"), "Self"
         ),
+        changed=_changed(flag, constant, whole=bits == mask_of(width)),
+        values=tuple(values),
     )
+
+
+def _read(flag: Flag, masked: str) -> tuple[str, ...]:
+    """Return the lines that get a flag from the masked word."""
+    if flag.width == 1:
+        return comparison(8, masked, "!= 0" if flag.active else "== 0")
+    return (masked if flag.low == 0 else f"({masked}) >> {flag.low}",)
+
+
+def _changed(flag: Flag, constant: str, *, whole: bool) -> tuple[str, ...]:
+    """Return the lines that give the word with another `state` or `number` of a flag; `whole`: it has all bits."""
+    if flag.width == 1:
+        states = (f"Self(self.0 & !Self::{constant})", f"Self(self.0 | Self::{constant})")
+        return "if state {", f"    {states[flag.active]}", "} else {", f"    {states[1 - flag.active]}", "}"
+    if whole:
+        return ("Self(number)",)
+    placed = "number" if flag.low == 0 else f"(number << {flag.low})"
+    return f"let mask = Self::{constant};", f"Self((self.0 & !mask) | ({placed} & mask))"

@@ -44,7 +44,7 @@ def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
     facts += [f"with {subject.with_type};"] if subject.arguments else []
-    facts += ["closed true;"] if subject.shape.closed else []
+    facts += ["closed true;"] if subject.enum is not None and subject.enum.closed else []
     tail = () if subject.point.encodes_values else ("values none;",)
     allowed = _allowed(subject, scope)
     others = (*_write_place(subject.point, scope), *tail)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask
-from fieldscribe.targets.placeholders import TextTemplate, placeholders
+from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.documentation import PointDoc
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.families import in_rust, space_variant
@@ -29,16 +28,6 @@ _UNLIMITED = ("float", "text", "digits")
 """The forms of points whose limits are no raw numbers."""
 
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
-
-
-@dataclass(frozen=True, slots=True)
-class MacroView:
-    """One point: its doc comment, the manual's code to search for (or empty), and its facts."""
-
-    doc: str
-    alias: str
-    name: str
-    facts: tuple[str, ...]
 
 
 class MacroFields(NamedTuple):
@@ -82,7 +71,7 @@ class _PointTemplates:
     def __init__(self, scope: CrateScope, render: Render) -> None:
         self._scope, self._render = scope, render
         self._traits = in_rust(scope.family).traits
-        self._templates: dict[object, TextTemplate] = {}
+        self._templates = TextTemplates()
         self._limits: dict[tuple[int, int], LimitLiterals] = {}
         self._docs: dict[int, PointDoc] = {}
         self.names_runtime = False
@@ -91,16 +80,16 @@ class _PointTemplates:
         """Return the text of a point."""
         fields, traits = self._fields(subject), tuple(self._traits(subject, self._scope))
         whole = subject.key, traits, fields.alias == "", fields.low == ""
-        template = self._templates.get(whole)
-        if template is None:
-            template = self._templates[whole] = self._laid_out(subject, MacroFields._make(placeholders(fields)), traits)
-        return template.fill(fields)
+        return self._templates.fill(
+            whole, fields, lambda: self._laid_out(subject, MacroFields._make(placeholders(fields)), traits)
+        )
 
     def _fields(self, subject: CratePoint) -> MacroFields:
-        point, item, name, shape, _, key = subject
+        point, item, name, _, _, key = subject
+        enum = subject.enum
         doc = self._docs.get(key)
         if doc is None:
-            doc = self._docs[key] = PointDoc(point, self._scope.errata)
+            doc = self._docs[key] = PointDoc(point, self._scope.lowered)
         limits = self._limits.get((key, id(point.allowed)))
         if limits is None:
             limits = self._limits[key, id(point.allowed)] = _limits_of(subject)
@@ -111,7 +100,7 @@ class _PointTemplates:
             doc.of(item, code and rust_code(code), address, limits.text),
             item,
             name,
-            "" if shape.enum is None else type_name(shape.enum.name),
+            "" if enum is None else type_name(enum.name),
             literal,
             literal if code != name and _ALIAS.fullmatch(code) else "",
             f"0x{address:04X}",
@@ -121,12 +110,11 @@ class _PointTemplates:
             _references(point.place.references),
         )
 
-    def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...]) -> TextTemplate:
+    def _laid_out(self, subject: CratePoint, fields: MacroFields, traits: tuple[str, ...]) -> str:
         self.names_runtime |= bool(traits) or _names_runtime(subject)
         facts = (*_facts(subject.renamed(fields.item, fields.name), fields, self._scope), *traits)
-        view = MacroView(fields.doc, fields.alias, fields.name, facts)
-        old_names = old_names_text(fields.name, subject.point.old_items, self._render)
-        return TextTemplate(self._render("rust/point.rs.j2", {"point": view}) + old_names)
+        text = self._render("rust/point.rs.j2", {"doc": fields.doc, "alias": fields.alias, "facts": facts})
+        return text + old_names_text(fields.name, subject.point.old_items, self._render)
 
 
 def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:

@@ -5,48 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.lowered import lower
+from fieldscribe.lowered import lower, named_numbers
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.lowered import Lowered
     from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CrateShape:
-    """What Rust knows of all points of a shape; `rule` is their scale if that depends on no other point.
-
-    `enum` is that of their values or digits.
-    """
-
-    form: str
-    raw: str
-    factors: tuple[str, ...]
-    rule: Linear | None
-    enum: Enum | None
-    carried: str
-    """The raw type of its enum, which is wider than its own if points of several types share the enum."""
-
-    @property
-    def closed(self) -> bool:
-        """True if only the enum's own numbers may be written."""
-        return self.enum is not None and self.enum.closed
-
-
 class CratePoint(NamedTuple):
-    """A generated point: its name in the description and in Rust, and what Rust knows of its shape.
+    """A generated point: its name in the description and in Rust, and the type of its raw number.
 
-    `arguments` are the points whose raw numbers writing needs, `key` is its template key.
+    `carried` is the raw type of its enum: wider than its own if points of several types share the enum. `key` is its
+    template key.
     """
 
     point: Point
     item: str
     name: str
-    shape: CrateShape
-    arguments: tuple[str, ...]
+    raw: str
+    carried: str
     key: int
 
     def renamed(self, item: str, name: str) -> CratePoint:
@@ -56,17 +36,27 @@ class CratePoint(NamedTuple):
     @property
     def form(self) -> str:
         """What a user sees, as the model says."""
-        return self.shape.form
+        return self.point.shape.form
 
     @property
-    def raw(self) -> str:
-        """The type of its raw number."""
-        return self.shape.raw
+    def rule(self) -> Linear | None:
+        """The rule of a scale that depends on no other point."""
+        return self.point.shape.fixed_scale
+
+    @property
+    def enum(self) -> Enum | None:
+        """The enum of its values, or of its digits."""
+        return named_numbers(self.point.shape)
 
     @property
     def factors(self) -> tuple[str, ...]:
         """The points whose raw numbers the scale needs."""
-        return self.shape.factors
+        return self.point.shape.scale_arguments
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The points whose raw numbers writing needs."""
+        return self.point.arguments
 
     @property
     def with_type(self) -> str:
@@ -93,8 +83,7 @@ class CratePoint(NamedTuple):
 class CrateScope:
     """What the points of a device share: the lowered model, the raw types of enums by name, functions.
 
-    The telegrams are by name, with the messages that carry them. The errata are
-    those that change a fact.
+    The telegrams are by name, with the messages that carry them.
     """
 
     lowered: Lowered
@@ -103,7 +92,6 @@ class CrateScope:
     subjects: tuple[CratePoint, ...]
     family: str
     telegrams: Mapping[str, tuple[Telegram, Message | None]]
-    errata: frozenset[str]
 
 
 def scope_of(device: Device) -> CrateScope:
@@ -112,48 +100,37 @@ def scope_of(device: Device) -> CrateScope:
     shapes = {id(point.shape): point.shape for point in generated}
     enums = _enum_types(shapes.values())
     messages = {message.name: message for message in device.messages}
-    lowered, crate_shapes = lower(device), {key: _shape(shape, enums) for key, shape in shapes.items()}
+    lowered, types = lower(device), {key: _types_of(shape, enums) for key, shape in shapes.items()}
+    keys = lowered.template_keys
+    named = [(point, point.item) for point in generated]
     return CrateScope(
         lowered,
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple(_subjects(generated, crate_shapes, lowered.template_keys)),
+        tuple(
+            [
+                CratePoint(point, item, type_name(item), *types[id(point.shape)], keys[id(point)])
+                for point, item in named
+            ]
+        ),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
-        frozenset(erratum.id for erratum in device.errata if erratum.facts),
     )
-
-
-def _subjects(
-    points: Iterable[Point], shapes: Mapping[int, CrateShape], keys: Mapping[int, int]
-) -> Iterator[CratePoint]:
-    for point in points:
-        shape, item = shapes[id(point.shape)], point.item
-        arguments = point.arguments if shape.factors or point.allowed.arguments else ()
-        yield CratePoint(point, item, type_name(item), shape, arguments, keys[id(point)])
 
 
 def _enum_types(shapes: Iterable[Shape]) -> dict[str, str]:
     """Return the raw type that each enum carries: that of its points, or one that holds the numbers of all."""
     enums: dict[str, str] = {}
     for shape in shapes:
-        enum = _enum(shape)
+        enum, raw = named_numbers(shape), raw_type(shape)
         if enum is not None:
-            raw = "u16" if shape.form == "digits" else raw_type(shape)
             known = enums.setdefault(enum.name, raw)
             if known != raw:
                 enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
     return enums
 
 
-def _shape(shape: Shape, enums: Mapping[str, str]) -> CrateShape:
-    enum, raw = _enum(shape), raw_type(shape)
-    carried = raw if enum is None else enums[enum.name]
-    return CrateShape(shape.form, raw, shape.scale_arguments, shape.fixed_scale, enum, carried)
-
-
-def _enum(shape: Shape) -> Enum | None:
-    """Return the enum of the values of points, or of their digits."""
-    if shape.digits is not None and shape.form == "digits":
-        return shape.digits.enum
-    return shape.enum if shape.form == "enum" else None
+def _types_of(shape: Shape, enums: Mapping[str, str]) -> tuple[str, str]:
+    """Return the type of raw numbers, and that of the enum of the values."""
+    enum, raw = named_numbers(shape), raw_type(shape)
+    return raw, raw if enum is None else enums[enum.name]

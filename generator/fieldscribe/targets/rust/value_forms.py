@@ -29,7 +29,7 @@ _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, ...]:
     """Return the fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
-    if subject.form == "scaled" and subject.shape.rule is None:
+    if subject.form == "scaled" and subject.rule is None:
         return _ruled(subject, scope, kind)
     form, facts = _form(subject)
     kind += "_or_error" if form == "wide" else ""
@@ -58,24 +58,22 @@ def count_type(subject: CratePoint) -> str:
         return _COUNTS.get(subject.raw, "i32")
     if point.decimals is None:
         return ""
-    return (
-        "i64" if subject.shape.rule is None else f"i{min(64, _width(subject.shape.rule, point.decimals, subject.raw))}"
-    )
+    return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:
     """Return the form of a point whose scale, if any, depends on no other point, with the facts of the form."""
     point = subject.point
-    if subject.shape.rule is not None:
-        numbers = [subject.shape.rule.ratio, *([subject.shape.rule.offset] if subject.shape.rule.offset else ())]
+    if subject.rule is not None:
+        numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
         facts = ", ".join(f"{integer(number.numerator)}, {integer(number.denominator)}" for number in numbers)
-        wide = point.decimals is not None and _width(subject.shape.rule, point.decimals, subject.raw) > 64
+        wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
         return "wide" if wide else "scaled", facts
-    if subject.form == "digits" and subject.shape.enum is not None:
-        numbers_of = sorted({entry.raw for entry in subject.shape.enum.entries if 0 <= entry.raw <= 0xFFFF})
-        return "digits", f"{subject.shape.carried}, [{', '.join(map(integer, numbers_of))}]"
-    if subject.shape.enum is not None:
-        return "named", subject.shape.carried
+    if subject.form == "digits" and subject.enum is not None:
+        numbers_of = sorted({entry.raw for entry in subject.enum.entries if 0 <= entry.raw <= 0xFFFF})
+        return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
+    if subject.enum is not None:
+        return "named", subject.carried
     return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
 
 
