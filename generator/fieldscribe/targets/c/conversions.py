@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, called, function
-from fieldscribe.targets.c.limits import check, either, known, refused
-from fieldscribe.targets.c.literals import VALUE_BOUNDS, bare, float_order, raw_kind, sign_and_size, unsigned
-from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
+from fieldscribe.targets.c.limits import check, known, refused
+from fieldscribe.targets.c.literals import VALUE_BOUNDS, bare, raw_kind, sign_and_size, unsigned
+from fieldscribe.targets.c.special_codes import codes_first, encoded_limits
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
 if TYPE_CHECKING:
@@ -28,7 +28,13 @@ def value_type(point: Point) -> str:
 
 def is_rechecked(point: Point) -> bool:
     """Return True if a number between the outer limits may still be refused."""
-    return len(point.allowed.intervals) > 1 or point.allowed.moves or fixes(point) or bool(point.specials)
+    return (
+        point.info.floating
+        or len(point.allowed.intervals) > 1
+        or point.allowed.moves
+        or fixes(point)
+        or bool(point.specials)
+    )
 
 
 class Writer:
@@ -82,11 +88,13 @@ class Writer:
             body = f"return {number};"
             return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body, floating=floating)
         to = "count" if tail == "decode_count" else "value"
-        keep = f"fieldscribe_keep_{_KEPT[kind]}({no_code(self.special)}, {number}, {to})"
-        if fits:
-            keep = f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW"
-            keep = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {keep}" if self.special is not None else keep
+        keep = f"fieldscribe_keep_{_KEPT[kind]}({self._unless_code('FIELDSCRIBE_OK')}, {number}, {to})"
+        keep = self._unless_code(f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW") if fits else keep
         return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};", floating=floating)
+
+    def _unless_code(self, status: str) -> str:
+        """Return the status of decoding `raw`: of a special code that it is one."""
+        return status if self.special is None else f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {status}"
 
     # ---- points whose raw number is the value
 
@@ -94,7 +102,6 @@ class Writer:
         """Yield the functions of a point whose raw number is the value."""
         point, kind = self.point, value_type(self.point)
         if point.writable:
-            yield self.check()
             yield self._encode("encode", f"{kind} value", self._plain_body(kind))
         if point.readable:
             number = "raw" if self.special is None or self.type != "bool" else "raw ? 1 : 0"
@@ -105,10 +112,9 @@ class Writer:
         literal = unsigned if kind == "uint64_t" else bare
         low, high = point.held if fixes(point) else encoded_limits(point)
         if not is_rechecked(point):
-            ends = (
-                f"{unsigned(low)}, {unsigned(high)}" if kind == "uint64_t" else f"{self.fields.low}, {self.fields.high}"
-            )
-            return f"return {known(point, f'fieldscribe_encode_{self.kind}(value, {ends}, raw)')};"
+            ends = (literal(low), literal(high)) if kind == "uint64_t" else (self.fields.low, self.fields.high)
+            status = called(f"fieldscribe_encode_{self.kind}", "value", *ends, "raw")
+            return f"return {known(point, status)};"
         self.scope.takes(point.arguments)
         number = fixed_number(point, "value") if fixes(point) else self._of_value(kind)
         within = {"int32_t": "within", "int64_t": "within_wide", "uint64_t": "within_u64"}[kind]
@@ -126,8 +132,6 @@ class Writer:
         assert scale is not None
         counts = point.decimals is not None
         real = "double" if scale.wide else "fieldscribe_real"
-        if point.writable:
-            yield self.check()
         if point.writable and counts:
             self.scope.takes(point.arguments)
             if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == point.outer:
@@ -165,8 +169,6 @@ class Writer:
     def ruled(self) -> Iterator[Function]:
         """Yield the functions of a point whose scale depends on other points."""
         point = self.point
-        if point.writable:
-            yield self.check()
         if self.rule is not None and self.rule.text:
             yield Function(self.rule.name, self.rule.text)
         tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
@@ -207,9 +209,7 @@ class Writer:
                 rule = f"fieldscribe_rule_if({rule}, {fits})"
             else:
                 rule = f"fieldscribe_rule_within({rule}, (int64_t)raw, {bare(-point.most_raw)}, {literal})"
-        body = core.format(rule)
-        if self.special is not None:
-            body = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {body}"
+        body = self._unless_code(core.format(rule))
         parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
         return function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};", floating=floating)
 
@@ -220,24 +220,10 @@ class Writer:
         point, bits = self.point, self.point.info.bits
         real = "fieldscribe_real" if bits == 32 else "double"
         if point.writable:
-            status = codes_first(point, self.special, _spans(point))
-            yield function(STATUS, f"{self.name}_check", (f"{self.type} raw",), f"return {status};")
-            number = "(uint32_t)whole.number" if bits == 32 else "(uint64_t)whole.number"
-            status = f"fieldscribe_both(whole.status, {self._checked(number)})"
-            whole = f"const fieldscribe_whole whole = fieldscribe_bits_of_f{bits}(value);"
-            store = f"return fieldscribe_keep_u{bits}({status}, {number}, raw);"
-            yield self._encode("encode", f"{real} value", whole, store, floating=True)
+            body = self._whole(f"fieldscribe_bits_of_f{bits}(value)")
+            yield self._encode("encode", f"{real} value", *body, floating=True)
         if point.readable:
             yield self._decode("decode", real, f"fieldscribe_f{bits}_of_bits(raw)", floating=True)
-
-
-def _spans(point: Point) -> str:
-    """Return the status of writing a bit pattern: whether its number lies in one of the point's intervals."""
-    bits = point.info.bits
-    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
-    spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
-    spans = spans or [(1 - infinity, infinity - 1)]
-    return either([f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})" for low, high in spans])
 
 
 _KEPT = {

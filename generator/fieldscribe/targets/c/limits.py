@@ -6,9 +6,9 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
-from fieldscribe.model import Bound, Interval, Limit, Point
+from fieldscribe.model import Bound, Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
-from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
+from fieldscribe.targets.c.literals import bare, float_order, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import RuleView
 
 if TYPE_CHECKING:
@@ -34,13 +34,32 @@ def refused(point: Point) -> str:
 
 
 def check(point: Point, fields: PointFields, scope: HeaderScope) -> str:
-    """Return the status of writing `raw`, an integer that is no special code."""
+    """Return the status of writing `raw`, which is no special code."""
+    if point.info.floating:
+        return _check_of_pattern(point)
+    if point.digits is not None:
+        return f"fieldscribe_check_digits(raw, {digits_arguments(point.digits, scope)})"
     status = known(point, _status(point, fields, scope))
     if point.fixed is None or point.bits is not None:
         return status
     bits = f"uint{max(32, point.info.bits)}_t"
     mask, constant = (hexadecimal(number, point.info.bits >> 2) for number in (point.fixed.mask, point.fixed.bits))
     return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
+
+
+def digits_arguments(digits: Digits, scope: HeaderScope) -> str:
+    """Return the number of digits and their names, as the runtime takes them."""
+    names = f"{scope.prefix}_{digits.enum.name}_names"
+    return f"{digits.count}U, {names}, FIELDSCRIBE_COUNT({names})"
+
+
+def _check_of_pattern(point: Point) -> str:
+    """Return the status of writing a bit pattern: whether its number lies in one of the point's intervals."""
+    bits = point.info.bits
+    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
+    spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
+    spans = spans or [(1 - infinity, infinity - 1)]
+    return either([f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})" for low, high in spans])
 
 
 def _checked(point: Point, fields: PointFields, low: int, high: int) -> str:

@@ -73,6 +73,8 @@ def shape_of(point: Point) -> str:
 def functions_of(view: PointView, scope: HeaderScope) -> Iterator[Function]:
     """Yield all functions of a point."""
     point, name, writer = view.point, view.function, Writer(view, scope)
+    if point.writable and view.shape != "text":
+        yield writer.check()
     if view.shape == "text":
         yield from text_functions(point, name)
     elif view.shape == "digits":

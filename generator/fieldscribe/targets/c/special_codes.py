@@ -50,11 +50,6 @@ def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
     return f"{writable} ? FIELDSCRIBE_OK : ({check})"
 
 
-def no_code(special: SpecialView | None) -> str:
-    """Return the status of decoding a raw number: whether it is a special code."""
-    return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
-
-
 def owner(point: Point, fields: PointFields) -> str:
     """Return the name that prefixes the codes of a point: its own, or that of the shared codes."""
     return point.shared_codes or fields.item

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
+from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
-from fieldscribe.targets.c.special_codes import codes_first
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,13 +34,9 @@ def text_functions(point: Point, name: str) -> Iterator[Function]:
 def digits_functions(point: Point, name: str, special: SpecialView | None, scope: HeaderScope) -> Iterator[Function]:
     """Yield the conversions of digits."""
     assert point.digits is not None
-    count = point.digits.count
-    names = f"{scope.prefix}_{point.digits.enum.name}_names"
-    known = f"{count}U, {names}, FIELDSCRIBE_COUNT({names})"
+    count, known = point.digits.count, digits_arguments(point.digits, scope)
     digits = f"uint16_t digits[{count}]"
     if point.writable:
-        check = codes_first(point, special, f"fieldscribe_check_digits(raw, {known})")
-        yield function(STATUS, f"{name}_check", ("uint16_t raw",), f"return {check};")
         whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"
         status = "whole.status"
         if special is not None:
