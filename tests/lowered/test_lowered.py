@@ -158,7 +158,7 @@ def test_an_operand_knows_its_point() -> None:
     lowered = lower(sample_device(needed))
     made = lowered.rule(rule)
     power, divisor, number = made.operands
-    assert [operand.point for operand in made.steps] == ["factor", "number", "exponent"]
+    assert [operand.factor.point for operand in made.steps] == ["factor", "number", "exponent"]
     assert (power.exponents, power.held) == ((-4, 4), (-128, 127))
     assert (divisor.ends, divisor.over, divisor.largest, divisor.exponents) == ((-509, 1), True, 509, None)
     assert made.coded == (("factor", (9, 9)), ("factor", (3, 4)))

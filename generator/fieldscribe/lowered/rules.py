@@ -28,11 +28,7 @@ class Operand:
     value, a mantissa of 24 bits times a power of two; any other is raw * slope + intercept, which lies between `ends`.
     """
 
-    point: str
-    slope: int
-    intercept: int
-    power: int
-    ten_to: bool
+    factor: Factor
     floating: bool
     held: Band
     exponents: Band | None
@@ -47,7 +43,7 @@ class Operand:
     @property
     def over(self) -> bool:
         """Whether the rule divides by the operand."""
-        return self.power < 0
+        return self.factor.power < 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +58,7 @@ class Rule:
     @property
     def coded(self) -> tuple[tuple[str, Band], ...]:
         """The special codes of each operand's point: while it holds one, the rule cannot be computed."""
-        by_point = {operand.point: operand.codes for operand in self.operands}
+        by_point = {operand.factor.point: operand.codes for operand in self.operands}
         return tuple((name, band) for name, codes in by_point.items() for band in codes)
 
 
@@ -82,11 +78,7 @@ def _operand(factor: Factor, point: Point) -> Operand:
     assert not floating or (factor.slope, factor.intercept, factor.ten_to) == (1, 0, False)
     low, high = sorted(raw * factor.slope + factor.intercept for raw in point.held)
     return Operand(
-        point=factor.point,
-        slope=factor.slope,
-        intercept=factor.intercept,
-        power=factor.power,
-        ten_to=factor.ten_to,
+        factor=factor,
         floating=floating,
         held=point.held,
         exponents=(factor.exponents or point.outer) if factor.ten_to else None,

@@ -9,6 +9,7 @@ from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Bound, Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import bare, float_order, hexadecimal, raw_type, signed, unsigned
+from fieldscribe.targets.c.scales import linear
 from fieldscribe.targets.c.views import RuleView
 
 if TYPE_CHECKING:
@@ -239,7 +240,7 @@ def _steps(rule: Rule, scope: HeaderScope, *, of_limit: bool = False) -> str:
 
 def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) -> str:
     """Return the rule with another factor."""
-    number, raw = _number(operand, scope), scope.raw(operand.point)
+    number, raw = _number(operand, scope), scope.raw(operand.factor.point)
     if operand.floating:
         return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
     if operand.exponents is None:
@@ -266,11 +267,13 @@ def _fits(rule: Rule) -> bool:
     intermediate product is larger than the whole; and bottom * (lift + 1) covers the lift and the divisor with the half
     that rounding adds. Rules with a divisor that may be negative, or with a power of ten, are not computed this way.
     """
-    if any(operand.floating or operand.ten_to or (operand.over and operand.ends[0] < 0) for operand in rule.operands):
+    tops = [operand for operand in rule.operands if not operand.over]
+    bottoms = [operand for operand in rule.operands if operand.over]
+    if any(each.floating or each.factor.ten_to for each in rule.operands) or any(each.ends[0] < 0 for each in bottoms):
         return False
     part, lift = rule.offset.denominator, abs(rule.offset.numerator)
-    top = abs(rule.ratio.numerator) * part * prod(operand.largest for operand in rule.operands if not operand.over)
-    bottom = rule.ratio.denominator * part * prod(operand.largest for operand in rule.operands if operand.over)
+    top = abs(rule.ratio.numerator) * part * prod(each.largest for each in tops)
+    bottom = rule.ratio.denominator * part * prod(each.largest for each in bottoms)
     return top + bottom * (lift + 1) <= INT64[1]
 
 
@@ -297,9 +300,6 @@ def _product(constant: int, names: list[str]) -> str:
 
 def _number(operand: Operand, scope: HeaderScope) -> str:
     """Return the expression raw * slope + intercept of a factor, in brackets unless it is just a name."""
-    text = f"(int64_t){scope.raw(operand.point)}"
-    if operand.slope != 1:
-        text = f"({text} * {signed(operand.slope)})"
-    if operand.intercept:
-        text = f"({text} {'-' if operand.intercept < 0 else '+'} {abs(operand.intercept)})"
-    return text
+    factor = operand.factor
+    text = linear(scope.raw(factor.point), factor.slope, factor.intercept, "int64_t")
+    return text if (factor.slope, factor.intercept) == (1, 0) else f"({text})"

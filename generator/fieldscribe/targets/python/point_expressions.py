@@ -139,13 +139,14 @@ def rule(linear: Linear, scope: PackageScope, *, of_scale: bool = False) -> Node
 
 
 def _factor(operand: Operand, scope: PackageScope, *, of_scale: bool) -> Node:
-    arguments: list[Node] = [python_string(operand.point)]
-    if operand.slope != 1:
-        arguments.append(f"slope={operand.slope}")
-    if operand.intercept:
-        arguments.append(f"intercept={operand.intercept}")
-    if operand.power != 1:
-        arguments.append(f"power={operand.power}")
+    factor = operand.factor
+    arguments: list[Node] = [python_string(factor.point)]
+    if factor.slope != 1:
+        arguments.append(f"slope={factor.slope}")
+    if factor.intercept:
+        arguments.append(f"intercept={factor.intercept}")
+    if factor.power != 1:
+        arguments.append(f"power={factor.power}")
     if operand.floating:
         arguments.append("f32=True")
     if operand.exponents is not None:

@@ -32,7 +32,8 @@ Row = tuple[Spot, "Tokens"]
 def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     """Yield all rows of a point; `enum` is the type of its enum."""
     point = subject.point
-    yield from _CONVERSIONS.get(subject.form, _whole)(subject)
+    yield from _conversions(subject)
+    yield from _flags(subject)
     if enum:
         name = Spot("name", part=1 if subject.form == "digits" else 0)
         yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.carried)))
@@ -57,67 +58,42 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
         yield from _exchanges(subject, scope)
 
 
-def _scaled(subject: CratePoint) -> Iterator[Row]:
-    point, counted = subject.point, subject.point.decimals is not None
+def _conversions(subject: CratePoint) -> Iterator[Row]:
+    """Yield the rows by which a point is decoded, encoded and checked."""
+    point, (decodes, encodes, checks) = subject.point, _conversion_spots(subject)
+    layout = _layout(subject)
     if point.readable:
-        read = _read(subject)
-        yield Spot("decode"), read
-        if counted:
-            yield Spot("decode_count"), read
+        yield from ((spot, row_of(subject, layout) if layout else _read(subject)) for spot in decodes)
     if point.writable:
-        written = _written(subject)
-        yield Spot("check"), written
-        if point.encodes_values:
-            yield Spot("encode"), written
-        if counted:
-            yield Spot("encode_count"), written
+        yield from ((spot, row_of(subject, layout) if layout else _written(subject)) for spot in encodes)
+        yield from ((spot, _written(subject)) for spot in checks)
 
 
-def _whole(subject: CratePoint) -> Iterator[Row]:
-    """Yield the rows of a point whose raw number is its value, or the number of a name."""
+def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list[Spot]]:
+    """Return where a point is decoded, encoded and checked."""
     point = subject.point
+    if subject.form == "scaled":
+        counted = point.decimals is not None
+        encodes = [Spot("encode")] * point.encodes_values + [Spot("encode_count")] * counted
+        return [Spot("decode")] + [Spot("decode_count")] * counted, encodes, [Spot("check")]
+    if subject.form == "float":
+        return [Spot("decode", 1)], [Spot("encode", 1)], [Spot("check", 4)]
+    if subject.form == "text":
+        return [Spot("text_decode")], [Spot("text_encode")], []
+    if subject.form == "digits":
+        coded = "_coded" if point.specials else ""
+        return [Spot(f"digits{coded}")], [Spot(f"digits_encode{coded}")], [Spot("check", 5)]
     mixed = subject.carried != subject.raw
     how, part = ("mixed", 3) if mixed else ("coded", 2) if point.specials else ("plain", 1)
-    if point.readable:
-        yield Spot(f"decode_{how}"), _read(subject)
-    if point.writable:
-        written = _written(subject)
-        yield Spot(f"encode_{how}"), written
-        yield Spot("check", part), written
-    yield from _flags(subject)
+    return [Spot(f"decode_{how}")], [Spot(f"encode_{how}")], [Spot("check", part)]
 
 
-def _float(subject: CratePoint) -> Iterator[Row]:
-    if subject.point.readable:
-        yield Spot("decode", 1), _read(subject)
-    if subject.point.writable:
-        written = _written(subject)
-        yield Spot("encode", 1), written
-        yield Spot("check", 4), written
-
-
-def _digits(subject: CratePoint) -> Iterator[Row]:
-    point, digits = subject.point, subject.point.digits
-    coded = "_coded" if point.specials else ""
-    how = bracketed(("digits", str(digits.count if digits is not None else 0), subject.carried))
-    if point.readable:
-        yield Spot(f"digits{coded}"), row_of(subject, how)
-    if point.writable:
-        yield Spot(f"digits_encode{coded}"), row_of(subject, how)
-        yield Spot("check", 5), _written(subject)
-
-
-def _text(subject: CratePoint) -> Iterator[Row]:
-    point, text = subject.point, subject.point.text
-    how = bracketed(("sizes", str(text.characters if text is not None else 0), str(point.words)))
-    if point.readable:
-        yield Spot("text_decode"), row_of(subject, how)
-    if point.writable:
-        yield Spot("text_encode"), row_of(subject, how)
-
-
-_CONVERSIONS = {"scaled": _scaled, "float": _float, "digits": _digits, "text": _text}
-"""What is decoded, encoded and checked, by form; all other forms are their raw number."""
+def _layout(subject: CratePoint) -> Tokens:
+    """Return the sizes of a text or of digits; empty for a number."""
+    text, digits = subject.point.text, subject.point.digits
+    if text is not None:
+        return bracketed(("sizes", str(text.characters), str(subject.point.words)))
+    return () if digits is None else bracketed(("digits", str(digits.count), subject.carried))
 
 
 def _flags(subject: CratePoint) -> Iterator[Row]:

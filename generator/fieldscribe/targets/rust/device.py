@@ -18,7 +18,7 @@ from fieldscribe.targets.rust.value_forms import arguments_views
 from fieldscribe.text import markdown, rust_code, rust_string, toml_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
@@ -95,14 +95,13 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     }
 
 
-_VALUED = ("scaled", "ruled")
 _ALWAYS = ("points as p", "Client", "ClientError", "Transport", "PROFILE")
 
 
 def example_of(device: Device, scope: CrateScope) -> Snippet:
     """Return the body of a function that talks to the device; empty if no point is read without others."""
     candidates = _candidates(scope)
-    read = _first(subject for subject in _plain(candidates) if subject.form == "scaled") or _first(_plain(candidates))
+    read = _first(candidates, _is_quantity) or _first(candidates, _is_plain)
     if read is None:
         return Snippet()
     first = Snippet((f"let value = client.read::<p::{read.name}>()?;", 'println!("it is {value:?}");'))
@@ -112,13 +111,13 @@ def example_of(device: Device, scope: CrateScope) -> Snippet:
 def first_program(device: Device, scope: CrateScope, family: RustFamily, link: str) -> Lines:
     """Return a whole program over a transport of the runtime; empty without a transport or a point to read."""
     candidates = _candidates(scope)
-    only_read = (subject for subject in _plain(candidates) if subject.form == "scaled" and not subject.point.writable)
-    read = _first(only_read) or _first(_plain(candidates))
+    only_read = (subject for subject in candidates if _is_quantity(subject) and not subject.point.writable)
+    read = next(only_read, None) or _first(candidates, _is_plain)
     line = family.line(device)
     if read is None or not line:
         return ()
     names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names, "PROFILE")
-    written = _first(subject for subject in candidates if not subject.arguments and _takes_a_value(subject))
+    written = _first(candidates, _is_set)
     return (
         *filled(f"use {device.id}::{{", ", ", names, "};"),
         "",
@@ -126,7 +125,7 @@ def first_program(device: Device, scope: CrateScope, family: RustFamily, link: s
         f"    let line = {line};",
         f"    let mut client = Client::new(line, &PROFILE, {link});",
         f'    println!("{{:?}}", client.read::<p::{read.name}>()?);',
-        *((f"    client.write::<p::{written.name}>({_inside(written)})?;",) if written else ()),
+        *((f"    {_write(written)}",) if written else ()),
         "    Ok(())",
         "}",
     )
@@ -140,45 +139,61 @@ def example_uses(device: str, snippet: Snippet, names: Sequence[str]) -> Lines:
 
 def _candidates(scope: CrateScope) -> list[CratePoint]:
     """Return the points outside of telegrams by address, so that a new point rarely changes the example."""
-    return sorted(
-        (subject for subject in scope.subjects if subject.point.telegram is None),
-        key=lambda subject: subject.point.rank,
-    )
+    outside = (subject for subject in scope.subjects if subject.point.telegram is None)
+    return sorted(outside, key=lambda subject: subject.point.rank)
 
 
-def _writes(candidates: list[CratePoint]) -> Snippet:
-    """Return the lines that write a point that needs no other, and one that does."""
-    snippet = Snippet()
-    plain = _first(subject for subject in candidates if not subject.arguments and _takes_a_value(subject))
-    if plain is not None:
-        snippet += Snippet((f"client.write::<p::{plain.name}>({_inside(plain)})?;",))
-    needy = _first(
-        subject for subject in candidates if subject.arguments and _takes_a_value(subject) and subject.point.readable
-    )
-    if needy is not None:
-        fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
-        lines = (
-            "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.",
-            f"let with = with::{needy.name} {{ {fields} }};",
-            f"client.write_with::<p::{needy.name}>(1.0, with)?;",
-        )
-        snippet += Snippet(lines, frozenset(("with",)))
-    return snippet
+def _first(candidates: Iterable[CratePoint], test: Callable[[CratePoint], bool]) -> CratePoint | None:
+    return next(filter(test, candidates), None)
 
 
-def _plain(candidates: Iterable[CratePoint]) -> Iterator[CratePoint]:
-    """Yield the points that are read without any other."""
-    return (
-        subject
-        for subject in candidates
-        if subject.point.readable and not subject.factors and not subject.point.specials
-    )
+def _is_read(subject: CratePoint) -> bool:
+    return subject.point.readable and not subject.factors
+
+
+def _is_plain(subject: CratePoint) -> bool:
+    return _is_read(subject) and not subject.point.specials
+
+
+def _is_coded(subject: CratePoint) -> bool:
+    return _is_read(subject) and bool(subject.point.specials)
+
+
+def _is_quantity(subject: CratePoint) -> bool:
+    return subject.form == "scaled" and _is_plain(subject)
+
+
+def _is_set(subject: CratePoint) -> bool:
+    return _takes_a_value(subject) and not subject.arguments
+
+
+def _is_needy(subject: CratePoint) -> bool:
+    return _takes_a_value(subject) and bool(subject.arguments) and subject.point.readable
 
 
 def _takes_a_value(subject: CratePoint) -> bool:
     point = subject.point
     encodes = point.writable and point.encodes_values and not point.bits and not point.specials
-    return encodes and subject.form in _VALUED
+    return encodes and subject.form == "scaled"
+
+
+def _writes(candidates: list[CratePoint]) -> Snippet:
+    """Return the lines that write a point that needs no other, and one that does."""
+    plain, needy = _first(candidates, _is_set), _first(candidates, _is_needy)
+    lines = () if plain is None else (_write(plain),)
+    if needy is None:
+        return Snippet(lines)
+    fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
+    with_others = (
+        "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.",
+        f"let with = with::{needy.name} {{ {fields} }};",
+        f"client.write_with::<p::{needy.name}>(1.0, with)?;",
+    )
+    return Snippet(lines + with_others, frozenset(("with",)))
+
+
+def _write(subject: CratePoint) -> str:
+    return f"client.write::<p::{subject.name}>({_inside(subject)})?;"
 
 
 def _inside(subject: CratePoint) -> str:
@@ -195,9 +210,7 @@ def _inside(subject: CratePoint) -> str:
 
 def _special(candidates: list[CratePoint]) -> Snippet:
     """Return the lines that read a point that may hold a special code."""
-    coded = _first(
-        subject for subject in candidates if subject.point.specials and subject.point.readable and not subject.factors
-    )
+    coded = _first(candidates, _is_coded)
     if coded is None:
         return Snippet()
     lines = (
@@ -211,30 +224,27 @@ def _special(candidates: list[CratePoint]) -> Snippet:
 
 def _blocks(device: Device, candidates: list[CratePoint]) -> Snippet:
     """Return the lines that read a group, and print a point of it."""
-    for subject in candidates:
-        for group, blocks in device.blocks.items():
-            if (
-                subject.point.readable
-                and not subject.factors
-                and any(subject.point.name in block.points for block in blocks)
-            ):
-                lines = (
-                    f"for block in blocks::{group.upper()} {{",
-                    "    let reply = client.read_block(block)?;",
-                    f"    if block.brings::<p::{subject.name}>() {{",
-                    f'        println!("it is {{:?}}", reply.value::<p::{subject.name}>()?);',
-                    "    }",
-                    "}",
-                )
-                return Snippet(lines, frozenset(("blocks",)))
-    return Snippet()
+    brought = (
+        (subject, group)
+        for subject in filter(_is_read, candidates)
+        for group, blocks in device.blocks.items()
+        if any(subject.point.name in block.points for block in blocks)
+    )
+    subject, group = next(brought, (None, ""))
+    if subject is None:
+        return Snippet()
+    lines = (
+        f"for block in blocks::{group.upper()} {{",
+        "    let reply = client.read_block(block)?;",
+        f"    if block.brings::<p::{subject.name}>() {{",
+        f'        println!("it is {{:?}}", reply.value::<p::{subject.name}>()?);',
+        "    }",
+        "}",
+    )
+    return Snippet(lines, frozenset(("blocks",)))
 
 
 def _command(device: Device) -> Snippet:
     """Return the line that sends the first command of the device."""
     lines = tuple(f"client.command(&commands::{command.name.upper()})?;" for command in device.commands[:1])
     return Snippet(lines, frozenset(("commands",) if lines else ()))
-
-
-def _first(found: Iterable[CratePoint]) -> CratePoint | None:
-    return next(iter(found), None)

@@ -71,16 +71,6 @@ def nothing(*_: object) -> tuple[()]:
     return ()
 
 
-def no_line(_: Device) -> str:
-    """Return no expression, for families whose transports need a whole page."""
-    return ""
-
-
-def no_telegram(_: CrateScope) -> tuple[str, Snippet]:
-    """Return no telegram, for families whose devices send only answers."""
-    return "", Snippet()
-
-
 @dataclass(frozen=True, slots=True)
 class RustFamily:
     """What the part `targets.rust` of a family offers as `IN_RUST`.
@@ -103,9 +93,9 @@ class RustFamily:
     refusals: str = "code"
     names: tuple[str, ...] = ()
     transports: tuple[str, ...] = ()
-    line: Callable[[Device], str] = no_line
+    line: Callable[[Device], str] = lambda _: ""
     line_names: str = ""
-    telegram: Callable[[CrateScope], tuple[str, Snippet]] = no_telegram
+    telegram: Callable[[CrateScope], tuple[str, Snippet]] = lambda _: ("", Snippet())
 
 
 def in_rust(name: str) -> RustFamily:
@@ -114,20 +104,13 @@ def in_rust(name: str) -> RustFamily:
     return part
 
 
-_SPACES = {
-    "coil": "Coil",
-    "discrete": "Discrete",
-    "input": "Input",
-    "holding": "Holding",
-    "parameter": "Parameter",
-    "telegram": "Telegram",
-}
+_SPACES = frozenset({"coil", "discrete", "input", "holding", "parameter", "telegram"})
+"""The spaces that the runtime names."""
 
 
 def space_variant(name: str) -> str:
     """Return the name of a space in the runtime's enum."""
-    known = _SPACES.get(name)
-    return known or f"Other({rust_string(name)})"
+    return name.capitalize() if name in _SPACES else f"Other({rust_string(name)})"
 
 
 def space(name: str) -> str:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bound, Point, Special
+    from fieldscribe.targets.rust.families import Constant
     from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _WRITES = {"coil": (5, 15), "holding": (6, 16)}
@@ -113,20 +114,12 @@ def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class ConstantView:
-    """A constant of special codes that points share."""
-
-    doc: str
-    lines: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class SharedView:
     """Codes that several points share: a type with a constant for each code and a table of all."""
 
     name: str
     of: str
-    constants: tuple[ConstantView, ...]
+    constants: tuple[Constant, ...]
     table: tuple[str, ...]
 
 
@@ -165,7 +158,7 @@ def _kind(special: Special) -> str:
     return "_".join(words) or "new"
 
 
-def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
+def code_constants(subject: CratePoint) -> Iterator[Constant]:
     """Yield a constant for each code; of a band, its first code and the last raw number."""
     for special in subject.point.specials:
         item = Item(f"pub const {special.name.upper()}", f"runtime::Special<{subject.raw}>")
@@ -174,10 +167,10 @@ def code_constants(subject: CratePoint) -> Iterator[ConstantView]:
         if special.low != special.high:
             last_item = Item(f"pub const {special.name.upper()}_LAST", subject.raw)
             last = binding(4, last_item, _literal(special.high, special, subject.raw))
-            yield ConstantView(sentence(f"{special.name}, the first of a band"), lines)
-            yield ConstantView(sentence(f"the last raw number of {special.name}"), last)
+            yield sentence(f"{special.name}, the first of a band"), lines
+            yield sentence(f"the last raw number of {special.name}"), last
         else:
-            yield ConstantView(sentence(special.name), lines)
+            yield sentence(special.name), lines
 
 
 def _table(subject: CratePoint, item: Item) -> Lines:

@@ -172,20 +172,21 @@ def _codes(operand: Operand) -> Iterator[str]:
     """Yield the condition that the factor's point holds a special code."""
     if operand.codes:
         bands = (interval(*band) for band in sorted(operand.codes))
-        yield f"matches!({_raw_of(operand.point)}, {' | '.join(bands)})"
+        yield f"matches!({_raw_of(operand.factor.point)}, {' | '.join(bands)})"
 
 
 def _step(operand: Operand, *, limit: bool) -> str:
     """Return the call that puts a factor into a rule."""
-    raw, times = _raw_of(operand.point), "limited_by" if limit and not operand.ten_to else "times"
+    factor = operand.factor
+    raw, times = _raw_of(factor.point), "limited_by" if limit and not factor.ten_to else "times"
     if operand.floating:
         return f".{'over' if operand.over else times}_f32({raw})"
     if operand.exponents is not None:
         low, high = operand.exponents
-        raw = f"runtime::arithmetic::exponent({rust_string(operand.point)}, {raw}, {integer(low)}, {integer(high)})?"
-    if (operand.slope, operand.intercept) != (1, 0):
-        raw = f"runtime::arithmetic::line({raw}, {integer(operand.slope)}, {integer(operand.intercept)})?"
-    return f".{'over' if operand.over else times}{'_ten_to' if operand.ten_to else ''}({raw})"
+        raw = f"runtime::arithmetic::exponent({rust_string(factor.point)}, {raw}, {integer(low)}, {integer(high)})?"
+    if (factor.slope, factor.intercept) != (1, 0):
+        raw = f"runtime::arithmetic::line({raw}, {integer(factor.slope)}, {integer(factor.intercept)})?"
+    return f".{'over' if operand.over else times}{'_ten_to' if factor.ten_to else ''}({raw})"
 
 
 def _raw_of(name: str) -> str:
