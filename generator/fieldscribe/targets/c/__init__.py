@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.frames import frames_of
-from fieldscribe.targets.c.header import device_view, header
+from fieldscribe.targets.c.header import header, header_context
 from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.point_templates import generated_points
@@ -26,9 +26,9 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     """Yield the headers of points and frames, and the conformance program: path below the output folder, and text."""
     scope = scope_of(device)
     points = generated_points(device, scope)
-    view, frames = device_view(device, points, scope), frames_of(device).header(device, points, scope)
-    context, sections = {"device": view, "bus": frames.context}, frames.sections
-    yield f"c/{device.id}.h", header(device, view, points, scope, render)
+    own, frames = header_context(device, points, scope), frames_of(device).header(device, points, scope)
+    context, sections = {"device": own, "bus": frames.context}, frames.sections
+    yield f"c/{device.id}.h", header(device, own, points, scope, render)
     texts = {name: section.text(render) for name, section in sections.items()}
     yield f"c/{device.id}_{device.family}.h", framed(render, f"c/{device.family}.h.j2", context, texts)
     if tests:

@@ -57,7 +57,6 @@ def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: Heade
         "structs": [struct for point, _, _ in points if point.arguments for struct in _structs_of(point, scope)],
         "points": [each.point.item for each in points],
         "statuses": [(f"{capitals}_{status}", status.lower()) for status in STATUSES],
-        "telegrams": [telegram.name for telegram in device.telegrams],
         "groups": [(group, f"{prefix}_{group}_blocks") for group, blocks in device.blocks.items() if blocks],
         "names": [codes.kind for codes in emitted if codes.kind in named],
         "codes": [

@@ -14,7 +14,7 @@ from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import folded, framed
 from fieldscribe.targets.c.point_templates import fields_of, texts_of
 from fieldscribe.targets.c.point_views import functions_of, symbols_of
-from fieldscribe.targets.c.views import AliasView, HeaderView, TelegramView
+from fieldscribe.targets.c.views import AliasView
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.text import c_comment
 
@@ -36,45 +36,37 @@ STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR"
 """What conversions answer."""
 
 
-def device_view(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> HeaderView:
-    """Return the view of the header without its points."""
-    return HeaderView(
-        head=head_lines(device, "c", c_comment),
-        title=c_comment(f"{device.vendor} {device.model}"),
-        prefix=scope.prefix,
-        upper=scope.upper,
-        version=device.version,
-        numbers=Version.of(device.version),
-        digest=device.digest[:16],
-        telegrams=tuple(
-            TelegramView(telegram.name, name, number, f"{name}_WORDS", telegram.words)
-            for number, telegram in enumerate(device.telegrams)
-            for name in (f"{scope.upper}_TELEGRAM_{upper(telegram.name)}",)
-        ),
-        aliases=(
-            *(
-                alias
-                for point, view, _ in points
-                if point.was
-                for old, item in zip(point.was, point.old_items, strict=True)
-                for alias in _aliases(view, AliasView(old, item, point.item), scope)
-            ),
-            *_aliases_of_structs(points, scope),
-        ),
-        statuses=STATUSES,
-        double=any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
-    )
+def header_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
+    """Return the context of the header without its points; `double` says that some values are always double."""
+    return {
+        "head": head_lines(device, "c", c_comment),
+        "title": c_comment(f"{device.vendor} {device.model}"),
+        "prefix": scope.prefix,
+        "upper": scope.upper,
+        "version": device.version,
+        "numbers": Version.of(device.version),
+        "digest": device.digest[:16],
+        "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
+        "aliases": tuple(aliases_of(points, scope)),
+        "statuses": STATUSES,
+        "double": any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
+    }
+
+
+def telegrams_of(device: Device, scope: HeaderScope) -> list[str]:
+    """Return the enumerators of the telegrams; a macro with the end `_WORDS` says how many words each has."""
+    return [f"{scope.upper}_TELEGRAM_{upper(telegram.name)}" for telegram in device.telegrams]
 
 
 def header(
-    device: Device, view: HeaderView, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
+    device: Device, context: object, points: Iterable[GeneratedPoint], scope: HeaderScope, render: Render
 ) -> str:
-    """Return the text of `<device>.h`."""
+    """Return the text of `<device>.h`; `context` is that of `header_context`."""
     texts: list[str] = []
     for name, of_points in _points_by_group(device, points, scope, render).items():
         if of_points:
             texts += [folded(render("c/group.h.j2", {"title": _title(name, scope)})), *of_points]
-    return framed(render, "c/device.h.j2", {"device": view}, {"points": "".join(texts)})
+    return framed(render, "c/device.h.j2", {"device": context}, {"points": "".join(texts)})
 
 
 def _points_by_group(
@@ -105,6 +97,14 @@ def _title(group: str, scope: HeaderScope) -> str:
     """Return the title of a group: its name, and the space of its points if all have the same."""
     space = scope.spaces.get(group)
     return group.replace("_", " ") + (f" ({space})" if space else "")
+
+
+def aliases_of(points: Sequence[GeneratedPoint], scope: HeaderScope) -> Iterator[AliasView]:
+    """Yield the old names of all that the header has of renamed points."""
+    for point, view, _ in points:
+        for old, item in zip(point.was, point.old_items, strict=True) if point.was else ():
+            yield from _aliases(view, AliasView(old, item, point.item), scope)
+    yield from _aliases_of_structs(points, scope)
 
 
 def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[AliasView]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.lowered import named_numbers
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
-from fieldscribe.targets.c.header import STATUSES, device_view, remark_defines
+from fieldscribe.targets.c.header import STATUSES, aliases_of, remark_defines, telegrams_of
 from fieldscribe.targets.c.limits import ranges_table
 from fieldscribe.targets.c.point_templates import fields_of, generated_points
 from fieldscribe.targets.c.point_views import names_of, symbols_of
@@ -51,13 +51,12 @@ def identifiers(device: Device) -> Iterator[Names]:
 def _identifiers(device: Device) -> Iterator[Named]:
     scope = scope_of(device)
     points = generated_points(device, scope, names_only=True)
-    view = device_view(device, points, scope)
-    yield _OWN, [f"{view.prefix}_{name}" for name in _TYPES]
-    yield _OWN, [f"{view.upper}_{name}" for name in (*STATUSES, *_MACROS)]
-    for telegram, named in zip(device.telegrams, view.telegrams, strict=True):
-        yield Owner("telegram", telegram.name), (named.name, named.words_name)
+    yield _OWN, [f"{scope.prefix}_{name}" for name in _TYPES]
+    yield _OWN, [f"{scope.upper}_{name}" for name in (*STATUSES, *_MACROS)]
+    for telegram, name in zip(device.telegrams, telegrams_of(device, scope), strict=True):
+        yield Owner("telegram", telegram.name), (name, f"{name}_WORDS")
     yield from _of_points(device, points, scope)
-    yield from old_names_of(view.aliases)
+    yield from old_names_of(aliases_of(points, scope))
     yield from frames_of(device).header(device, points, scope).identifiers
 
 

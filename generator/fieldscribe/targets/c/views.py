@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Point, Version
+    from fieldscribe.model import Point
     from fieldscribe.targets.c.scales import Scaled
 
 Define = tuple[str, str]
@@ -128,17 +128,6 @@ class PointView:
 
 
 @dataclass(frozen=True, slots=True)
-class TelegramView:
-    """A telegram: the enumerator that names it, its number, and the macro that says how many words it has."""
-
-    title: str
-    name: str
-    number: int
-    words_name: str
-    words: int
-
-
-@dataclass(frozen=True, slots=True)
 class AliasView:
     """An old name of something that belongs to a renamed point; `was` and the old item are those of the point.
 
@@ -151,20 +140,3 @@ class AliasView:
     old: str = ""
     new: str = ""
     sort: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class HeaderView:
-    """The header of a device; `double` says that some values are always double."""
-
-    head: tuple[str, ...]
-    title: str
-    prefix: str
-    upper: str
-    version: str
-    numbers: Version
-    digest: str
-    statuses: tuple[str, ...]
-    telegrams: tuple[TelegramView, ...]
-    aliases: tuple[AliasView, ...]
-    double: bool

@@ -14,7 +14,7 @@ from fieldscribe.targets.rust.layout import Item, binding, filled
 from fieldscribe.targets.rust.literals import float_literal, integer, value_name
 from fieldscribe.targets.rust.point_facts import shared_views
 from fieldscribe.targets.rust.point_macros import point_texts
-from fieldscribe.targets.rust.value_forms import arguments_views
+from fieldscribe.targets.rust.value_forms import argument_structs
 from fieldscribe.text import markdown, rust_code, rust_string, toml_string
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     """Return the context of the templates for the crate's sources."""
     words = [subject for subject in scope.subjects if subject.form == "flags"]
     first_word = min(words, key=lambda subject: subject.point.rank).name if words else ""
-    structs = tuple(arguments_views(scope, render))
+    structs = tuple(argument_structs(scope, render))
     version = Version.of(device.version)
     of_family, example = in_rust(device.family), example_of(device, scope)
     telegram, received = of_family.telegram(scope)

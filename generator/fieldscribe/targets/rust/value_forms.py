@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -193,34 +192,33 @@ def _raw_of(name: str) -> str:
     return f"with.{value_name(name)}"
 
 
-@dataclass(frozen=True, slots=True)
-class ArgumentsView:
-    """A struct of the raw numbers that a point needs; `old_names` is the text of its old names."""
+def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, object]]:
+    """Yield the structs of raw numbers that points need, as the template sees them.
 
-    doc: str
-    name: str
-    fields: tuple[tuple[tuple[str, ...], str, str], ...]
-    part: str
-    part_literal: tuple[str, ...]
-    old_names: str
-
-
-def arguments_views(scope: CrateScope, render: Render) -> Iterator[ArgumentsView]:
-    """Yield the structs of raw numbers that points need."""
+    `part` is the struct of those that the scale needs, if writing needs more. `old_names` is the text of old names.
+    """
     needy = [subject for subject in scope.subjects if subject.arguments]
     links = _links(scope) if needy else {}
     for subject in needy:
-        item = subject.item
-        parted = bool(subject.factors) and subject.factors != subject.arguments
-        part = subject.factors_name if parted else ""
-        if parted:
-            doc = f"Raw numbers that the scale of `{item}` needs."
-            old_names = old_names_text(part, [f"{old}_factors" for old in subject.point.old_items], render)
-            yield ArgumentsView(doc, part, _fields(subject.factors, scope, links), "", (), old_names)
-        literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
-        doc = f"Raw numbers that `{item}` needs."
-        old_names = old_names_text(subject.name, subject.point.old_items, render)
-        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope, links), part, literal, old_names)
+        old_items, part = subject.point.old_items, ""
+        literal: Lines = ()
+        if subject.factors and subject.factors != subject.arguments:
+            part, literal = subject.factors_name, fields_of(8, "Self", tuple(map(value_name, subject.factors)))
+            yield {
+                "doc": f"Raw numbers that the scale of `{subject.item}` needs.",
+                "name": part,
+                "fields": _fields(subject.factors, scope, links),
+                "part": "",
+                "old_names": old_names_text(part, [f"{old}_factors" for old in old_items], render),
+            }
+        yield {
+            "doc": f"Raw numbers that `{subject.item}` needs.",
+            "name": subject.name,
+            "fields": _fields(subject.arguments, scope, links),
+            "part": part,
+            "part_literal": literal,
+            "old_names": old_names_text(subject.name, old_items, render),
+        }
 
 
 def _fields(
