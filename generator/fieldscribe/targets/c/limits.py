@@ -6,7 +6,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
-from fieldscribe.model import Bound, Digits, Interval, Limit, Point
+from fieldscribe.model import Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import bare, float_order, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.scales import linear
@@ -116,20 +116,18 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
-    """Return a test that the number lies in an interval, whose limits may depend on other points."""
-    ends = [_end(end, scope, is_low=end is interval.low) for end in (interval.low, interval.high)]
-    return f"fieldscribe_between({_signed_raw(point)}, {', '.join(ends)})"
+    """Return a test that the number lies in an interval, whose limits may depend on other points.
 
-
-def _end(bound: Bound, scope: HeaderScope, *, is_low: bool) -> str:
-    if isinstance(bound, Limit):
-        return limit(bound, scope, is_low=is_low)
-    return f"fieldscribe_whole_of({bare(bound)})"
-
-
-def _signed_raw(point: Point) -> str:
-    """Return the raw number in the signed type of limits, at most its greatest number, which no limit exceeds."""
-    return "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
+    Limits are signed: the number is at most the greatest of their type, which no limit exceeds.
+    """
+    raw = "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
+    low, high = (
+        limit(end, scope, is_low=end is interval.low)
+        if isinstance(end, Limit)
+        else f"fieldscribe_whole_of({bare(end)})"
+        for end in (interval.low, interval.high)
+    )
+    return f"fieldscribe_between({raw}, {low}, {high})"
 
 
 def interval_test(name: str, low: int, high: int, bounds: tuple[int, int], literal: Callable[[int], str]) -> str:

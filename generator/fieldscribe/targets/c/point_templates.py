@@ -77,13 +77,9 @@ class _PointViews:
     def generated(self, point: Point) -> GeneratedPoint:
         """Return the next point with its view and its fields."""
         key, item, scope = self._keys[id(point)], point.item, self._scope
-        limits = self._limits.get((key, id(point.allowed)))
-        if limits is None:
-            limits = self._limits[key, id(point.allowed)] = _limits_of(point)
-        commented = key, scope.spaces.get(point.terms.group)
-        comment = self._comments.get(commented)
-        if comment is None:
-            comment = self._comments[commented] = PointComment(point, scope)
+        limited, commented = (key, id(point.allowed)), (key, scope.spaces.get(point.terms.group))
+        limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(point))
+        comment = self._comments.get(commented) or self._comments.setdefault(commented, PointComment(point, scope))
         fields = _fields_of(point, item, limits, comment)
         whole = key, limits.form, scope.brings(point), tuple(map(len, fields[1:]))  # no line break needs the comment
         view = self._views.get(whole)

@@ -93,11 +93,13 @@ class Attributes:
 
     def of_point(self, point: Point) -> str:
         """Return the attribute of a point."""
-        key = self._keys[id(point)]
-        limits = self._limits.get((key, id(point.allowed)))
-        if limits is None:
-            limits = self._limits[key, id(point.allowed)] = _limits_of(point, self._scope)
-        fields = self._fields(point, key, limits)
+        key, scope = self._keys[id(point)], self._scope
+        limited = key, id(point.allowed)
+        limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(point, scope))
+        remarks = self._remarks.get(key) or self._remarks.setdefault(
+            key, (_remarks(point, scope), _errata(point, scope))
+        )
+        fields = self._fields(point, limits, remarks)
         if len(fields) > MOST_FIELDS:
             return self.text(self._view(point, _named(fields, point)))
         whole = key, tuple(map(len, fields[_FREE:]))
@@ -121,11 +123,8 @@ class Attributes:
             self._scope.runtime("renamed")
         return self._render("python/attribute.py.j2", {"attribute": view})
 
-    def _fields(self, point: Point, key: int, limits: LimitTexts) -> tuple[str, ...]:
+    def _fields(self, point: Point, limits: LimitTexts, remarks: tuple[str, list[str]]) -> tuple[str, ...]:
         """Return the fields in the order of `AttributeFields`."""
-        remarks = self._remarks.get(key)
-        if remarks is None:
-            remarks = self._remarks[key] = _remarks(point, self._scope), _errata(point, self._scope)
         names, shape, code = self._scope.names, point.shape, point.code
         return (
             attribute(point.name if point.variant is None else point.item),

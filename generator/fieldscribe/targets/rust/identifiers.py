@@ -71,13 +71,13 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
         yield Names("Rust, module `points`", old_name, (type_name(item),))
         if subject.arguments:
             yield Names("Rust, module `with`", old_name, (type_name(item),))
-        if subject.factors and subject.factors != subject.arguments:
+        if subject.factors_name:
             yield Names("Rust, module `with`", old_name, (type_name(f"{item}_factors"),))
     if point.references or point.specials:
         yield from _constants(subject, owner)
     if subject.arguments:
         yield Names("Rust, module `with`", owner, (subject.name,))
-    if subject.factors and subject.factors != subject.arguments:
+    if subject.factors_name:
         yield Names("Rust, module `with`", Owner("struct", subject.factors_name, owner), (subject.factors_name,))
     if point.flags:
         yield from _of_flags(subject, owner)

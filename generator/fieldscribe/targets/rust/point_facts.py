@@ -34,9 +34,9 @@ _WIDTH = 100
 
 def read_lines(subject: CratePoint) -> tuple[str, ...]:
     """Return the facts of reading."""
-    count, factors = count_type(subject), subject.factors_type
+    count = count_type(subject)
     facts = [f"count {count};"] if count else []
-    facts += [f"with {factors};"] if factors != "()" else []
+    facts += [f"with {subject.factors_type};"] if subject.factors else []
     return _block("read", [(fact,) for fact in facts])
 
 

@@ -87,12 +87,9 @@ class _PointTemplates:
     def _fields(self, subject: CratePoint) -> MacroFields:
         point, item, name, _, _, key = subject
         enum = subject.enum
-        doc = self._docs.get(key)
-        if doc is None:
-            doc = self._docs[key] = PointDoc(point, self._scope.lowered)
-        limits = self._limits.get((key, id(point.allowed)))
-        if limits is None:
-            limits = self._limits[key, id(point.allowed)] = _limits_of(subject)
+        doc = self._docs.get(key) or self._docs.setdefault(key, PointDoc(point, self._scope.lowered))
+        limited = key, id(point.allowed)
+        limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(subject))
         addresses, code = point.place.addresses, point.code or ""
         address = addresses[0] if len(addresses) == 1 else min(addresses)
         literal = code and rust_string(code)

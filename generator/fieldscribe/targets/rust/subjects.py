@@ -66,12 +66,12 @@ class CratePoint(NamedTuple):
     @property
     def factors_name(self) -> str:
         """The name of the scale's struct if it differs from that for writing, else empty."""
-        return f"{self.name.rstrip('_')}Factors"
+        return f"{self.name.rstrip('_')}Factors" if self.factors and self.factors != self.arguments else ""
 
     @property
     def factors_struct(self) -> str:
         """The name of the struct of all raw numbers that the scale needs."""
-        return self.name if self.factors == self.arguments else self.factors_name
+        return self.factors_name or self.name
 
     @property
     def factors_type(self) -> str:

@@ -200,10 +200,8 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
     needy = [subject for subject in scope.subjects if subject.arguments]
     links = _links(scope) if needy else {}
     for subject in needy:
-        old_items, part = subject.point.old_items, ""
-        literal: Lines = ()
-        if subject.factors and subject.factors != subject.arguments:
-            part, literal = subject.factors_name, fields_of(8, "Self", tuple(map(value_name, subject.factors)))
+        old_items, part = subject.point.old_items, subject.factors_name
+        if part:
             yield {
                 "doc": f"Raw numbers that the scale of `{subject.item}` needs.",
                 "name": part,
@@ -216,7 +214,7 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
             "name": subject.name,
             "fields": _fields(subject.arguments, scope, links),
             "part": part,
-            "part_literal": literal,
+            "part_literal": fields_of(8, "Self", tuple(map(value_name, subject.factors))),
             "old_names": old_names_text(subject.name, old_items, render),
         }
 
