@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.codec import powers_last
 
@@ -19,8 +18,7 @@ _MANTISSA = 1 << 24
 """The limit of the mantissa of a binary32 number."""
 
 
-@dataclass(frozen=True, slots=True)
-class Operand:
+class Operand(NamedTuple):
     """A factor of a rule, with what is known of its point.
 
     `held` are the least and greatest raw number of its type. `exponents` are the raw numbers for which a power of ten
@@ -46,8 +44,7 @@ class Operand:
         return self.factor.power < 0
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """result = argument * ratio * product(operands) + offset; `steps`: the operands in the order of generated code."""
 
     ratio: Fraction

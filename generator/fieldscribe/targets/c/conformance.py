@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
@@ -28,19 +27,6 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
-
-
-@dataclass(frozen=True, slots=True)
-class StructView:
-    """A function that fills the struct of a point with the raw numbers given in a vector.
-
-    `floating` says that only functions with floating point need it.
-    """
-
-    type: str
-    function: str
-    fields: tuple[tuple[str, str, str], ...]
-    floating: bool
 
 
 def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:
@@ -215,17 +201,20 @@ def _special_code_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
         yield f"SPECIAL_NAME({view.function}, {view.raw_type})"
 
 
-def _structs_of(point: Point, scope: HeaderScope) -> Iterator[StructView]:
-    """Yield a function for each set of several raw numbers that some function of the point needs."""
+def _structs_of(point: Point, scope: HeaderScope) -> Iterator[dict[str, object]]:
+    """Yield a function for each set of several raw numbers that some function of the point needs.
+
+    It fills a struct with the numbers in a vector; a `floating` one is for functions with floating point only.
+    """
     counts = point.decimals is not None
     integer = [point.limit_arguments] if point.writable else []
     integer += [point.arguments] if point.writable and counts else []
     integer += [point.scale_arguments] if point.readable and counts else []
     for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
         if len(names) > 1:
-            fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
+            fields = [(name, f"{name}_raw", raw_type(scope.points[name])) for name in names]
             struct, function = scope.struct(point.arguments), _fill_function(point, names)
-            yield StructView(struct, function, fields, floating=names not in integer)
+            yield {"type": struct, "function": function, "fields": fields, "floating": names not in integer}
 
 
 def _arguments_of(point: Point, names: tuple[str, ...], scope: HeaderScope) -> str:

@@ -4,23 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe import wording
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import WIDTH, filled, folded
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
 from fieldscribe.text import c_comment
-from fieldscribe.wording import (
-    codes_text,
-    condition_text,
-    count_text,
-    default_text,
-    display_text,
-    range_text,
-    raw_range_text,
-    resolution_text,
-    width_texts,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -41,7 +31,7 @@ class PointComment:
         self._steps = tuple(map(c_comment, _steps(point))) if point.untyped is None else ()
         self._typed = point.untyped is None
         self._access = point.access if scope.spaces.get(point.group) is not None else f"{point.access}, {point.space}"
-        self._display = () if point.display is None else (display_text(point),)
+        self._display = () if point.display is None else (wording.display_text(point),)
         self._rest = (*map(c_comment, _rare_facts(point, scope)), *((c_comment(remark),) if remark else ()))
 
     def of(self, point: Point, limits: str) -> str:
@@ -52,7 +42,7 @@ class PointComment:
         place = ", ".join([self._access, *[f"{key} {_printed(number)}" for key, number in references.items()]])
         facts = [*((limits,) if limits and self._typed else ()), *self._steps, place, *self._display]
         if point.default is not None or point.default_raw is not None:
-            facts.append(f"default {c_comment(default_text(point))}")
+            facts.append(f"default {c_comment(wording.default_text(point))}")
         text = f"/* {head}: {'; '.join([*facts, *self._rest])} */"
         return text if len(text) <= WIDTH else _in_lines(text[3:-3])
 
@@ -67,10 +57,10 @@ def _in_lines(text: str) -> str:
 
 def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
     if point.when is not None:
-        yield f"exists only when {condition_text(point.when, scope.points)}"
-    yield from width_texts(point)
+        yield f"exists only when {wording.condition_text(point.when, scope.points)}"
+    yield from wording.width_texts(point)
     if point.specials:
-        yield codes_text(point)
+        yield wording.codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
         yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
     if errata := scope.lowered.errata_of(point):
@@ -83,8 +73,8 @@ def range_words(point: Point) -> str:
         return f"{point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
         return f"{point.digits.count} digits, the highest first"
-    units = range_text(point)
-    raws = "" if units else raw_range_text(point)
+    units = wording.range_text(point)
+    raws = "" if units else wording.raw_range_text(point)
     return units or (f"raw {raws}" if raws else "")
 
 
@@ -92,7 +82,7 @@ def _steps(point: Point) -> Iterator[str]:
     """Yield the unit of one count, and the steps of the device where they are coarser."""
     if point.form != "scaled":
         return
-    count, step = count_text(point), resolution_text(point)
+    count, step = wording.count_text(point), wording.resolution_text(point)
     if step and step != count:
         yield f"in steps of {step}"
     if count:

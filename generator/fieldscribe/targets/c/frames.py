@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
@@ -27,8 +26,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.identifiers import Named
 
 
-@dataclass(frozen=True, slots=True)
-class Descriptor:
+class Descriptor(NamedTuple):
     """A constant of one of the runtime's types; `parted` says that it needs two lines."""
 
     type: str
@@ -43,8 +41,7 @@ class Descriptor:
         return len(f"static const {self.type} {self.name} = {self.value};") > WIDTH
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(NamedTuple):
     """The descriptors that read and write a point, and the macros of the conformance program for them."""
 
     descriptors: tuple[Descriptor, ...]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
@@ -113,15 +112,15 @@ def _aliases(view: PointView, old: AliasView, scope: HeaderScope) -> Iterator[Al
     fields = view.fields._replace(item=old.old_item, macro=upper(old.old_item))
     function = f"{scope.prefix}_{fields.item}"
     for (name, _), (new, _) in zip(defines(point, fields, scope), view.defines, strict=True):
-        yield replace(old, old=name, new=new, sort="NUMBER")
+        yield old._replace(old=name, new=new, sort="NUMBER")
     for name, sort in symbols_of(view):
-        yield replace(old, old=function + name.removeprefix(view.function), new=name, sort=sort)
+        yield old._replace(old=function + name.removeprefix(view.function), new=name, sort=sort)
     enum = named_numbers(point.shape)
     if view.enum is not None and enum is not None and enum.was:
         before = enum.was[point.was.index(old.was)]
-        yield replace(old, old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
+        yield old._replace(old=f"{scope.prefix}_{before}_name", new=view.enum.function, sort="FUNCTION")
         for entry, (new, _, _) in zip(enum.entries, view.enum.entries, strict=True):
-            yield replace(old, old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
+            yield old._replace(old=f"{scope.upper}_{upper(before)}_{upper(entry.name)}", new=new, sort="NUMBER")
 
 
 def _aliases_of_structs(points: Iterable[GeneratedPoint], scope: HeaderScope) -> Iterator[AliasView]:
@@ -134,7 +133,7 @@ def _aliases_of_structs(points: Iterable[GeneratedPoint], scope: HeaderScope) ->
         for chosen in islice(product(*[_names_of(name, scope) for name in names]), 1, _MOST_OLD_NAMES):
             renamed, old = next(name for name in chosen if name.was), [name.old_item for name in chosen]
             if old == sorted(old):
-                yield replace(renamed, old=scope.struct(old), new=struct, sort="STRUCT")
+                yield renamed._replace(old=scope.struct(old), new=struct, sort="STRUCT")
 
 
 def _names_of(name: str, scope: HeaderScope) -> Iterator[AliasView]:

@@ -44,8 +44,7 @@ class PointFields(NamedTuple):
         return cls._make((*fields[:single], fields[single:]))
 
 
-@dataclass(frozen=True, slots=True)
-class EnumView:
+class EnumView(NamedTuple):
     """Enumerators (name, literal, comment), the table of their names, and the function that looks one up."""
 
     entries: tuple[tuple[str, str, str], ...]
@@ -57,8 +56,7 @@ class EnumView:
     lookup: str
 
 
-@dataclass(frozen=True, slots=True)
-class CodesView:
+class CodesView(NamedTuple):
     """A set of special codes: its functions, and its macros if several points share it."""
 
     comment: str
@@ -67,8 +65,7 @@ class CodesView:
     functions: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class SpecialView:
+class SpecialView(NamedTuple):
     """The special codes of a point.
 
     `codes` is None if the set was emitted for an earlier point. `test` is the function that recognises them, `written`
@@ -81,8 +78,7 @@ class SpecialView:
     aliases: tuple[Define, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RuleView:
+class RuleView(NamedTuple):
     """The function that gives the rule of a scale, what it does, and its text if no earlier point has it."""
 
     name: str
@@ -127,8 +123,7 @@ class PointView:
         return self.shape == "ruled" or (self.shape == "float" and self.raw_type == "uint64_t")
 
 
-@dataclass(frozen=True, slots=True)
-class AliasView:
+class AliasView(NamedTuple):
     """An old name of something that belongs to a renamed point; `was` and the old item are those of the point.
 
     `sort` tells the conformance program what it is: NUMBER, FUNCTION, FLOATING_FUNCTION, OBJECT or STRUCT.

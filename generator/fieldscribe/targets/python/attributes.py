@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.conditions import absent
@@ -10,20 +9,12 @@ from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeho
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
-from fieldscribe.targets.python.point_expressions import (
-    NUMBERED,
-    addresses_of,
-    allowed,
-    form,
-    is_limited,
-    number,
-    place,
-)
+from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.model import Device, Point, Variant
     from fieldscribe.render import Render
@@ -68,8 +59,7 @@ class LimitTexts(NamedTuple):
     ends: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class AttributeView:
+class AttributeView(NamedTuple):
     """An attribute: its name, the function that makes it, its arguments, its docstring, its old names."""
 
     name: str
@@ -133,7 +123,7 @@ class Attributes:
             python_string(code) if code else "",
             "" if point.default is None else number(point.default),
             names.word_class(point) if shape.form == "flags" else names.numbers_class(shape),
-            *addresses_of(point.place.addresses, numbered=point.terms.space in NUMBERED),
+            *addresses_of(point.place.addresses, point.terms.space),
             *[
                 python_string(printed) if isinstance(printed, str) else str(printed)
                 for printed in point.place.references.values()
@@ -188,12 +178,11 @@ def _errata(point: Point, scope: PackageScope) -> list[str]:
     return ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
 
 
-def places(point: Point, addresses: tuple[str, ...], index: str, scope: PackageScope) -> Iterator[Node]:
+def places(point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Iterator[Node]:
     """Yield where the point is read, and where else it is written."""
     yield place("at", point, addresses, index, scope)
     if point.write_place is not None:
-        written = addresses_of(point.write_place.addresses, numbered=point.space in NUMBERED)
-        yield place("write_at", point, written, index, scope)
+        yield place("write_at", point, addresses_of(point.write_place.addresses, point.space), index, scope)
 
 
 def _arguments(point: Point, fields: AttributeFields, scope: PackageScope) -> Iterator[Node]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.names import upper
@@ -22,8 +21,7 @@ if TYPE_CHECKING:
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 
 
-@dataclass(frozen=True, slots=True)
-class EnumClass:
+class EnumClass(NamedTuple):
     """A class: its head (`class Name(...):`), its docstring, and its members (name, value, docstring or empty).
 
     Words of flags also have readers of each flag. If they can be written, `composed` is the expression that makes a

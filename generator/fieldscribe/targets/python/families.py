@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.targets.python.layout import Node, call
@@ -26,8 +25,7 @@ def usual_maker(point: Point) -> str:
     return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(NamedTuple):
     """A transport of the runtime for examples: its module, and expressions that open it, for both kinds of devices."""
 
     module: str
@@ -46,8 +44,7 @@ class Line:
         return (classes[1], classes[0]) if f"({classes[0]}(" in self.awaiting else (classes[1],)
 
 
-@dataclass(frozen=True, slots=True)
-class PythonFamily:
+class PythonFamily(NamedTuple):
     """What generated modules import for a family, and the facts about the bus of a device.
 
     `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`

@@ -183,9 +183,9 @@ def _bound(bound: Bound, scope: PackageScope) -> Node:
     return call(scope.runtime("Limit"), (rule(bound.rule, scope), *ends, Group("unless={", tuple(unless), "}")))
 
 
-def addresses_of(addresses: tuple[int, ...], *, numbered: bool) -> list[str]:
-    """Return addresses as literals: `numbered` ones in decimal."""
-    return [str(address) if numbered else f"0x{address:04X}" for address in addresses]
+def addresses_of(addresses: tuple[int, ...], space: str) -> list[str]:
+    """Return addresses of a space as literals."""
+    return [str(address) if space in NUMBERED else f"0x{address:04X}" for address in addresses]
 
 
 def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Node:
@@ -199,7 +199,7 @@ def place(keyword: str, point: Point, addresses: Iterable[str], index: str, scop
 
 def place_of_command(command: Command, scope: PackageScope) -> Node:
     """Return the place that a command writes to, with the function that it takes."""
-    address = addresses_of((command.address,), numbered=False)
+    address = addresses_of((command.address,), command.space)
     return _place("at", command.space, address, (f"function=0x{command.function:02X}",), scope)
 
 

@@ -12,6 +12,7 @@ from fieldscribe.targets.python.identifiers import PackageScope, attribute, comm
 from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
 from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, place_of_command
 from fieldscribe.text import python_doc, python_string
+from fieldscribe.wording import label
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -63,7 +64,7 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
 
 def _documented(point: Point, scope: PackageScope) -> Group:
     """Return why the point has no attribute, and the addresses of its words, if they can be reached."""
-    index, addresses = "" if point.index is None else str(point.index), _shown_addresses(point)
+    index, addresses = "" if point.index is None else str(point.index), addresses_of(point.addresses, point.space)
     where = list(places(point, addresses, index, scope)) if point.raw_only else []
     why = python_string(point.reason or "no reason given")
     code = [f"code={python_string(point.code)}"] if point.code else []
@@ -77,28 +78,17 @@ def _imports(used: set[str], family: PythonFamily) -> list[tuple[str, list[str]]
     return [(module, names) for module, names in imports if names]
 
 
-def _shown_addresses(point: Point) -> tuple[str, ...]:
-    return tuple(addresses_of(point.addresses, numbered=point.space in NUMBERED))
-
-
-def _labelled(point: Point) -> str:
-    return f"{point.code} {point.item}" if point.code else point.item
-
-
 def _open_points(device: Device) -> Iterable[str]:
     """Yield the lines of a list of points whose type or scale is open, with their wire addresses."""
     for point in device.points:
         if not point.raw_only:
             continue
         index = f", index={point.index}" if point.space in NUMBERED and point.index is not None else ""
-        where = f"{python_string(point.telegram or point.space)}, {', '.join(_shown_addresses(point))}{index}"
-        text = f"- {_labelled(point)}: {where}"
-        yield from _indented(python_doc(text))
-
-
-def _indented(text: str) -> list[str]:
-    """Return the lines of an item of a list; those after the first are indented."""
-    return textwrap.wrap(text, DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+        addresses = ", ".join(addresses_of(point.addresses, point.space))
+        text = f"- {label(point)}: {python_string(point.telegram or point.space)}, {addresses}{index}"
+        yield from textwrap.wrap(
+            python_doc(text), DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+        )
 
 
 def _variants(device: Device) -> Group:

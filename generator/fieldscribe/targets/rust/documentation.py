@@ -8,18 +8,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from fieldscribe import wording
 from fieldscribe.text import rust_code
-from fieldscribe.wording import (
-    access_text,
-    address_text,
-    codes_text,
-    condition_text,
-    count_text,
-    display_text,
-    resolution_text,
-    scale_text,
-    width_texts,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,7 +38,7 @@ class PointDoc:
 
     def of(self, item: str, code: str, address: int, limits: str) -> str:
         """Return the lines of a point's doc comment; `code` and `limits` are ready for Markdown."""
-        place = f"{self._before} {address_text(address)}{self._behind}"
+        place = f"{self._before} {wording.address_text(address)}{self._behind}"
         size = self._size or (limits and f"raw {limits}")
         start = f"{code} at {place}" if code else f"At {place}"
         facts = ", ".join((start, self._type, size, *self._facts) if size else (start, self._type, *self._facts))
@@ -64,7 +54,7 @@ def _comment(paragraph: str) -> str:
 def _paragraphs(point: Point, lowered: Lowered) -> Iterator[str]:
     """Yield the special codes of a point, and its errata."""
     if point.specials:
-        yield f"{codes_text(point, '`')}."
+        yield f"{wording.codes_text(point, '`')}."
     if named := [f"`{name}`" for name in lowered.errata_of(point)]:
         yield f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}."
 
@@ -103,14 +93,14 @@ def _whereabouts(point: Point) -> Iterator[str]:
         yield rust_code(point.code)
     if point.addresses:
         before, behind = _around_address(point)
-        yield f"{before} {address_text(min(point.addresses))}{behind}"
+        yield f"{before} {wording.address_text(min(point.addresses))}{behind}"
 
 
 def _around_address(point: Point) -> tuple[str, str]:
     """Return what stands before the address of a point and behind it."""
     space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
     written = point.write_place
-    behind = "" if written is None else f" (written at {address_text(min(written.addresses))})"
+    behind = "" if written is None else f" (written at {wording.address_text(min(written.addresses))})"
     behind += "" if point.index is None else f" index {point.index}"
     return space, behind + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
 
@@ -127,23 +117,23 @@ def _size(point: Point) -> str:
 def _facts(point: Point) -> Iterator[str]:
     yield from _resolution(point)
     if point.display is not None:
-        yield display_text(point)
-    yield access_text(point.access)
+        yield wording.display_text(point)
+    yield wording.access_text(point.access)
     if point.variant:
         yield f"for {rust_code(str(point.variant))}"
     if point.when:
-        yield f"only when {rust_code(condition_text(point.when))}"
+        yield f"only when {rust_code(wording.condition_text(point.when))}"
 
 
 def _resolution(point: Point) -> Iterator[str]:
     """Yield the unit of a raw step and of a count."""
     if point.form not in ("scaled", "float"):
         return
-    resolution, scale, count = resolution_text(point), scale_text(point), count_text(point)
+    resolution, scale, count = wording.resolution_text(point), wording.scale_text(point), wording.count_text(point)
     if resolution and resolution != count:
         yield f"steps of {rust_code(resolution)}{' (for information, not checked)' if point.steps else ''}"
     elif scale and not resolution:
         yield f"value {rust_code(scale)}"
     if count:
         yield f"one count is {rust_code(count)}"
-    yield from width_texts(point)
+    yield from wording.width_texts(point)

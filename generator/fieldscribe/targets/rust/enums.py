@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
@@ -26,8 +25,7 @@ UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
-@dataclass(frozen=True, slots=True)
-class EntryView:
+class EntryView(NamedTuple):
     """A variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
 
     doc: str
@@ -37,8 +35,7 @@ class EntryView:
     numbered: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class EnumItem:
+class EnumItem(NamedTuple):
     """An enum; `unknown` is the variant that carries a number without a name."""
 
     doc: str
@@ -48,8 +45,7 @@ class EnumItem:
     unknown: str
 
 
-@dataclass(frozen=True, slots=True)
-class FlagView:
+class FlagView(NamedTuple):
     """A flag: the constant of its mask, its getter and setter, its named numbers (doc, constant).
 
     `single` says that it is one bit, `inverted` that this bit is 0 while the flag is true. `meaning` is what its name
@@ -70,8 +66,7 @@ class FlagView:
     values: tuple[tuple[str, tuple[str, ...]], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class FlagsView:
+class FlagsView(NamedTuple):
     """A word whose bits have names; the bits are held in the unsigned type of the raw number's width.
 
     `false` is the word in which no flag is true, `printed` the lines that print the word.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.families import family
 from fieldscribe.targets.rust.documentation import sentence
@@ -43,8 +43,7 @@ class Snippet:
         return Snippet(self.lines + other.lines, self.names | other.names)
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(NamedTuple):
     """A table of the conformance program: its function, the function of the runner that it calls, and its rows.
 
     `kind` is the kind of the vectors of whole exchanges that it answers; empty for any other table.

@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.model import Limit
+from fieldscribe.targets.rust import literals
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled
-from fieldscribe.targets.rust.literals import (
-    FLOAT_GREATEST,
-    float_literal,
-    integer,
-    mask,
-    nearest_float,
-    raw_literal,
-    type_name,
-)
 from fieldscribe.targets.rust.value_forms import count_type, interval, limit_lines
 from fieldscribe.text import rust_string
 
@@ -93,15 +84,15 @@ def _limits(point: Point, scope: CrateScope) -> Iterator[str]:
 
 
 def _end(bound: Bound, scope: CrateScope, *, lower: bool) -> tuple[str, ...]:
-    return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
+    return limit_lines(bound, scope.lowered, lower=lower) if isinstance(bound, Limit) else (literals.integer(bound),)
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
     """Yield the limits as numbers of the type; empty if they are the type's own limits."""
-    greatest = FLOAT_GREATEST[point.width]
-    ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
+    greatest = literals.FLOAT_GREATEST[point.width]
+    ends = [[literals.nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
     if ends and ends != [[-greatest, greatest]]:
-        pairs = ", ".join(f"({float_literal(low)}, {float_literal(high)})" for low, high in ends)
+        pairs = ", ".join(f"({literals.float_literal(low)}, {literals.float_literal(high)})" for low, high in ends)
         yield f"ranges [{pairs}];"
 
 
@@ -113,8 +104,7 @@ def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
         yield f"function {many};"
 
 
-@dataclass(frozen=True, slots=True)
-class SharedView:
+class SharedView(NamedTuple):
     """Codes that several points share: a type with a constant for each code and a table of all."""
 
     name: str
@@ -131,14 +121,14 @@ def shared_views(scope: CrateScope) -> Iterator[SharedView]:
             first.setdefault(subject.point.shared_codes, subject)
     for of, subject in first.items():
         item = Item("pub const CODES", f"&'static [runtime::Code<{subject.raw}>]")
-        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, item))
+        yield SharedView(literals.type_name(of), of, tuple(code_constants(subject)), _table(subject, item))
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:
     """Yield the fact about the codes of a point, its own or shared ones."""
     shared = subject.point.shared_codes
     if shared:
-        yield f"codes (special::{type_name(shared)}::CODES);"
+        yield f"codes (special::{literals.type_name(shared)}::CODES);"
     elif subject.point.specials:
         yield "codes {"
         for special in subject.point.specials:
@@ -191,4 +181,4 @@ def _constant(item: Item, call: str) -> Lines:
 
 
 def _literal(raw: int, special: Special, rust_type: str) -> str:
-    return mask(raw, rust_type) if special.hexadecimal and raw >= 0 else raw_literal(raw, rust_type)
+    return literals.mask(raw, rust_type) if special.hexadecimal and raw >= 0 else literals.raw_literal(raw, rust_type)
