@@ -13,7 +13,7 @@ from fieldscribe.targets.c.scales import linear
 from fieldscribe.targets.c.views import RuleView
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from fieldscribe.lowered import Operand, Rule
     from fieldscribe.targets.c.scope import HeaderScope
@@ -82,10 +82,19 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
     table = ranges_table(point, scope)
     if table:
         return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
-    literal = bare if point.info.signed else unsigned
-    bounds = point.held
-    test = any_of([interval_test("raw", *ends, bounds, literal) for ends in point.allowed.fixed])
+    test = is_in(point, point.allowed.fixed)
     return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
+
+
+def is_in(point: Point, bands: Iterable[tuple[int, int]]) -> str:
+    """Return a test that `raw` lies in one of these bands; empty if all numbers of the type do, or without bands."""
+    literal = bare if point.info.signed else unsigned
+    tests = [interval_test("raw", *band, point.held, literal) for band in bands]
+    if len(tests) < 2:
+        return tests[0] if tests else ""
+    if not all(tests):
+        return ""
+    return " || ".join(f"({test})" if " && " in test else test for test in tests)
 
 
 def either(statuses: list[str]) -> str:
@@ -136,15 +145,6 @@ def interval_test(name: str, low: int, high: int, bounds: tuple[int, int], liter
         return f"({name} == {literal(low)})"
     parts = [f"({name} >= {literal(low)})"] if low > bounds[0] else []
     return " && ".join([*parts, f"({name} <= {literal(high)})"] if high < bounds[1] else parts)
-
-
-def any_of(tests: list[str]) -> str:
-    """Return the tests joined by `or`; empty when nothing is refused."""
-    if len(tests) < 2:
-        return tests[0] if tests else ""
-    if not all(tests):
-        return ""
-    return " || ".join(f"({test})" if " && " in test else test for test in tests)
 
 
 def bracketed(test: str) -> str:

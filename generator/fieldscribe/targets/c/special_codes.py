@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import INLINE, function
-from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
-from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed, unsigned
+from fieldscribe.targets.c.limits import bracketed, is_in
+from fieldscribe.targets.c.literals import hexadecimal, raw_type, signed
 from fieldscribe.targets.c.views import CodesView, SpecialView
 from fieldscribe.text import c_comment, c_string
 
@@ -30,7 +30,7 @@ def special_view(point: Point, fields: PointFields, scope: HeaderScope, *, bring
     """
     if not point.specials:
         return None
-    own_prefix, name = f"{scope.prefix}_{fields.item}", f"{scope.prefix}_{owner(point, fields)}"
+    own_prefix, name = f"{scope.prefix}_{fields.item}", f"{scope.prefix}_{point.shared_codes or fields.item}"
     return SpecialView(
         codes=_codes(point, name, scope) if brings or not point.shared_codes else None,
         test=f"{name}_is_special",
@@ -48,11 +48,6 @@ def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
         return check
     writable = bracketed(_test(point, (code for code in point.specials if code.writable)))
     return f"{writable} ? FIELDSCRIBE_OK : ({check})"
-
-
-def owner(point: Point, fields: PointFields) -> str:
-    """Return the name that prefixes the codes of a point: its own, or that of the shared codes."""
-    return point.shared_codes or fields.item
 
 
 def code_defines(point: Point, macro: str) -> Iterator[Define]:
@@ -111,5 +106,4 @@ def _literal(raw: int, special: Special, point: Point) -> str:
 
 
 def _test(point: Point, codes: Iterable[Special]) -> str:
-    literal = bare if point.info.signed else unsigned
-    return any_of([interval_test("raw", code.low, code.high, point.held, literal) for code in codes])
+    return is_in(point, [(code.low, code.high) for code in codes])

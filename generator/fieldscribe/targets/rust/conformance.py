@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.names import upper
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
 from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
@@ -99,34 +100,29 @@ def _text_of(rows: Iterable[Tokens]) -> str:
 
 def _protocol(device: Device) -> Iterator[Table]:
     """Yield the tables of the numbers of the protocol, and of commands."""
-    family_part = in_rust(device.family)
-    constants, named = [], []
+    part = in_rust(device.family)
+    rows: dict[str, list[str]] = {"constant": []}
     for codes in family(device.family).codes:
+        kind, module, how = "constant", f"{codes.kind}s", "code"
+        if codes.section == "exceptions":
+            kind, module, how = part.refusals, "exceptions", "named"
         for code in device.bus.codes(codes.section) if codes.emitted else ():
-            if codes.section == "exceptions":
-                named.append(_code(codes.kind, "exceptions", code.name, "named"))
-            else:
-                constants.append(_code(codes.kind, f"{codes.kind}s", code.name, "code"))
-    for kind, rows in (("constant", constants), (family_part.refusals, named)):
-        if rows:
-            yield Table(kind, "code", tuple(rows))
-    yield from family_part.tables_of_frames(device)
-    places = [point for point in device.points if point.raw_only and point.address is not None]
-    if places:
-        documented = (item_row(point.item, "points", "documented", point.item.upper()) for point in places)
-        yield Table("documented", "documented", tuple(documented))
+            row = item_row(f"{codes.kind} {code.name}", module, how, upper(code.name))
+            rows.setdefault(kind, []).append(row)
+    yield from (Table(kind, "code", of_kind) for kind, of_kind in rows.items() if of_kind)
+    yield from part.tables_of_frames(device)
+    raw_only = [point.item for point in device.points if point.raw_only]
+    if raw_only:
+        documented = [item_row(item, "points", "documented", upper(item)) for item in raw_only]
+        yield Table("documented", "documented", documented)
     if device.commands:
-        sent = (item_row(command.name, "commands", "sent", command.name.upper()) for command in device.commands)
-        yield Table("command", "command", tuple(sent))
+        sent = [item_row(command.name, "commands", "sent", upper(command.name)) for command in device.commands]
+        yield Table("command", "command", sent)
 
 
 def item_row(key: str, module: str, how: str, name: str) -> str:
     """Return the row of something other than a point: its key in the vectors, and its path in the crate."""
     return row_text((rust_string(key), module, *bracketed((how, name))))
-
-
-def _code(what: str, module: str, name: str, how: str) -> str:
-    return item_row(f"{what} {name}", module, how, name.upper())
 
 
 def arms(tables: Iterable[Table]) -> Iterator[str]:
@@ -137,11 +133,9 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
     for kind in ("read", "write", "store"):
         calls = answering.get(kind, [])
         chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
-        if len(chain) == 2 or len("".join(chain)) <= _CHAIN:
-            lines = ["".join(chain)] if chain else []
-        else:
-            lines = [chain[0], *(f"    {link}" for link in chain[1:])]
-        if lines:
-            whole = [f'"{kind}" => {lines[0]}', *lines[1:]]
-            yield from whole[:-1]
-            yield f"{whole[-1]},"
+        if not chain:
+            continue
+        on_one_line = len(chain) == 2 or len("".join(chain)) <= _CHAIN
+        lines = ["".join(chain)] if on_one_line else [chain[0], *(f"    {link}" for link in chain[1:])]
+        lines[0] = f'"{kind}" => {lines[0]}'
+        yield from (*lines[:-1], f"{lines[-1]},")
