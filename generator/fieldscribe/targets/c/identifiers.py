@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import named_numbers
+from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import STATUSES, aliases_of, remark_defines, telegrams_of
@@ -18,7 +19,7 @@ from fieldscribe.targets.identifiers import Names, Owner
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Device, Point, Special
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.c.point_templates import GeneratedPoint
     from fieldscribe.targets.c.scope import HeaderScope
     from fieldscribe.targets.c.views import PointView
@@ -66,10 +67,8 @@ def _of_points(device: Device, points: Iterable[GeneratedPoint], scope: HeaderSc
         if point.generated:
             yield from _of_point(next(generated).view, scope)
         else:
-            yield (
-                Owner("point", point.item),
-                [name for name, _ in remark_defines(point, fields_of(point, scope), scope)],
-            )
+            defines = remark_defines(point, fields_of(point, scope), scope)
+            yield Owner("point", point.item), [name for name, _ in defines]
 
 
 def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
@@ -85,11 +84,7 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
     if view.special is not None and view.special.codes is not None and point.shared_codes:
         codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
         yield shared, [codes.name + tail for tail in FUNCTIONS]
-        for special in point.specials:
-            yield (
-                Owner("code", special.name, shared),
-                _code_names(special, f"{scope.upper}_{shared.name.upper()}", point),
-            )
+        yield from _of_codes(point, f"{scope.upper}_{upper(shared.name)}", shared)
     enum = named_numbers(point.shape)
     if view.enum is not None and enum is not None:
         whole = Owner("enum", names_of(enum, point, view.fields)[0])
@@ -113,14 +108,14 @@ def _of_parts(view: PointView, owner: Owner) -> Iterator[Named]:
     """Yield the identifiers for the point's flags, and for special codes of its own."""
     point = view.point
     for flag in point.flags:
-        defines = [name for name, _ in flag_defines(flag, point, view.macro)]
-        yield (
-            Owner("flag", flag.name, owner),
-            [*defines, f"{view.function}_{flag.name}"] if flag.width > 1 else defines,
-        )
-    for special in () if point.shared_codes else point.specials:
-        yield Owner("code", special.name, owner), _code_names(special, view.macro, point)
+        names = [name for name, _ in flag_defines(flag, point, view.macro)]
+        names += [f"{view.function}_{flag.name}"] * (flag.width > 1)
+        yield Owner("flag", flag.name, owner), names
+    if not point.shared_codes:
+        yield from _of_codes(point, view.macro, owner)
 
 
-def _code_names(special: Special, macro: str, point: Point) -> list[str]:
-    return list(dict.fromkeys(name for name, _ in special_defines(special, macro, point)))
+def _of_codes(point: Point, macro: str, owner: Owner) -> Iterator[Named]:
+    for special in point.specials:
+        names = dict.fromkeys(name for name, _ in special_defines(special, macro, point))
+        yield Owner("code", special.name, owner), tuple(names)

@@ -39,18 +39,16 @@ def identifiers(device: Device) -> Iterator[Names]:
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
-    for point in device.points:
-        if point.raw_only:
-            yield Names("Rust, module `points::documented`", Owner("point", point.item), (upper(point.item),))
     for enum in device.enums:
         if enum.name in scope.enums:
             yield from _of_enum(enum)
-    for command in device.commands:
-        yield Names("Rust, module `commands`", Owner("command", command.name), (upper(command.name),))
-    for group in device.blocks:
-        yield Names("Rust, module `blocks`", Owner("group", group), (upper(group),))
-    for code in device.bus.exceptions:
-        yield Names("Rust, module `exceptions`", Owner("exception", code.name), (upper(code.name),))
+    for module, kind, names in (
+        ("points::documented", "point", [point.item for point in device.points if point.raw_only]),
+        ("commands", "command", [command.name for command in device.commands]),
+        ("blocks", "group", [*device.blocks]),
+        ("exceptions", "exception", [code.name for code in device.bus.exceptions]),
+    ):
+        yield from (Names(f"Rust, module `{module}`", Owner(kind, name), (upper(name),)) for name in names)
     yield from in_rust(device.family).identifiers(device)
 
 

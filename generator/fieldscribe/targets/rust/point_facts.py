@@ -132,13 +132,13 @@ def code_lines(subject: CratePoint) -> Iterator[str]:
     elif subject.point.specials:
         yield "codes {"
         for special in subject.point.specials:
-            name, band = special.name.upper(), special.low != special.high
-            ends = "..=".join(
-                _literal(end, special, subject.raw) for end in ((special.low, special.high) if band else (special.low,))
-            )
-            last = f" {name}_LAST" if band else ""
-            yield f"    /// {sentence(f'{special.name}, the first of a band' if band else special.name)}"
-            yield f"    {name}{last} = {_kind(special)}({rust_string(special.name)}, {ends});"
+            name, about = special.name.upper(), special.name
+            ends = _literal(special.low, special, subject.raw)
+            if special.low != special.high:
+                name, about = f"{name} {name}_LAST", f"{about}, the first of a band"
+                ends += f"..={_literal(special.high, special, subject.raw)}"
+            yield f"    /// {sentence(about)}"
+            yield f"    {name} = {_kind(special)}({rust_string(special.name)}, {ends});"
         yield "};"
 
 
