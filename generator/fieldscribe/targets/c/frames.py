@@ -87,8 +87,7 @@ class Frames:
         return folded("".join(texts))
 
 
-@dataclass(frozen=True, slots=True)
-class FramesHeader:
+class FramesHeader(NamedTuple):
     """The header of frames of a device: what its template calls `bus`, the frames of points, and all identifiers.
 
     `sections` has the frames of points by the names of their texts in the template.
