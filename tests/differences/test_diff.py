@@ -3,76 +3,24 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
 import stat
-import subprocess
 from itertools import pairwise, permutations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.cli import main
 from fieldscribe.differences.changes import as_data, compared
 from fieldscribe.differences.rendering import as_markdown, as_text
-from fieldscribe.differences.sides import Side, copied
+from fieldscribe.differences.sides import Side
 from fieldscribe.export import export_model
-from fieldscribe.user_errors import UnclearError
-from support.described import described, loaded, made, write
+from support.described import loaded, made
+from support.diff_command import EDITED, POINTS, Diff, Result
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-POINTS = """\
-- {code: P1, name: speed, at: 10h, range: 0..4000, unit: Hz}   # the first one
-- name: state     # what it does
-  at: 16h
-  enum: {0: stop, 1: run}
-- {name: ramp, at: 20h, sets: {2: {at: 30h}}}
-"""
-EDITED = POINTS.replace("at: 10h", "at: 11h").replace("1: run", "1: run, 2: wait")
-
 
 KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss", "kitchen_codes")
-
-
-class Result(NamedTuple):
-    """What a run did."""
-
-    code: int
-    out: str
-    err: str
-
-
-class Diff:
-    """Runs the command in a folder of its own."""
-
-    def __init__(self, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-        self.folder, self._capsys = folder, capsys
-
-    def write(self, name: str, points: str, **said: str) -> Path:
-        """A description in a folder of that name; its device.yaml."""
-        return write(self.folder / name, described(points, **said))
-
-    def __call__(self, *words: str) -> Result:
-        """The command with these arguments."""
-        self._capsys.readouterr()
-        return Result(main(["diff", *words]), *self._capsys.readouterr())
-
-    def changes(self, *words: str) -> list[dict[str, Any]]:
-        """What JSON says."""
-        changes: list[dict[str, Any]] = json.loads(self(*words, "--format", "json").out)["changes"]
-        return changes
-
-
-@pytest.fixture
-def diff(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Diff:
-    """The command, with two descriptions in the folder where it is called."""
-    monkeypatch.chdir(tmp_path)
-    made = Diff(tmp_path, capsys)
-    made.write("old", POINTS)
-    made.write("new", EDITED)
-    return made
 
 
 def test_json(diff: Diff) -> None:
@@ -268,109 +216,10 @@ def test_findings_are_told_and_the_rest_is_compared(diff: Diff) -> None:
     assert diff("old", "new")[:2] == (1, "")
 
 
-@pytest.fixture
-def repository(diff: Diff, monkeypatch: pytest.MonkeyPatch) -> Diff:
-    """The folder as a git repository, with a commit and a tag; `old` has changed since."""
-    for name in [name for name in os.environ if name.startswith("GIT_")]:
-        monkeypatch.delenv(name)
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
-    _git("init", "-q", "-b", "main")
-    shutil.copy("old/device.yaml", "old/second.yml")
-    shutil.copytree("old", "far/away/old")
-    _git("add", ".")
-    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-q", "-m", "first")
-    _git("tag", "v1")
-    diff.write("old", EDITED)
-    return diff
-
-
-def _git(*words: str) -> None:
-    subprocess.run(["git", *words], check=True, capture_output=True)
-
-
-def test_a_revision(repository: Diff) -> None:
-    changes = repository.changes("v1:old", "old")
-    assert (changes[0]["point"], changes[0]["fact"]) == ("speed", "address")
-    assert changes[0]["places"] == {"old": "v1:old/device.yaml:15", "new": "old/device.yaml:15"}
-    for same in ("HEAD:old/device.yaml", "main:old/", "v1:./old", "v1:old/second.yml"):
-        assert repository(same, "v1:old").code == 0
-    assert repository.changes("v1:old/device.yaml", "old")[0]["places"]["old"] == "v1:old/device.yaml:15"
-    assert {each["device"] for each in repository.changes("v1:new", "v1:old")} == {"made_up"}
-
-
-@pytest.mark.full(seconds=1)
-def test_a_revision_with_findings(repository: Diff) -> None:
-    repository.write("old", EDITED.replace("name: ramp", "name: ramp, type: u17"))
-    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "wrong")
-    told = repository("v1:old", "HEAD:old")
-    assert "HEAD:old/device.yaml:" in told.err
-    assert "fieldscribe-" not in told.err + told.out
-
-
 def test_errors_are_no_success(diff: Diff) -> None:
     diff.write("old", POINTS.replace("name: ramp", "name: ramp, type: u17"))
     diff.write("new", POINTS.replace("name: ramp", "name: ramp, type: u17"))
     assert diff("old", "new").code == 1
-
-
-def test_a_folder_of_a_revision_is_called_as_it_was_asked_for(repository: Diff) -> None:
-    (repository.folder / "empty").mkdir()
-    (repository.folder / "empty/notes.txt").write_text("nothing", "utf-8")
-    _git("add", ".")
-    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "empty")
-    told = repository("HEAD:empty", "old")
-    assert told.code == 1
-    assert " --> HEAD:empty" in told.err
-    assert "fieldscribe-" not in told.err
-
-
-NOT_THERE = {
-    ":old": "is not a revision",
-    "v\n1:old": "is not a revision",
-    "v9:old": "git knows no revision `v9`",
-    "v1:nothing": "there is no `nothing` in `v1`",
-    "v1:../old": "there is no `../old` in `v1`",
-    "v1:link": "there is no `link` in `v1`",
-}
-
-
-def test_what_git_does_not_have(repository: Diff) -> None:
-    for revision, said in NOT_THERE.items():
-        told = repository(revision, "old")
-        assert (told.code, told.out) == (2, "")
-        assert said in told.err
-        assert told.err.startswith("fieldscribe: ")
-
-
-def test_a_revision_is_never_an_option(repository: Diff) -> None:
-    for revision in ("--upload-pack=x", "-h", "--output=x", "-"):
-        if revision != "-h":  # Python 3.13 shows the help for `-h:old`
-            assert repository(f"{revision}:old", "old")[:2] == (2, "")
-            assert repository("--", f"{revision}:old", "old")[:2] == (2, "")
-        with pytest.raises(UnclearError, match="is not a revision"):
-            copied(revision, "old", repository.folder)
-        assert not Path("x").exists()
-
-
-def test_links_and_deep_folders_of_a_revision_are_not_read(repository: Diff) -> None:
-    os.symlink("/etc", "linked")
-    Path("old/device.yaml").unlink()
-    os.symlink("../new/device.yaml", "old/device.yaml")
-    _git("add", ".")
-    _git("-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false", "commit", "-qam", "links")
-    for path, message in {
-        "linked": "`linked` is not a regular file",
-        "old": "the folder holds no device.yaml",
-        "old/device.yaml": "`old/device.yaml` is not a regular file",
-        "linked/hostname": "there is no `linked/hostname`",
-        "far": "the folder holds no device.yaml",
-    }.items():
-        assert message in repository(f"HEAD:{path}", "new").err
-
-
-def test_outside_of_a_repository(diff: Diff, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(diff.folder.parent))
-    assert "this is not a folder of a git repository" in diff("v1:old", "new").err
 
 
 def _exported(change: Callable[[dict[str, Any]], object]) -> str:
