@@ -157,17 +157,17 @@ CHANGES = (_no_line, _foreign_line, _line_of_its_own, _word, _word, _word_of_its
 
 @contextmanager
 def _bounded() -> Iterator[None]:
-    """Raises when a mutant takes too long."""
+    """Raises when a mutant takes too much time of a processor."""
 
     def too_long(number: int, frame: Any) -> None:
-        raise TimeoutError(f"longer than {SECONDS} seconds")
+        raise TimeoutError(f"longer than {SECONDS} seconds of a processor")
 
-    signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    signal.signal(signal.SIGPROF, too_long)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 def trial(file: Path, *, compiled: bool) -> str | None:

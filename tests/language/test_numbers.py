@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import pytest
@@ -107,14 +107,14 @@ def test_a_message_quotes_hostile_text_clean_and_short() -> None:
 @example("1e" + "0" * 62)
 @example("1e" + "9" * 62)
 def test_any_text_gives_a_number_or_a_number_error(text: str) -> None:
-    begun = perf_counter()
+    begun = process_time()
     for parse in (parse_number, parse_integer):
         try:
             parse(text)
         except NumberError as error:
             assert error.message
             assert (error.message + error.hint).isprintable()
-    assert perf_counter() - begun < 0.1
+    assert process_time() - begun < 0.1
 
 
 @given(st.integers(-(2**64), 2**64))

@@ -273,6 +273,7 @@ Points.level.encode(Points.upper_limit.special.inactive)  # E: arg-type
 """
 
 
+@pytest.mark.full(seconds=4)
 def test_mypy_does_not_let_a_code_pass_for_a_float(folder: Path, tmp_path: Path) -> None:
     assert typed_findings(MISUSE, folder, "kitchen_codes", tmp_path) == ""
 

@@ -33,6 +33,7 @@ def test_mypy_of_the_compiler_and_the_tests() -> None:
     assert_clean(run(sys.executable, "-m", "mypy", "--no-error-summary"))
 
 
+@pytest.mark.full(seconds=6)
 def test_mypy_and_ruff_of_the_generated_python() -> None:
     places = [str(path.parent) for path in sorted((ROOT / "generated/python").glob("*/__init__.py"))]
     assert places
