@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from itertools import pairwise, starmap
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Command, Point
     from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Encode
+
+    CellsOf = Callable[[Point, Sheet], Iterable[str]]
 
 _FACTS = {fact.key: fact for fact in POINT if fact.column}
 
@@ -99,7 +102,7 @@ class _Cells(NamedTuple):
     """
 
     column: str
-    of: Callable[[Point, Sheet], Sequence[str]]
+    of: CellsOf
     shared: str = ""
     needs: str = "name"
 
@@ -128,7 +131,7 @@ _CELLS = (
     _Cells("keeps", sheet_cells.keeps, "terms"),
     _Cells("remarks", lambda point, sheet: (sheet.remarks(point),)),
     _Cells("note", lambda point, sheet: (sheet.encode(wording.title_text(point.note)),), needs="note"),
-    _Cells("document", lambda point, sheet: tuple(source_cells(point.source, sheet.encode))),
+    _Cells("document", lambda point, sheet: source_cells(point.source, sheet.encode)),
     _Cells("generated", lambda point, _: ("yes" if point.generated else "no",), "terms"),
 )
 
@@ -147,12 +150,11 @@ def _filled(scope: DocsScope) -> Iterator[Column]:
 
 
 def _rows(scope: DocsScope, columns: Sequence[Column], encode: Encode) -> Iterator[Sequence[str]]:
-    sheet, first = Sheet(scope, encode), {column.name: place for place, column in enumerate(columns)}
-    cells = [cells for cells in _CELLS if cells.column in first]
-    own = [(first[column], of) for column, of, shared, _ in cells if not shared]
-    with_terms = [(first[column], of) for column, of, shared, _ in cells if shared == "terms"]
-    with_limits = [(first[column], of) for column, of, shared, _ in cells if shared == "limits"]
-    needed = attrgetter(*(each.needs for each in cells if not each.shared))
+    sheet, placed = Sheet(scope, encode), list(_placed(columns))
+    with_terms, with_limits, own = (
+        [(place, cells.of) for place, cells in placed if cells.shared == shared] for shared in ("terms", "limits", "")
+    )
+    needed = attrgetter(*(cells.needs for _, cells in placed if not cells.shared))
     by_terms: dict[object, list[str]] = {}
     by_limits: dict[object, list[str]] = {}
     for point in scope.device.points:
@@ -160,24 +162,29 @@ def _rows(scope: DocsScope, columns: Sequence[Column], encode: Encode) -> Iterat
         shared_row = by_limits.get((*key, id(point.allowed)))
         if shared_row is None:
             if key not in by_terms:
-                by_terms[key] = _filled_row([""] * len(columns), with_terms, point, sheet)
-            shared_row = by_limits[*key, id(point.allowed)] = _filled_row(by_terms[key], with_limits, point, sheet)
-        present = [part for part, value in zip(own, needed(point), strict=True) if value or value == 0]
-        yield _filled_row(shared_row, present, point, sheet)
+                by_terms[key] = [""] * len(columns)
+                _fill(by_terms[key], with_terms, point, sheet)
+            shared_row = by_limits[*key, id(point.allowed)] = by_terms[key].copy()
+            _fill(shared_row, with_limits, point, sheet)
+        row = shared_row.copy()
+        _fill(row, [part for part, value in zip(own, needed(point), strict=True) if value or value == 0], point, sheet)
+        yield row
     for command in scope.device.commands:
         texts = _command_cells(command, sheet)
         yield [texts.get(column.name, "") for column in columns]
 
 
-def _filled_row(
-    row: list[str], parts: Iterable[tuple[int, Callable[[Point, Sheet], Sequence[str]]]], point: Point, sheet: Sheet
-) -> list[str]:
-    """A copy of a row with the cells of these parts."""
-    row = row.copy()
-    for first, cells_of in parts:
-        cells = cells_of(point, sheet)
-        row[first : first + len(cells)] = cells
-    return row
+def _placed(columns: Sequence[Column]) -> Iterator[tuple[slice, _Cells]]:
+    """The cells with their places in a row; each reach up to the next."""
+    first = {column.name: place for place, column in enumerate(columns)}
+    cells = sorted((cells for cells in _CELLS if cells.column in first), key=lambda cells: first[cells.column])
+    starts = [*(first[each.column] for each in cells), len(columns)]
+    return zip(starmap(slice, pairwise(starts)), cells, strict=True)
+
+
+def _fill(row: list[str], parts: Iterable[tuple[slice, CellsOf]], point: Point, sheet: Sheet) -> None:
+    for place, cells_of in parts:
+        row[place] = cells_of(point, sheet)
 
 
 def _command_cells(command: Command, sheet: Sheet) -> Mapping[str, str]:
