@@ -62,6 +62,10 @@ def entries() -> list[Entry]:
         ("off2", "siemens_mm4 STW control_word", "flag off2"),
         ("visualisation Sendetelegramm", "woodward_mpu2s telegram visualisation", "name visualisation bus.yaml:13"),
         ("ENTER-Befehl", "hitachi_l200 command enter", "title ENTER-Befehl bus.yaml"),
+        ("binary_output_1 zero", "jumo_controller binary_outputs", "flag zero process_data.yaml:32"),
+        ("monitor_d", "hitachi_l200 d001 output_frequency", "group monitor_d monitor_d.yaml:22"),
+        ("addi", "hitachi_l200 A146 frequency_offset_sign", "enum Plus (addiert A145) standard_a.yaml:687"),
+        ("7", "siemens_mm4 task 7 write_array_word", "number 7 bus.yaml:42"),
     ],
 )
 def test_the_first_hit(words: str, first: str, expected: str, entries: list[Entry]) -> None:

@@ -66,7 +66,7 @@ def _about_number(value: int | Decimal, accepted: Collection[type], example: Any
     """Return the hint for a number, true or false where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
-    typed = str(value).lower() if isinstance(value, bool) else str(value)
+    typed = str(value).lower()
     if form is not None and not re.search(form.pattern, typed):
         return form_hint(typed, form)
     if isinstance(example, str) and "wire" in example:
