@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import islice
-from typing import TYPE_CHECKING, TypeVar
+from pathlib import Path
+from typing import TypeVar
 
 import pytest
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from support.c_device import Folders
-    from support.small_drive import Output
+from support.c_device import Folders
+from support.small_drive import Output
 
 T = TypeVar("T")
 UNTOLD = 2.0

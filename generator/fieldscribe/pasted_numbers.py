@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from fieldscribe.text import line
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 _SEPARATORS = re.compile(r"[\s,;:|\-]+")
 _MARK = re.compile(r"0[xX]|\\x|[hH]'")

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.safe_files import shown_path
+from fieldscribe.safe_files import Inputs, shown_path
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
-
     from fieldscribe.language.files import Files
     from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.safe_files import Inputs
     from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"

@@ -9,10 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Diagnostic, Report, Span
+from fieldscribe.diagnostics import Diagnostic, Report, Span
 
 Line = list[tuple[str, str]]
 """One line as (style, text); styles are error, warning, strong, place, frame, hint, and empty."""

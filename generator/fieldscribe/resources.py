@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache"})
 _PACKAGE = Path(__file__).resolve().parent

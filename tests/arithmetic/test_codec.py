@@ -6,7 +6,6 @@ import math
 import struct
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic import codec
@@ -17,7 +16,7 @@ from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.conversation.refusals import amount
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings, read_value
-from fieldscribe.model import Special
+from fieldscribe.model import Device, Point, Special
 from fieldscribe.pasted_numbers import HexError, parse_hex
 from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
@@ -35,9 +34,6 @@ from support.models import (
     scaled,
     titles,
 )
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
 
 DEVICE = sample_device()
 HOURS = replace(SECOND, symbol="h", name="hour")

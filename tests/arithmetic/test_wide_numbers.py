@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 from fractions import Fraction
 from math import isnan
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.arithmetic.codec import decode, setting_of
 from fieldscribe.arithmetic.exact import half_away
+from fieldscribe.model import Point
 from fieldscribe.render import render
 from fieldscribe.targets import docs
 from support.c_device import WARNINGS, write_headers
@@ -17,12 +20,6 @@ from support.described import compile_in, described, kitchen_sink, loaded_in
 from support.models import named
 from support.python_package import error, imported, write_package
 from support.toolchains import compiled, run, succeed, tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Point
 
 DEVICE = kitchen_sink()
 PATHS = {

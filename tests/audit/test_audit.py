@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.audit.manual import Manual, has_word
@@ -13,9 +14,6 @@ from fieldscribe.cli import main
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
 from support.described import group, head, together, write
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 MANUAL = """# Drive protocol
 

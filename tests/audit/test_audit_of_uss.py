@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import json
 from hashlib import sha256
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from support.described import group, head, together, write
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 USS_MANUAL = """Drive
 

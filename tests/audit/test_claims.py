@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from fieldscribe.audit.claims import Number
+from fieldscribe.audit.claims import Claim, Number
 from fieldscribe.audit.claims_of_device import claims_of_codes, claims_of_entry, claims_of_settings
 from fieldscribe.audit.notation import Notation
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.source import SourceFile
-
-if TYPE_CHECKING:
-    from fieldscribe.audit.claims import Claim
-    from fieldscribe.language.nodes import Map
 
 
 def written(text: str) -> Map:

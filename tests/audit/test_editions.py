@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import json
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from support.described import write
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 OLD = """# Heat pump HP 12
 

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.audit import Citations, audit
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from support.described import group, head, together, write
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DOCUMENTS = "{manual: {title: Manual, language: en, writes: {default: [Factory setting]}}}"
 

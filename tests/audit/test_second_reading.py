@@ -5,14 +5,11 @@ from __future__ import annotations
 import re
 import shutil
 from collections import Counter
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from support.places import ROOT
 from support.second_reading import READ_TWICE, differences, errata, key, rows, settled_wrongly, unanswered
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 each_device = pytest.mark.parametrize("name", READ_TWICE)
 

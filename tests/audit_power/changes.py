@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from random import Random
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from fractions import Fraction
-    from random import Random
-
-    from audit_power.facts import CitedFact
+from audit_power.facts import CitedFact
 
 _WORDS = ("Sollwert", "gesperrt", "Pumpe", "Notbetrieb", "Wartung", "Vorlauf", "dritte", "umgekehrt")
 _FAR = 12

@@ -6,16 +6,13 @@ This module reads the YAML and the model itself. It takes nothing from the audit
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from fieldscribe.language.nodes import Map, Seq
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _LITERAL = re.compile(r"0b[01]+|0[xX][0-9A-Fa-f]+|[0-9][0-9A-Fa-f]*h\b|[0-9]+(?:\.(?!\.)[0-9]+)?")
 _SMALL = 9

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING
 
 from fieldscribe.audit import Citations, Editions, audit
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.resources import descriptions_dir
 
-from audit_power.changes import change_of
-from audit_power.facts import facts_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from audit_power.changes import Change
-    from audit_power.facts import CitedFact
+from audit_power.changes import Change, change_of
+from audit_power.facts import CitedFact, facts_of
 
 _FACTS_OF_KEY = {"at": ("address", "printed", "code", "number"), "range_in_units": ("range",)}
 """The names that reports have for facts whose key in the YAML is another."""

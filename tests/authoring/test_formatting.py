@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import os
 import random
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.authoring import formatting
@@ -18,10 +20,6 @@ from fieldscribe.language.pieces import comments, pieces, unbroken
 from fieldscribe.language.source import SourceFile
 from support.described import DEVICES, described
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
 
 SHIPPED = sorted((ROOT / "descriptions").rglob("*.yaml"))
 MADE = sorted(DEVICES.rglob("*.yaml"))

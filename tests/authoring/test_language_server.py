@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -11,10 +13,6 @@ from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import POINT
 from support.language_server import LanguageServer
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 pytestmark = pytest.mark.full(seconds=0.1)
 NUMBERS = count()

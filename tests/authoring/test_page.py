@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import re
 import shlex
-from typing import TYPE_CHECKING
+from pathlib import Path
 
+import pytest
 from fieldscribe.cli import main
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pytest
 
 PAGE = ROOT / "descriptions/language/working.md"
 COMMAND = re.compile(r"^\$ fieldscribe (.*)\n((?:(?!\$ |```).*\n)*)", re.MULTILINE)

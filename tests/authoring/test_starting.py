@@ -8,7 +8,7 @@ import select
 import signal
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.authoring.starting import startable
@@ -17,9 +17,6 @@ from fieldscribe.families import FAMILIES
 from fieldscribe.language.canonical import canonical
 from fieldscribe.language.json_schema import schema_text
 from support.described import loaded
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 GIVEN = ("--vendor", "Example", "--model", "HP 12", "--title", "Heat pump")
 ANSWERS = ["heat_pump", "modbus", "Example", "HP 12", "Heat pump", "", ""]

@@ -9,17 +9,12 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.authoring.watching import Watch
+from fieldscribe.authoring.watching import Outcome, Watch
 from support.described import described
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.authoring.watching import Outcome
 
 POINTS = "- {name: speed, at: 1, range: 0..100}\n"
 

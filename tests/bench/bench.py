@@ -13,17 +13,14 @@ import shutil
 import statistics
 import tempfile
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from python_bench import print_python
 from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
 from synthetic import write_dbc, write_device
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).resolve().parents[2]
 MANY, FEW = 10_000, 1_000

@@ -13,23 +13,20 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import cantools.database
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.dbc import export
+from fieldscribe.model import Device
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir, templates_dir
 from fieldscribe.targets import python as target
 from synthetic import write_frame_device
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from fieldscribe.model import Device
 
 _SPAN = 0.01
 """So many seconds of each are measured in one go."""

@@ -19,14 +19,12 @@ import tempfile
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import FrameType
+from typing import Any
 
 import fieldscribe
 from fieldscribe import pipeline
 from fieldscribe.diagnostics import Report
-
-if TYPE_CHECKING:
-    from types import FrameType
 
 HOUSE = Path(fieldscribe.__file__).parent
 MOST = {"scale": 25, "address": 10}  # the scale first: the run for the address then finds its formula in a cache

@@ -10,15 +10,12 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.families.uss.telegrams import telegram
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 FIELDSCRIBE = str(Path(sys.executable).with_name("fieldscribe"))
 CANTOOLS = str(Path(sys.executable).with_name("cantools"))

@@ -7,16 +7,12 @@ A case is a file, or a folder with `expected.txt` where one file cannot show it.
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from fieldscribe.diagnostics import Diagnostic
 from support.expectations import accept, expected, findings_of, wording
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.diagnostics import Diagnostic
 
 BAD = TESTS / "bad"
 CASES = sorted(path for path in BAD.iterdir() if path.is_dir() or path.suffix == ".yaml")

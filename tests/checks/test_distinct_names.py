@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from fieldscribe.checks.distinct_names import PointKinds
+from fieldscribe.model import Device
 from fieldscribe.targets import knows, target
 from support.described import compile_in, group, head, made, shipped, together
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 LANGUAGES = ("c", "python", "rust")
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")

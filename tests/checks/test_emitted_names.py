@@ -6,20 +6,16 @@ import ast
 import random
 import re
 from collections import Counter
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
+from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.rust.identifiers import CONSTANTS
 from support.described import DEVICES, compile_in, described, group, head, loaded, loaded_in, together
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 LANGUAGES = ("c", "python", "rust")
 """Targets in which names of the description become identifiers."""

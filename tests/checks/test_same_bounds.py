@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.arithmetic.codec import CodecError, check, decode, encode_checked, setting_of
+from fieldscribe.model import Device, Point
 from support.described import kitchen_sink, made, shipped
 from support.models import named
 from support.python_package import imported, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from fieldscribe.model import Device, Point
 
 _MAKERS: dict[str, Callable[[], Device]] = {
     "kitchen_sink": kitchen_sink,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import keyword
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.pipeline import outputs
@@ -14,9 +14,6 @@ from fieldscribe.targets.python.identifiers import HELPERS, Identifiers, attribu
 from fieldscribe.targets.rust.enums import getter_name
 from fieldscribe.targets.rust.literals import type_name, value_name, variant_name
 from support.described import compile_in, described, loaded_in, made
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HEADERS = """
 assert complex ctype errno fenv float inttypes iso646 limits locale malloc math memory setjmp signal stdalign stdarg

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli.common import description_paths
 from fieldscribe.resources import descriptions_dir
 from support.described import write
-from support.small_drive import DEVICE, MAIN
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from support.small_drive import Output
+from support.small_drive import DEVICE, MAIN, Output
 
 pytestmark = pytest.mark.usefixtures("loads_once")
 

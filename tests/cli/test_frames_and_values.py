@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from io import BytesIO, TextIOWrapper
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.families.modbus.frames import crc16
 from fieldscribe.resources import descriptions_dir
-from support.small_drive import MAIN
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from support.small_drive import Output
+from support.small_drive import MAIN, Output
 
 L200, CAN, USS = (str(descriptions_dir() / device) for device in ("hitachi_l200", "woodward_mpu2s", "siemens_mm4"))
 pytestmark = pytest.mark.usefixtures("loads_once")

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import COMMANDS, command_module
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
 from support.described import shipped
 from support.help_examples import asked_for, audited, drafted, examples_of, ran, stops_at_once, workplace
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.model import Device
 
 
 class Claim(NamedTuple):

@@ -7,10 +7,10 @@ import os
 import subprocess
 import sys
 from argparse import ArgumentParser
+from collections.abc import Callable
 from importlib import import_module
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe import __version__
@@ -18,12 +18,7 @@ from fieldscribe.cli import COMMANDS, command_module, main
 from fieldscribe.cli.common import print_json
 from fieldscribe.resources import descriptions_dir
 from support.described import write
-from support.small_drive import DEVICE, MAIN, SPEED_50
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from support.small_drive import Output
+from support.small_drive import DEVICE, MAIN, SPEED_50, Output
 
 L200 = str(descriptions_dir() / "hitachi_l200")
 PACKAGES = Path(import_module("fieldscribe").__file__ or "").parents[1]

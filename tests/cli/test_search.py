@@ -5,20 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import json
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
-from fieldscribe.search.entries import entries_of
+from fieldscribe.search.entries import Entry, entries_of
 from fieldscribe.search.matching import near_words, search
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.search.entries import Entry
 
 DEVICES = ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
 

@@ -6,12 +6,9 @@ import os
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe.resources import descriptions_dir
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_check_imports_nothing_that_it_does_not_need() -> None:

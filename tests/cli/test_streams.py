@@ -6,9 +6,11 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from io import BytesIO, TextIOWrapper
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pytest
 from fieldscribe import pipeline
@@ -16,10 +18,6 @@ from fieldscribe.cli import decoded_frames, main
 from fieldscribe.conversation import decode_state, meanings
 from support.described import shipped
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 COMMAND = [sys.executable, "-m", "fieldscribe", "decode", "woodward_mpu2s"]
 FIRST, SECOND = "321#DD010302000007D0", "321#DD00051E13880064"

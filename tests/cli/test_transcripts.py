@@ -11,15 +11,11 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
 
 FOLDER = TESTS / "transcripts"
 TRANSCRIPTS = sorted(FOLDER.glob("*/*.txt"))

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import Any
 
-from conformance.package import attribute_of, attributes, raw_of, raws_of, same
+from support.vector_file import Vector
+
+from conformance.package import Check, Package, attribute_of, attributes, raw_of, raws_of, same
 from conformance.scripts import AsyncScript, Script, now
 from conformance.uss import link_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from support.vector_file import Vector
-
-    from conformance.package import Check, Package
 
 
 def _handles(package: Package, vector: Vector) -> list[tuple[Script, Any]]:

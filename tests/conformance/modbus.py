@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from support.vector_file import Vector
 
-    from support.vector_file import Vector
-
-    from conformance.package import Check, Package
+from conformance.package import Check, Package
 
 
 def _request(package: Package, vector: Vector) -> Any:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from support.vector_file import Vector
 
-    from support.vector_file import Vector
-
-    from conformance.package import Check, Package
+from conformance.package import Check, Package
 
 
 def name(package: Package, vector: Vector) -> bool:

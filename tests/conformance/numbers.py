@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
-from conformance.package import pattern, raws_of
+from support.vector_file import Vector
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from support.vector_file import Vector
-
-    from conformance.package import Check, Package
+from conformance.package import Check, Package, pattern, raws_of
 
 
 def decode(package: Package, vector: Vector) -> bool:

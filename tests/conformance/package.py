@@ -6,13 +6,11 @@ import importlib
 import math
 import struct
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from support.vector_file import Vector
+from support.vector_file import Vector
 
 
 class Package:
@@ -82,6 +80,5 @@ def attribute_of(kind: type, name: str) -> str:
     return f"{name}_" if f"{name}_" in attributes(kind) else name
 
 
-if TYPE_CHECKING:
-    Check = Callable[[Package, Vector], bool]
-    """Whether the generated code does what a vector says."""
+Check = Callable[[Package, Vector], bool]
+"""Whether the generated code does what a vector says."""

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from pathlib import Path
 
-from support.vector_file import File
+from support.vector_file import File, Vector
 
 from conformance import can, exchanges, facts, flags, modbus, names, numbers, runtime, uss, words
 from conformance.package import Package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from support.vector_file import Vector
 
 _THEMES = (numbers, names, flags, words, facts, exchanges, modbus, can, uss)
 CHECKS = {kind: check for theme in _THEMES for kind, check in theme.CHECKS.items()}

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from support.vector_file import Vector
 
-    from support.vector_file import Vector
-
-    from conformance.package import Check, Package
+from conformance.package import Check, Package
 
 
 def bits(package: Package, vector: Vector) -> bool:

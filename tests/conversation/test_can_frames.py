@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder, decode
@@ -14,6 +14,7 @@ from fieldscribe.conversation.meanings import quoted_text
 from fieldscribe.families.can.frame_decoder import CanFrameDecoder
 from fieldscribe.families.can.frames import CanFrame, parse
 from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
+from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.model import Role
 from fieldscribe.user_errors import RefusedError, UnclearError
 from hypothesis import given
@@ -22,11 +23,6 @@ from support.asked import asked
 from support.described import group, head, loaded_in, shipped, together
 from support.frames_by_hand import at, can_frame, coded
 from support.models import named
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.families.frame_results import FrameResult, Options
 
 DEVICE = shipped("woodward_mpu2s")
 FACTOR = coded(DEVICE, "KWUGNSEK")

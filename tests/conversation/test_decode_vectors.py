@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 from fieldscribe.conversation.decoder import decode
+from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.families.modbus import exchange as modbus
 from fieldscribe.families.modbus import profile_of
 from fieldscribe.families.uss import telegrams as uss
 from fieldscribe.families.uss.parts import Link
+from fieldscribe.model import Device
 from fieldscribe.targets.vectors.collection import collect
 from support.asked import asked as chosen
 from support.described import made, shipped
-from support.vector_file import File
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.families.frame_results import FrameResult
-    from fieldscribe.model import Device
-    from support.vector_file import Vector
+from support.vector_file import File, Vector
 
 
 def vectors(device: Device, kind: str) -> Iterator[Vector]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.conversation.explanation import read_text
-from fieldscribe.families.frame_results import refused
+from fieldscribe.families.frame_results import FrameResult, refused
 from fieldscribe.families.modbus.frame_builder import words_of, write_request
 from fieldscribe.families.modbus.frame_decoder import ModbusFrameDecoder
 from fieldscribe.families.modbus.frames import crc16
@@ -20,9 +19,6 @@ from fieldscribe.user_errors import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
 from support.models import changed, named, sample_device, titles
-
-if TYPE_CHECKING:
-    from fieldscribe.families.frame_results import FrameResult
 
 DEVICE = sample_device()
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.conversation.decoder import StreamDecoder
 from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span
 from fieldscribe.families.frame_results import FrameResult, Item
 from support.models import sample_device
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
 
 DEVICE = sample_device()
 QUIET = FrameResult(b"", "rtu", "request", 1, None, "texts")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from fractions import Fraction
 
 import pytest
 from fieldscribe.arithmetic.words import with_fixed
@@ -12,6 +12,7 @@ from fieldscribe.conversation.explanation import explain_point, sample_raw
 from fieldscribe.conversation.lookup import find
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings
+from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.uss.frame_decoder import UssFrameDecoder
 from fieldscribe.families.uss.parts import Link
 from fieldscribe.families.uss.telegrams import Request, parse, telegram
@@ -21,11 +22,6 @@ from hypothesis import strategies as st
 from support.asked import asked
 from support.described import made, shipped
 from support.frames_by_hand import coded, uss_bytes
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from fieldscribe.families.frame_results import FrameResult, Options
 
 DEVICE = shipped("siemens_mm4")
 SCALED = read_settings(DEVICE, ["P2000=50", "P2009=0"])

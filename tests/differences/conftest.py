@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from support.diff_command import EDITED, POINTS, Diff, commit, git
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.fixture

@@ -5,16 +5,14 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.differences.changes import CLASSES, fact_of, is_taken, next_version, step_for, subject_of
 from fieldscribe.differences.comparison import differences
 from fieldscribe.export import export_model
+from fieldscribe.model import Device
 from support.described import group, head, loaded_in, together
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device
 
 BASE = together(
     head(

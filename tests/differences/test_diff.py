@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import stat
+from collections.abc import Callable
 from itertools import pairwise, permutations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.differences.changes import as_data, compared
@@ -15,10 +16,6 @@ from fieldscribe.differences.sides import Side
 from fieldscribe.export import export_model
 from support.described import loaded, made
 from support.diff_command import EDITED, POINTS, Diff, Result
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 
 KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss", "kitchen_codes")
 

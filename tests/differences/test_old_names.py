@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
@@ -14,9 +14,6 @@ from support.described import described, loaded, write
 from support.files import generate
 from support.python_package import typed_findings
 from support.toolchains import tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SAID = {
     "records": "{trip: {points: [{name: CAUSE, at: base, enum: {0: none, 7: hot}}]}}",

@@ -7,10 +7,11 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import cantools
 import pytest
+from cantools.database.can import Database
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.cli import main
@@ -20,15 +21,11 @@ from fieldscribe.families.can.dbc import export
 from fieldscribe.families.can.dbc_signals import decimal, point_signals
 from fieldscribe.families.can.frames import CanFrame, build, identifier, parse
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.model import Entry, Enum, Message, Role, Special, Unit
+from fieldscribe.model import Device, Entry, Enum, Message, Point, Role, Special, Unit
 from fieldscribe.text import dbc_string
 from fieldscribe.wording.exact import fixed_rule
 from support.described import made, shipped
 from support.models import named, point, sample_device, titles
-
-if TYPE_CHECKING:
-    from cantools.database.can import Database
-    from fieldscribe.model import Device, Point
 
 DEVICE = shipped("woodward_mpu2s")
 TELEGRAM = DEVICE.telegrams[0]

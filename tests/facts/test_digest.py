@@ -10,10 +10,12 @@ import shutil
 import subprocess
 import sys
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -22,17 +24,12 @@ from fieldscribe.differences.changes import CLASSES
 from fieldscribe.differences.comparison import differences
 from fieldscribe.export import export_model
 from fieldscribe.facts.digest import code_digest, facts_digest
+from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import TARGETS, target
 from support.described import loaded, made
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 DEVICES = TESTS / "devices"
 CODE = [name for name in TARGETS if not target(name).SEES_TITLES]

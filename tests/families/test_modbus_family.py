@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.conditions import Comparison, Condition
@@ -35,9 +36,6 @@ from pymodbus.pdu.register_message import (
     WriteSingleRegisterRequest,
 )
 from support.models import changed, point, sample_bus, sample_device, titles
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 OPEN = Profile(
     {number: function.most for number, function in FUNCTIONS.items()}, (1, 247), 0, pad_coil_bytes_even=False

@@ -6,7 +6,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe import targets
@@ -14,9 +14,6 @@ from fieldscribe.families import family
 from support.described import group, head, together, write
 from support.models import sample_device
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HERE = TESTS
 WITH_BELLS = (

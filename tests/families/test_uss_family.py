@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.families.uss import UssBus, of_bus
@@ -15,9 +15,6 @@ from hypothesis import strategies as st
 from support.c_device import write_headers
 from support.described import made, shipped
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_variants_may_take_fewer_words() -> None:

@@ -9,11 +9,12 @@ import signal
 import tempfile
 import time
 import traceback
+from collections.abc import Iterator
 from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
@@ -22,9 +23,6 @@ from support.described import DEVICES
 from support.descriptions_as_values import BAD, HOSTILE, WHOLES, as_texts, changed, nodes, rewrite
 
 from fuzz.languages import Result
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 SECONDS, BYTES = 20, 2 << 30
 """What one mutant may take at most, in time and in memory."""

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable, Iterator
 from functools import reduce
-from typing import TYPE_CHECKING
+from random import Random
 
+from fieldscribe.model import Message
 from support.described import made
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from random import Random
-
-    from fieldscribe.model import Message
 
 _SIZES = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16, 255, 256, 260, 300)
 _WORDS = (0, 1, 2, 3, 7, 8, 9, 16, 0x7F, 0xFF, 0x100, 0x7FFF, 0x8000, 0x8001, 0xFFFF)

@@ -6,19 +6,16 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING
 
 from fieldscribe.pipeline import outputs
 from support.described import made
 
 from fuzz.frames import CASES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 HERE = Path(__file__).resolve().parent
 DEVICES = {"modbus": "kitchen_sink", "can": "kitchen_can", "uss": "kitchen_uss"}

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import struct
 import sys
+from collections.abc import Callable, Iterator
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+from typing import Any
 
 UNIT = 5
 

@@ -14,15 +14,13 @@ import argparse
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # as a program
 
+from collections.abc import Iterator, Sequence
+
 from fuzz.frames import CASES
 from fuzz.languages import Result, fuzz_family, generate
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 
 def everything(seed: int, keep: Path, *, mutants: int = 0, frames: int = 0, lines: int = 0) -> Iterator[Result]:

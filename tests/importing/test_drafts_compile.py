@@ -6,17 +6,14 @@ import csv
 import io
 import os
 import zipfile
+from collections.abc import Callable
 from itertools import count
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 HEADINGS = (
     *("Register", "Code", "Type", "R/W", "Unit", "Resolution", "Range", "Default", "Description", "Min", "Max", "Bit"),

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import re
 import shlex
-from typing import TYPE_CHECKING
+from pathlib import Path
 
+import pytest
 from fieldscribe.cli import main
 from fieldscribe.importing.headings import ROLES
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pytest
 
 PAGE = ROOT / "descriptions" / "language" / "tables.md"
 COMMAND = re.compile(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", re.MULTILINE)

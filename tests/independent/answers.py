@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from independent.arithmetic import evaluate, is_number, line_of, nearest, number
-from independent.reader import NOTHING
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from independent.reader import Description, Row
+from independent.reader import NOTHING, Description, Row
 
 YES = ("yes", "true")
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 import ast
 import operator
 import re
+from collections.abc import Callable
 from fractions import Fraction
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _HEXADECIMAL = re.compile(r"[hH]'([0-9A-Fa-f]+)|0x([0-9A-Fa-f]+)|\b([0-9][0-9A-Fa-f]*|[A-F][0-9A-F]*)h\b")
 _NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")

@@ -7,7 +7,7 @@ import re
 from contextlib import contextmanager
 from dataclasses import replace
 from decimal import ROUND_HALF_UP, Decimal, localcontext
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
@@ -21,9 +21,6 @@ from support.described import kitchen_sink
 from support.models import changed, named
 from support.places import TESTS
 from support.python_package import imported, write_package
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DEVICE = kitchen_sink()
 KITCHEN = str(TESTS / "devices/kitchen_sink")

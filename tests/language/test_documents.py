@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from support.described import compile_in, group, head, together
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
 
 HEAD, _, _BUS = head().partition("bus: ")
 BUS = f"bus: {_BUS}"

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.conversation.lookup import find
 from fieldscribe.export import export_model
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.uss import of_bus, of_frame
-from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
+from fieldscribe.model import Device, Factor, Fixed, Limit, Linear, Point, Role, ScaleCase, Text
 from fieldscribe.wording import default_text
 from support.described import compile_in, group, head, made, together
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device, Point
 
 
 def point(name: str, item: str) -> Point:

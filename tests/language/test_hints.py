@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from fieldscribe.diagnostics import Diagnostic
 from support.described import compile_in, described, loaded_in
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.diagnostics import Diagnostic
 
 BUS = """
   framings: [rtu]

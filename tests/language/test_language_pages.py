@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import re
 import shlex
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from support.described import head, together
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 DESCRIPTIONS = ROOT / "descriptions"
 PAGES = [DESCRIPTIONS / "README.md", *sorted((DESCRIPTIONS / "language").glob("*.md"))]

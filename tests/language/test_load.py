@@ -5,20 +5,17 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 import yaml
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load, scalar
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.source import SourceFile, decoded
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.language.nodes import Map, Seq
 
 FILES = [*sorted((ROOT / "descriptions").glob("*/*.yaml")), *sorted((TESTS / "devices").rglob("*.yaml"))]
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.diagnostics import Report
@@ -13,10 +14,6 @@ from fieldscribe.language.source import SourceFile
 from support.described import DEVICES, compile_in, described, loaded
 from support.descriptions_as_values import as_texts, rewrite
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
 
 REAL = ROOT / "descriptions"
 AS_WRITTEN = {"page", "serial", "timing", "errata", "values"}

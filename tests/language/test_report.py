@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe import pipeline
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import MOST_FINDINGS, Diagnostic, Report, Span
+from fieldscribe.model import Device
 from fieldscribe.output import generation
 from fieldscribe.pipeline import TargetError
 from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
 from support.described import described, write
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 FILES = {
     "a.yaml": ["fieldscribe: 1", "points:", "- {name: x, at: 1028h}", "- {name: y, at: 1028h}"],

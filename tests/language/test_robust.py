@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import time
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.diagnostics import Report
@@ -17,9 +18,6 @@ from hypothesis import strategies as st
 from support.described import compiled, described, loaded_in
 from support.descriptions_as_values import BAD, HOSTILE, SINK, WHOLES, as_texts, changed, nodes, rewrite
 from support.made_up import write_device
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def load_text(tmp_path: Path, text: str | bytes) -> Report:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import random
 import re
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
+from pathlib import Path
 from textwrap import indent
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
@@ -25,10 +27,6 @@ from fieldscribe.language.value_checks import compiled_pattern
 from jsonschema import Draft7Validator, validators
 from support.descriptions_as_values import WHOLES, as_yaml, changed, nodes
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from pathlib import Path
 
 SCHEMA = json_schema()
 GLOSSARY = ROOT / "descriptions/glossary.yaml"

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.model import Special
+from fieldscribe.model import Device, Special
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, python, rust
 from support.described import DEVICES, kitchen_sink, loaded_in, made
 from support.models import named
 from support.python_package import error, imported, typed_findings, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 CODES = str(DEVICES / "kitchen_codes" / "device.yaml")
 

@@ -6,13 +6,10 @@ import ast
 import csv
 import io
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
 from fieldscribe import text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 HOSTILE = [
     "???/",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.cli import main
@@ -12,9 +12,6 @@ from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.language.units import factor_between, shipped, shipped_unit, unit_hint
 from fieldscribe.model import Unit
 from support.models import point, sample_device
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 @pytest.mark.parametrize(

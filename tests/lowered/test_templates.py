@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe import lowered
 from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.lowered.template_keys import TemplateKeys
-from fieldscribe.model import Enum, Erratum, Limit, Place, Special, Variant
+from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Special, Variant
 from fieldscribe.render import render
 from fieldscribe.targets import c, python, rust
 from fieldscribe.targets.c import point_templates
@@ -42,11 +43,6 @@ from support.models import (
     value_of,
 )
 from support.rust_crates import can_device, odd_device, rare_device, uss_device
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.model import Device, Point
 
 FIELDS = [
     ("base_frequency", "BASE_FREQUENCY", "0x0010"),

@@ -13,17 +13,14 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 HERE = Path(__file__).resolve().parent
 DEVICES = HERE.parent / "devices"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.code_view import for_code
@@ -11,9 +11,6 @@ from fieldscribe.model import Allowed, Enum, Flag, Interner, Limit, Point, Shape
 from support.described import loaded
 from support.models import allowed, changed, entry, linear, point, sample_bus, scaled, titles, value_of
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DESCRIPTIONS = sorted((ROOT / "descriptions").glob("*/device.yaml"))
 

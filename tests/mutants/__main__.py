@@ -7,23 +7,19 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from mutants.equivalents import entry, named
-from mutants.judges import JUDGES, LEFT_OUT, ROOT, SURVIVED
+from mutants.judges import JUDGES, LEFT_OUT, ROOT, SURVIVED, Verdict
 from mutants.results import Results
 from mutants.rooms import drawn_in, rooms
-from mutants.sources import drawn
+from mutants.sources import Mutant, drawn
 from mutants.table import MARKS, Table
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from mutants.judges import Verdict
-    from mutants.sources import Mutant
+_Judged = Callable[[Mutant], Verdict]
 
 HERE = Path(__file__).parent
 CACHE = ROOT / ".cache/mutants"
@@ -169,11 +165,6 @@ def _files(paths: Iterable[Path]) -> Iterator[Path]:
         inside = sorted(path.rglob("*")) if path.is_dir() else [path]
         yield from (one for one in inside if one.is_file() and one.suffix not in (".pyc", ".jsonl"))
 
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    _Judged = Callable[[Mutant], Verdict]
 
 if __name__ == "__main__":
     sys.exit(main())

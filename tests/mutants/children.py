@@ -11,10 +11,8 @@ import sys
 import tempfile
 import time
 import traceback
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from collections.abc import Callable
+from typing import Any
 
 MEMORY = 6 << 30
 """What a child may take."""

@@ -14,20 +14,15 @@ import os
 import random
 import shutil
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mutants.children import StoppedError, in_child
-from mutants.fact_changes import changes_of, siblings
-from mutants.facts import read
+from mutants.fact_changes import Edits, changes_of, siblings
+from mutants.facts import Description, Fact, Point, read
 from mutants.judges import KILLED, ROOT, SURVIVED, Verdict
 from mutants.sources import TRIES, Mutant
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from mutants.fact_changes import Edits
-    from mutants.facts import Description, Fact, Point
 
 SHARED = 0.25
 _KEPT = ("fieldscribe", "yaml", "second_reading")

@@ -9,10 +9,8 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mutants.sources import Mutant
+from mutants.sources import Mutant
 
 FILE = Path(__file__).parent / "equivalent.jsonl"
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mutants.facts import Fact, Point
+from mutants.facts import Fact, Point
 
 Edits = tuple[tuple[int, int, str], ...]
 """Places in the file and what stands there then."""

@@ -8,14 +8,11 @@ no facts here: the first cannot be wrong in code, the others are held against ea
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import yaml
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 NOT_FACTS = {
     *("title", "note", "en", "de", "printed", "line", "lines", "page", "section", "source", "each"),

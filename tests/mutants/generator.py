@@ -9,23 +9,19 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
 from types import CodeType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
 from mutants.children import StoppedError, in_child
 from mutants.importing import compiled, use
 from mutants.judges import KILLED, LEFT_OUT, ROOT, SURVIVED, Verdict
-from mutants.noticing import TARGETS, compiled_to, measured_output, measured_tests, run_tests
+from mutants.noticing import TARGETS, FileOfTests, Witness, compiled_to, measured_output, measured_tests, run_tests
 from mutants.rooms import HOUSE, place_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
-    from pathlib import Path
-
-    from mutants.noticing import FileOfTests, Witness
-    from mutants.sources import Mutant
+from mutants.sources import Mutant
 
 TESTED = 12.0
 """Seconds of tests for one mutant, by what they took when they were measured."""

@@ -5,15 +5,12 @@ from __future__ import annotations
 import ast
 import builtins
 import sys
+from collections.abc import Sequence
 from functools import cache
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from typing import TYPE_CHECKING
+from types import CodeType, ModuleType
 
 from mutants.rooms import HOUSE, MODULE, PACKAGE, functions_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from types import CodeType, ModuleType
 
 SEEN: set[str] = set()
 """The functions that were entered, as `path::name`, where they tell."""

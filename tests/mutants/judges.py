@@ -7,15 +7,11 @@ import resource
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from mutants.sources import RUNTIME
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from mutants.sources import Mutant
+from mutants.sources import RUNTIME, Mutant
 
 CPU_LIMIT, RUN_LIMIT, BUILD_LIMIT = 10, 120, 600
 """Seconds of work after which a program is taken to hang, and seconds of waiting for it and for a compiler."""

@@ -10,23 +10,20 @@ import json
 import os
 import shutil
 import time
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
+from fieldscribe.model import Device
 
 from mutants.children import StoppedError, in_child
 from mutants.importing import SEEN, telling, use
 from mutants.judges import ROOT
 from mutants.rooms import MODULE, functions, rooms
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 TESTS = ROOT / "tests"
 TARGETS = ("c", "python", "rust", "docs", "vectors")

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from mutants.judges import Verdict
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 class Results:

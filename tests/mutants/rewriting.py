@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 from mutants.tokens import line_starts, span
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 Rewriting = tuple[str, ast.expr, str]
 """The sort of change, what it changes, and what stands there then."""

@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import ast
 import random
+from collections.abc import Iterator
 from functools import cache
-from typing import TYPE_CHECKING
 
 from mutants.judges import ROOT
-from mutants.sources import Source, of_kind
+from mutants.sources import Mutant, Source, of_kind
 from mutants.tokens import line_starts, span
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from mutants.sources import Mutant
 
 HOUSE = ROOT / "generator"
 PACKAGE = HOUSE / "fieldscribe"

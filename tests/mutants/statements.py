@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import ast
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
-from mutants.tokens import line_starts, span
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from mutants.tokens import Token
+from mutants.tokens import Token, line_starts, span
 
 Edit = tuple[int, int, str]
 

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from mutants.judges import KILLED, LEFT_OUT, SURVIVED
-
-if TYPE_CHECKING:
-    from mutants.judges import Verdict
-    from mutants.sources import Mutant
+from mutants.judges import KILLED, LEFT_OUT, SURVIVED, Verdict
+from mutants.sources import Mutant
 
 MARKS = {"c": 97.0, "python": 97.0, "rust": 97.0, "descriptions": 85.0, "generator": 90.0}
 """Per cent that must be killed."""

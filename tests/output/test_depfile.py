@@ -6,14 +6,11 @@ import os
 import shutil
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from support.places import ROOT
 from support.toolchains import run, succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 pytestmark = pytest.mark.full(seconds=4)
 

@@ -5,20 +5,15 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.output.memory import cache_dir
 from fieldscribe.pipeline import load_models
-from fieldscribe.safe_files import state_of
+from fieldscribe.safe_files import State, state_of
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
-    from fieldscribe.safe_files import State
 
 DEVICES = TESTS / "devices"
 COMMAND = ["generate", "device", "--out", "made", "--target", "c,docs"]

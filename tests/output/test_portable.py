@@ -9,16 +9,13 @@ import errno
 import os
 import subprocess
 import sys
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DEVICE = TESTS / "devices/kitchen_can"
 

@@ -8,16 +8,14 @@ from collections import Counter
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import pytest
+from _pytest.mark.structures import ParameterSet
+from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import TARGETS
 from support.described import DEVICES, described, loaded, loaded_in
-
-if TYPE_CHECKING:
-    from _pytest.mark.structures import ParameterSet
-    from fieldscribe.model import Device
 
 T = TypeVar("T")
 Lines = dict[str, Counter[str]]

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from fieldscribe.pipeline import outputs
 from support.described import loaded
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 CODE = ("c", "python", "rust")
 

@@ -10,17 +10,15 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.output import lock
 from fieldscribe.output.lock import NAME, only_run
 from fieldscribe.safe_files import UnfitFileError
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 DEVICES = TESTS / "devices"
 SMALL = "kitchen_can"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.model import Version
@@ -11,9 +11,6 @@ from fieldscribe.targets import TARGETS
 from support.described import compile_in, described, loaded_in
 from support.files import write_files
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 POINTS = "- {name: speed, at: 0, range: 0..4000, scale: value = raw * 0.1, unit: Hz}\n"
 

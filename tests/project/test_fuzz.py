@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING
 
 import pytest
 from fuzz import languages, run
 from fuzz.descriptions import mutant
 from fuzz.frames import CASES
 from support.toolchains import tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SEED = 20261122
 

@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe.families import FAMILIES
 from fieldscribe.resources import templates_dir
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 HOUSE = Path(fieldscribe.__file__).parent
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 from mutants.changes import Change, places_of
@@ -15,10 +17,6 @@ from mutants.sources import mutant_of, sources_of
 from mutants.table import MARKS
 from support.places import TESTS
 from support.toolchains import tool
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 C = """\
 /* 1 head */

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
@@ -13,9 +13,6 @@ from support.described import group, head
 from support.places import ROOT
 from support.python_package import imported
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 README = (ROOT / "README.md").read_text("utf-8")
 USING = ROOT / "descriptions/using"

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Callable
 from importlib.util import find_spec, module_from_spec
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe import resources, safe_files
-from fieldscribe.safe_files import UnfitFileError, read_regular
+from fieldscribe.safe_files import State, UnfitFileError, read_regular
 from support.files import write_files
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from fieldscribe.safe_files import State
 
 
 def noted(monkeypatch: pytest.MonkeyPatch, without: int = 0) -> list[int]:

@@ -5,13 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 import venv
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def run(*command: object, folder: Path) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Mapping
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe import wording
@@ -13,10 +15,6 @@ from fieldscribe.export import export_model
 from fieldscribe.language.formula.conditions import Comparison as Parsed
 from fieldscribe.language.formula.conditions import parse_condition
 from support.described import compile_in, described
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 DOMAINS: dict[str, Domain] = {"mode": ((0, 0), (2, 2), (5, 5)), "level": ((-3, 4),), "size": ("small", "large", "550")}
 VALUES: dict[str, list[Any]] = {"mode": [0, 2, 5], "level": list(range(-3, 5)), "size": ["small", "large", "550"]}

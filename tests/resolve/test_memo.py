@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from functools import cache
 from itertools import count
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.resolve import memo
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resources import descriptions_dir
 from support.described import DEVICES, compiled, described, loaded_in
 from support.expectations import findings_of
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-    from pathlib import Path
-
-    from fieldscribe.resolve.point_facts import PointFacts
 
 GOOD = sorted(file for folder in (DEVICES, descriptions_dir()) for file in folder.glob("*/device.yaml"))
 BAD = sorted(path for path in (TESTS / "bad").iterdir() if path.is_dir() or path.suffix == ".yaml")

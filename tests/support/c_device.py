@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.model import Digits, Entry, Enum, Fixed, Flag, Limit, ScaleCase, Special, Text
+from fieldscribe.model import Device, Digits, Entry, Enum, Fixed, Flag, Limit, Point, ScaleCase, Special, Text
 from fieldscribe.targets import c, vectors
 
 from support.described import kitchen_sink, made
@@ -28,11 +28,6 @@ from support.models import (
     value_of,
 )
 from support.toolchains import compiled, succeed
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from fieldscribe.model import Device, Point
 
 PROGRAMS = Path(__file__).resolve().parents[1] / "targets" / "c" / "programs"
 WARNINGS = (

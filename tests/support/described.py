@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Diagnostic, Report
+from fieldscribe.model import Device
 from fieldscribe.pipeline import load_device
 from fieldscribe.resources import descriptions_dir
 
 from support.files import write_files
 from support.places import TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.diagnostics import Diagnostic
-    from fieldscribe.model import Device
 
 DEVICES = TESTS / "devices"
 _HEAD = {

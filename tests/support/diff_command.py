@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import json
 import subprocess
-from typing import TYPE_CHECKING, Any, NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
+import pytest
 from fieldscribe.cli import main
 
 from support.described import described, write
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pytest
-
 
 POINTS = """\
 - {code: P1, name: speed, at: 10h, range: 0..4000, unit: Hz}   # the first one

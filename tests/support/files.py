@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
 
+from fieldscribe.model import Device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
-    from types import ModuleType
-
-    from fieldscribe.model import Device
 
 
 def write_files(texts: Mapping[str, str], out: Path) -> Path:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.families.can.frames import build
 from fieldscribe.families.uss.telegrams import telegram
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Point
 
 
 def coded(device: Device, code: str) -> Point:

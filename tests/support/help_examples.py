@@ -10,16 +10,13 @@ import subprocess
 import sys
 import threading
 from contextlib import chdir
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
+import pytest
 from fieldscribe.cli import main
 
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pytest
 
 _EXAMPLE = re.compile(
     r"^  (?P<before>\S.* \| |source <\()?fieldscribe(?P<words> .*?)"

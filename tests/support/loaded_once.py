@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe import pipeline
 from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
+from fieldscribe.safe_files import Inputs
 
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device
-    from fieldscribe.safe_files import Inputs
 
 _load = pipeline.load_device
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from support.described import group, head, together, write
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 POINTS_PER_GROUP = 250
 

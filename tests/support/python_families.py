@@ -5,8 +5,9 @@ The peers are written against the protocols and not with the runtime's own funct
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.families.can import CanBus
@@ -14,6 +15,7 @@ from fieldscribe.families.uss import UssBus
 from fieldscribe.model import (
     Bus,
     Code,
+    Device,
     Digits,
     Enum,
     Fixed,
@@ -21,6 +23,7 @@ from fieldscribe.model import (
     Limit,
     Message,
     Place,
+    Point,
     Role,
     ScaleCase,
     Telegram,
@@ -43,11 +46,6 @@ from support.models import (
     units,
     value_of,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.model import Device, Point
 
 SWITCH = Enum("switch", titles("Switch"), (entry(0, "off"), entry(3, "on")), False)
 DELAY = Enum("delay", titles("Delay"), tuple(entry(raw, f"step_{raw}") for raw in (0, 1, 2, 5)), False)

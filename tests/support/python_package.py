@@ -6,18 +6,15 @@ import importlib
 import os
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
+from fieldscribe.model import Device
 from fieldscribe.targets import python as target
 
 from support.files import generate
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 
 def write_package(device: Device, out: Path) -> Path:

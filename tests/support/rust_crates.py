@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import Any
 
 from fieldscribe.families.can import CanBus
 from fieldscribe.families.uss import UssBus
 from fieldscribe.model import (
     Bus,
     Code,
+    Device,
     Digits,
     Entry,
     Enum,
@@ -19,6 +21,7 @@ from fieldscribe.model import (
     Limit,
     Message,
     Place,
+    Point,
     Role,
     ScaleCase,
     Special,
@@ -30,12 +33,6 @@ from fieldscribe.targets import rust, vectors
 from support.c_device import rare_points
 from support.files import generate
 from support.models import SOURCE, allowed, changed, device_of, entry, linear, point, scaled, titles, units, value_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
-    from typing import Any
-
-    from fieldscribe.model import Device, Point
 
 HOSTILE = '*/ "#]\n#![cfg(no)] \u202e `x` [y](http://z) <b> {{ x }} \\'
 LONG = "a_point_whose_name_is_as_long_as_a_description_lets_names_be_xyz"

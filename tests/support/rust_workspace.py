@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from pathlib import Path
+
+from fieldscribe.model import Device
 
 from support.described import kitchen_sink, made, shipped
 from support.models import sample_device, trip_device
 from support.places import ROOT
 from support.rust_crates import can_device, odd_device, rare_device, uss_device, without_registry, write_crate
 from support.toolchains import run, tool
-
-if TYPE_CHECKING:
-    import subprocess
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from fieldscribe.model import Device
-
 
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/src/points.rs"))
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.model import Device
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
 
 from support.models import sample_device
 from support.vector_file import Vector, counts_of, plain, vectors_of
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device
 
 
 def text_of(device: Device) -> str:

@@ -9,22 +9,17 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
 from fieldscribe.pipeline import load_device
 
 from support.places import ROOT
-from support.second_reading_facts import described, notes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
-
-    from support.second_reading_facts import Row
+from support.second_reading_facts import Row, described, notes
 
 READINGS = ROOT / "tests/readings"
 READ_TWICE = sorted(path.stem for path in READINGS.glob("*.jsonl"))

@@ -5,18 +5,13 @@ A fact that says nothing (no unit, no scale, all numbers that the type can hold)
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from fieldscribe.families import can, modbus, uss
+from fieldscribe.model import Code, Command, Device, Frame, Message, Telegram
 
-from support.second_reading_points import LONG, entries_of, enum_of, of_point, place_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.model import Code, Command, Device, Frame, Message, Telegram
-
-    from support.second_reading_points import Facts
+from support.second_reading_points import LONG, Facts, entries_of, enum_of, of_point, place_of
 
 Row = dict[str, Any]
 """A line of a reading: its kind, what tells it from the others of its kind, the line of the manual, the facts."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.model import Bound, Entry, Enum, Factor, Flag, Linear, Point, Special
+from fieldscribe.model import Bound, Entry, Enum, Factor, Flag, Linear, Point, Special
 
 Facts = dict[str, Any]
 

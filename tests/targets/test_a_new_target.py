@@ -7,15 +7,12 @@ import os
 import shutil
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.resources import templates_dir
 from support.described import described, write
 from support.places import ROOT, TESTS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TOY = TESTS / "toy_target"
 LAST_LINE = '    "vectors",\n'

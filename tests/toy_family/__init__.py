@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Family
-from fieldscribe.model import FamilyFacts
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Bus
+from fieldscribe.model import Bus, FamilyFacts
 
 FAMILY = Family(
     name="bell",

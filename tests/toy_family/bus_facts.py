@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+
+from fieldscribe.model import Bus
 
 from toy_family import of_bus
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Bus
 
 
 def facts(bus: Bus) -> Iterator[tuple[str, str]]:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.checks.frames_agree import Seen, report_no_frame
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.frames import LocatedFrame
 
 from toy_family import of_bus
 from toy_family.frames import tone_of
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.frames import LocatedFrame
-
 
 _MOST = 1000
 

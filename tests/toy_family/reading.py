@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Code
 from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.scope import Scope
 
 from toy_family import BellBus
-
-if TYPE_CHECKING:
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Code
-    from fieldscribe.resolve.scope import Scope
 
 
 class BellReading(FamilyReader):

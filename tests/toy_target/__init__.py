@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Device, Point
+from fieldscribe.render import Render
 from fieldscribe.targets.identifiers import Names, Owner
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.render import Render
 
 SEES_TITLES = False
 NEEDS_FAMILY = False

@@ -8,16 +8,14 @@ import select
 import shlex
 import subprocess
 import time
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 from fieldscribe.cli import main
 from support.c_device import SANITIZERS, WARNINGS
 from support.places import ROOT
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PAGES = ("c", "c-points", "c-uss-can")
 BOARD = ROOT / "tests/firmware"

@@ -9,15 +9,12 @@ import os
 import re
 import shlex
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.targets.docs import sheet, tables
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PAGE = ROOT / "descriptions/using/tables.md"
 KITCHEN = str(ROOT / "tests/devices/kitchen_uss")

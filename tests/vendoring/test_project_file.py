@@ -9,15 +9,12 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from support.described import described, write
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PROJECT = """\
 out = "drivers"

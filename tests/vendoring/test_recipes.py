@@ -6,16 +6,13 @@ import configparser
 import os
 import re
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
 
 import pytest
 import yaml
 from support.places import ROOT
 from support.toolchains import run, succeed, tool
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 PAGE = ROOT / "descriptions/using/c-builds.md"
 BLOCK = re.compile(

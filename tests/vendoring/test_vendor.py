@@ -6,11 +6,12 @@ import json
 import re
 import shutil
 from hashlib import sha256
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
 from fieldscribe.output.manifests import VENDORED, carries_head
 from fieldscribe.pipeline import load_device
 from fieldscribe.user_errors import UnclearError
@@ -20,11 +21,6 @@ from support.c_device import WARNINGS
 from support.described import described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 TEN = "A001,A002,A003,A020,D001,D002,F002,F003,run_command,inverter_status"

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import pytest
 import yaml
+from fieldscribe.model import Device, Titles
 from fieldscribe.resources import descriptions_dir
 from support.described import shipped
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device, Titles
 
 GLOSSARY = descriptions_dir() / "glossary.yaml"
 TERMS: dict[str, str | list[str]] = yaml.safe_load(GLOSSARY.read_text(encoding="utf-8"))["terms"]

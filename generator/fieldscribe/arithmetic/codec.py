@@ -9,14 +9,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, isnan
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic import exact
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.arithmetic.words import with_fixed
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Bound, Factor, Interval, Linear, Point, Special
+from fieldscribe.model import Bound, Factor, Interval, Linear, Point, Special
 
 Settings = Mapping[str, int | Fraction]
 """The raw numbers of other points by name, as rules need them; for f32 and f64 points the values (`setting_of`)."""

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from struct import unpack_from
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from fieldscribe.model import Point
+from fieldscribe.model import Point
 
 
 def ends_of(width: int, *, signed: bool) -> tuple[int, int]:

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.audit.claims import Bytes, Cited, ClaimMaker, Label, Number, absolute, cited_lines, line_of, numbers_in
+from fieldscribe.audit.claims import (
+    Bytes,
+    Cited,
+    Claim,
+    ClaimMaker,
+    Label,
+    Number,
+    absolute,
+    cited_lines,
+    line_of,
+    numbers_in,
+)
 from fieldscribe.audit.notation import Notation
 from fieldscribe.audit.point_claims import claims_of_point
+from fieldscribe.diagnostics import Span
 from fieldscribe.families import families, sections_of_codes
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Named
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.audit.claims import Claim
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.analysis import Analysis
 
 _ENTRIES = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 """Sections of named entries, by the word for one."""

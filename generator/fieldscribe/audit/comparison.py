@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.alignment import Alignment, changed_words
-from fieldscribe.audit.claims import Word
-from fieldscribe.audit.held import Held
+from fieldscribe.audit.claims import Cited, Claim, Word
+from fieldscribe.audit.errata import PrintedErratum
+from fieldscribe.audit.held import Citations, Held
+from fieldscribe.diagnostics import Span
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from fieldscribe.audit.claims import Cited, Claim
-    from fieldscribe.audit.errata import PrintedErratum
-    from fieldscribe.audit.held import Citations
-    from fieldscribe.diagnostics import Span
-
     _Mapping = Callable[[Cited], tuple[int, int] | None]
 
 

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from fieldscribe.audit.claims import Cited, absolute, cited_lines, numbers_in
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import About
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.errata import LocatedErratum
+from fieldscribe.model import About
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.errata import LocatedErratum
 
 _LINES_NAMED = re.compile(r"\blines?\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*(?:\s+and\s+[0-9]+)?")
 _QUOTED = re.compile('["\u201e\u201c]([^"\u201c\u201d]+)["\u201c\u201d]')

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.audit.claims import Bytes, Label, Number, Run, Word
+from fieldscribe.audit.claims import Bytes, Evidence, Label, Number, Run, Word
 from fieldscribe.audit.manual import has_word, places_of_word
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from fieldscribe.audit.claims import Evidence
-    from fieldscribe.audit.numbers import Token
-    from fieldscribe.audit.passage import Passage
+from fieldscribe.audit.numbers import Token
+from fieldscribe.audit.passage import Passage
 
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What tells a run of numbers ("0 to 4", "0..4"), with all numbers between its ends."""

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.audit.claims import Number, absolute, numbers_in
-from fieldscribe.audit.notation import joined
+from fieldscribe.audit.claims import Claim, ClaimMaker, Number, absolute, numbers_in
+from fieldscribe.audit.notation import Notation, joined
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.audit.claims import Claim, ClaimMaker
-    from fieldscribe.audit.notation import Notation
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Flag, Point
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.model import Flag, Point
+from fieldscribe.resolve.point_facts import PointFacts
 
 
 def claims_of_flags(maker: ClaimMaker, point: Point, facts: PointFacts, notation: Notation) -> Iterator[Claim]:

@@ -4,27 +4,22 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
+from collections.abc import Callable, Iterable
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.audit.claims import Label, Number, Run
+from fieldscribe.audit.claims import Cited, Claim, Label, Number, Run
 from fieldscribe.audit.claims_of_device import claims_of, passed_over
-from fieldscribe.audit.errata import printed_errata
+from fieldscribe.audit.errata import PrintedErratum, printed_errata
 from fieldscribe.audit.evidence import Found, found, labels_found, lies_in_section
 from fieldscribe.audit.manual import Extent, Manual, has_word
 from fieldscribe.audit.notation import Notation
+from fieldscribe.audit.numbers import Token
 from fieldscribe.audit.passage import Passage
 from fieldscribe.audit.point_claims import KEYS_OF_PRINTED
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from fractions import Fraction
-
-    from fieldscribe.audit.claims import Cited, Claim
-    from fieldscribe.audit.errata import PrintedErratum
-    from fieldscribe.audit.numbers import Token
-    from fieldscribe.model import About
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.model import About
+from fieldscribe.resolve.analysis import Analysis
 
 _BINARY_FACTS = ("enum", "flag values", "special", "fixed bits", "default")
 """Facts that a manual may print with two or three binary digits."""

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.audit.numbers import tokens_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from fractions import Fraction
-
-    from fieldscribe.audit.numbers import Token
+from fieldscribe.audit.numbers import Token, tokens_of
 
 _HEADING = re.compile(r"#{1,6}\s+\S|[0-9]+(?:\.[0-9]+)+\.?[ \t]*[^\W\d]")
 _SECTION_NUMBER = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])")

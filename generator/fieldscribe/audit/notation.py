@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Mapping
+from typing import Any, Final
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map
 
 USUAL_ACCESS: Final = {
     "r": ("R", "RO", "R/O", "r", "ro"),

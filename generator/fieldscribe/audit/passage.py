@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from fractions import Fraction
-
-    from fieldscribe.audit.manual import Manual
-    from fieldscribe.audit.numbers import Token
+from fieldscribe.audit.manual import Manual
+from fieldscribe.audit.numbers import Token
 
 _TAG = re.compile(r"</?[A-Za-z]{1,6}/?>")
 

@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from itertools import groupby
-from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims import Label, Word
+from fieldscribe.audit.claims import Claim, Label, Word
 from fieldscribe.audit.evidence import printed_notations
-from fieldscribe.audit.held import Held
+from fieldscribe.audit.held import Citations, Held
+from fieldscribe.audit.manual import Extent
 from fieldscribe.audit.numbers import readings_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.audit.claims import Claim
-    from fieldscribe.audit.held import Citations
-    from fieldscribe.audit.manual import Extent
-    from fieldscribe.audit.passage import Passage
+from fieldscribe.audit.passage import Passage
 
 _SHORT = 100
 """Findings show at most so many characters of a line."""

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.audit.claims import ClaimMaker, Number, Word, absolute, numbers_in
+from fieldscribe.audit.claims import Claim, ClaimMaker, Number, Word, absolute, numbers_in
 from fieldscribe.audit.flag_claims import claims_of_flags
-from fieldscribe.audit.notation import USUAL_ACCESS, USUAL_TYPES, joined
+from fieldscribe.audit.notation import USUAL_ACCESS, USUAL_TYPES, Notation, joined
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import PRINTED
 from fieldscribe.language.nodes import Map
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.audit.claims import Claim
-    from fieldscribe.audit.notation import Notation
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.model import Point
+from fieldscribe.resolve.point_facts import PointFacts
 
 _INDEX_AFTER_CODE = re.compile(r"\[.*|\(.*")
 _LETTERS_AND_DIGITS = re.compile("([A-Za-z]+)([0-9]+)")

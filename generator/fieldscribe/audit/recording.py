@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from fieldscribe.audit.renumbering import scalars_in
 from fieldscribe.language.load import as_yaml
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.language.nodes import Map
+from fieldscribe.language.nodes import Map
 
 LONGEST = {"file": 200, "edition": 80}
 """What is recorded of a document beside its checksum, with the most characters of each."""

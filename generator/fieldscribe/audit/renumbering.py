@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from fieldscribe.audit.comparison import Editions
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.keys.shapes import LINES_OF
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.source import SourceFile
 from fieldscribe.language.value_checks import compiled_pattern
-from fieldscribe.schema_types import Items, Place
+from fieldscribe.schema_types import Items, Place, Shape
 from fieldscribe.wording import LINES_NAMED
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.audit.comparison import Editions
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.source import SourceFile
-    from fieldscribe.schema_types import Shape
 
 _WRITTEN = re.compile(r"""(?:&\S+\s+)?["']?(?P<lines>(?P<first>[0-9]+)(?:\.\.(?P<last>[0-9]+))?)""")
 _SENTENCES = ("note", "printed", "taken", "where", "why")

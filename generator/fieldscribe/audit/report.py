@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.report import visible
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.audit.comparison import ChangedLine, CitedFact, Comparison
-    from fieldscribe.audit.plain_audit import Audit, Missing, Unused
-    from fieldscribe.report import Line
+from fieldscribe.audit.comparison import ChangedLine, CitedFact, Comparison
+from fieldscribe.audit.plain_audit import Audit, Missing, Unused
+from fieldscribe.report import Line, visible
 
 _MOST_NUMBERS = 8
 """A finding shows so many of the numbers of one place."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 import stat
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.authoring.starting import is_schema
 from fieldscribe.diagnostics import Report
@@ -18,12 +19,7 @@ from fieldscribe.language.pieces import OddError, comments, unbroken
 from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.safe_files import read_regular, shown_path, state_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.safe_files import State
+from fieldscribe.safe_files import State, read_regular, shown_path, state_of
 
 _SCHEMA_LINE = re.compile(r"#[ \t]*yaml-language-server:[ \t]*\$schema=((?:\.\./)*[\w.-]+\.json)[ \t]*")
 _SUFFIX = ".fieldscribe-new"

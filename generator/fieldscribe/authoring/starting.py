@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Diagnostic, Report
 from fieldscribe.families import FAMILIES, family
 from fieldscribe.language.json_schema import SCHEMA_ID, schema_text
 from fieldscribe.language.keys import keys_of
@@ -20,13 +20,7 @@ from fieldscribe.language.shape import check_of
 from fieldscribe.language.source import SourceFile
 from fieldscribe.output.writing import replace
 from fieldscribe.pipeline import DEVICE_FILE, load_analysis
-from fieldscribe.schema_types import Place
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.diagnostics import Diagnostic
-    from fieldscribe.schema_types import Shape
+from fieldscribe.schema_types import Place, Shape
 
 SCHEMA_FILE = "schema.json"
 """The name of the schema in the folder of a description, or above it."""

@@ -7,21 +7,16 @@ thousandth of a processor.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.generation import Generation
+from fieldscribe.output.writing import Result
 from fieldscribe.pipeline import find_devices
-from fieldscribe.safe_files import state_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from fieldscribe.output.writing import Result
-    from fieldscribe.safe_files import State
+from fieldscribe.safe_files import State, state_of
 
 INTERVAL, SETTLING = 0.25, 0.08
 """Seconds between two polls, and between two polls while files are being saved."""

@@ -14,10 +14,8 @@ To add a check:
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.analysis import Analysis
 
 CHECKS = (
     "device_name_is_free",

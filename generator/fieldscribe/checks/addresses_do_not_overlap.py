@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Command, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.model import Command, Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _WHOLE = (15, 0)
 _MOST = 512

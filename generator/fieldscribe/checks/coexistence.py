@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from fieldscribe.conditions import ANY, Clause, Comparison, Domain, ends_before, possible
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 WordKey = tuple[str, str | None, int, int]
 """Space, telegram, index (0 where addresses of the space have no index) and address."""

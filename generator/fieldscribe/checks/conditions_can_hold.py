@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe import wording
 from fieldscribe.checks.coexistence import Coexistence, clauses
-from fieldscribe.conditions import ends_before
-
-if TYPE_CHECKING:
-    from fieldscribe.conditions import Clause, Domain
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.conditions import Clause, Domain, ends_before
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _MOST_SHOWN = 12
 

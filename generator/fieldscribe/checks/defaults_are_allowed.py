@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.wording.exact import fixed_rule, number_text
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
 
 _LONGEST = 30
 

@@ -10,18 +10,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from fieldscribe.lowered.template_keys import TemplateKeys
-from fieldscribe.targets.identifiers import clashes
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.targets.identifiers import Names, Owner
+from fieldscribe.model import Device, Point
+from fieldscribe.targets.identifiers import Names, Owner, clashes
 
 
 class PointKinds:

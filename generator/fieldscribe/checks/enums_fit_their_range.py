@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
-
-if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _UNKNOWN = {"type", "bits"}
 """Keys without which the numbers of a point are unknown."""

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Named
-
-if TYPE_CHECKING:
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.language.nodes import Map
-
-if TYPE_CHECKING:
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.point_facts import PointFacts
 
 _KEYS = {"source", "section", "page", "line"}
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.checks.coexistence import Coexistence, WordKey, word_key
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Fixed, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.model import Fixed, Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _RIVALS = ("enum", "digits", "scale")
 """Keys that a word with fixed bits cannot have."""

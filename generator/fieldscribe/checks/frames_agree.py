@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import raw_of
 from fieldscribe.language.nodes import Map
+from fieldscribe.model import Frame, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.errata import PrintedFact
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Frame, Point
-    from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.resolve.frames import LocatedFrame
 
 Carries = Callable[["Point"], int | None]
 """Returns the raw number that a frame carries of a point; None if it carries none."""

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
+from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding
-
-if TYPE_CHECKING:
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.analysis import Analysis
 
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import item_of
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.point_facts import PointFacts
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.targets.identifiers import Owner
+from fieldscribe.targets.identifiers import Owner
 
 _LISTED = {"command": "commands", "message": "messages", "telegram": "telegrams"}
 _OF_BUS = {"exception": "exceptions", "function": "functions", "response": "responses"}

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from fieldscribe.language.keys import lists_with
 from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_integer
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.analysis import Analysis
 
 _LISTS = lists_with(DEVICE, "lines")
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.schema_types import NUMBERS, WHOLE_NUMBERS
-
-if TYPE_CHECKING:
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.points import ResolvedPoint
 
 _OF_INTEGERS = facts_of(POINT, WHOLE_NUMBERS)
 _OF_NUMBERS = facts_of(POINT, WHOLE_NUMBERS, NUMBERS)

@@ -6,14 +6,9 @@ that have other findings are left out. Reserved words do not clash: targets chan
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.checks.distinct_names import PointKinds
-from fieldscribe.checks.identifier_places import IdentifierPlaces, given_names, thing_of
-
-if TYPE_CHECKING:
-    from fieldscribe.checks.identifier_places import Named, Thing
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.checks.identifier_places import IdentifierPlaces, Named, Thing, given_names, thing_of
+from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.arithmetic.words import number_of
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number, plain_number
+from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.errata import PrintedFact, same
+from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Allowed, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
 
 _LOW, _HIGH, _WRITE = "low_", "high_", "write_"
 _FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Point
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.telegrams import SPACE
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Point
-    from fieldscribe.resolve.analysis import Analysis
 
 Needs = Callable[["Analysis", list["Point"]], Iterable[tuple[int, str, str, str]]]
 """Yields what the device lacks: how many points need it, what it is, the key under `bus` that gives it, and a hint."""

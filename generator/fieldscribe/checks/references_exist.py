@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.families import families
-
-if TYPE_CHECKING:
-    from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.analysis import Analysis
 
 
 def check(analysis: Analysis) -> None:

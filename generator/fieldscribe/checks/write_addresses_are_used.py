@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.points import ResolvedPoint
 
 _LEAVE_OUT = "leave `write_at` out"
 

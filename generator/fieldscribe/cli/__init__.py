@@ -16,9 +16,11 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from errno import ENAMETOOLONG
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, Protocol
 
 from fieldscribe import __version__
 from fieldscribe.cli.terminal import FINDINGS as FINDINGS
@@ -27,9 +29,6 @@ from fieldscribe.cli.terminal import USAGE as USAGE
 from fieldscribe.cli.terminal import terminal_width
 
 if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Sequence
-    from typing import Protocol
 
     class Command(Protocol):
         """What the module of a command offers."""

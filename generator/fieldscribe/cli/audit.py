@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from argparse import ArgumentParser, Namespace
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.audit import Citations, Editions, audit, audit_of
+from fieldscribe.audit import Citations, Comparison, Editions, audit, audit_of
 from fieldscribe.audit.recording import LONGEST, hindrances, with_recorded
 from fieldscribe.audit.renumbering import renumber
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
@@ -16,16 +17,11 @@ from fieldscribe.cli.common import StopError, add_device, device_file, print_jso
 from fieldscribe.cli.rewriting import rewrite
 from fieldscribe.cli.terminal import print_lines
 from fieldscribe.diagnostics import Report
+from fieldscribe.model import Document
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import visible
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.safe_files import read_regular
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-
-    from fieldscribe.audit import Comparison
-    from fieldscribe.model import Document
-    from fieldscribe.resolve.analysis import Analysis
 
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt

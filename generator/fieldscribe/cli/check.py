@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentParser, Namespace
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from fieldscribe.cli.common import add_format, add_paths, description_paths, print_json, report_findings
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report
+from fieldscribe.model import Device
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.report import as_data
 from fieldscribe.wording.frames import counted
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 EXAMPLE = """examples:
   fieldscribe check

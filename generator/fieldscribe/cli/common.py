@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -12,19 +13,14 @@ from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
-from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
+from fieldscribe.report import ReadLines, as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
-from fieldscribe.safe_files import read_regular
+from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 
 if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Iterable
-
     from fieldscribe.model import Device
-    from fieldscribe.report import ReadLines
-    from fieldscribe.safe_files import Inputs
 
 LOCAL = Path("descriptions")
 """The usual folder of a project's descriptions."""

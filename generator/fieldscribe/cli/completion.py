@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import re
 import sys
-from argparse import ArgumentParser
+from argparse import Action, ArgumentParser, Namespace
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldscribe.cli import COMMANDS, FINE, command_module
 from fieldscribe.cli.common import default_folders, known_devices
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.search import summary_of
-
-if TYPE_CHECKING:
-    from argparse import Action, Namespace
-    from collections.abc import Iterable, Sequence
 
 EXAMPLE = """examples:
   fieldscribe completion bash > ~/.local/share/bash-completion/completions/fieldscribe

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import gc
 import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterable, Iterator
+from io import BufferedIOBase
 from itertools import groupby
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, usage_error
-from fieldscribe.cli.decoded_frames import frame_printer
+from fieldscribe.cli.decoded_frames import FramePrinter, frame_printer
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
+from fieldscribe.families.frame_results import FrameResult
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable, Iterable, Iterator
-    from io import BufferedIOBase
-
-    from fieldscribe.cli.decoded_frames import FramePrinter
-    from fieldscribe.families.frame_results import FrameResult
 
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"

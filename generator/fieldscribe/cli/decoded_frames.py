@@ -5,16 +5,13 @@ from __future__ import annotations
 import json
 import sys
 from functools import lru_cache
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from fieldscribe.cli.terminal import is_coloured, print_rows
-from fieldscribe.families.frame_results import bits_label
+from fieldscribe.families.frame_results import FrameResult, bits_label
+from fieldscribe.model import Device
 from fieldscribe.report import visible
 from fieldscribe.wording.frames import spaced
-
-if TYPE_CHECKING:
-    from fieldscribe.families.frame_results import FrameResult
-    from fieldscribe.model import Device
 
 _MOST_LABELS = 256
 """How many labels of rows are cached."""

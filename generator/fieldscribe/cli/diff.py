@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from fieldscribe.differences.changes import CLASSES
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-
-    from fieldscribe.differences.changes import Comparison
+from fieldscribe.differences.changes import CLASSES, Comparison
 
 EXAMPLE = """examples:
   fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200

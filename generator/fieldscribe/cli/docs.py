@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli import FINE
 from fieldscribe.cli.common import StopError, add_descriptions, open_device, some_path
 from fieldscribe.cli.vendor import deliver_all, print_deliveries
 from fieldscribe.vendoring.deliveries import Order
 from fieldscribe.vendoring.requests import FORMATS, DocumentRequest
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser
 
 EXAMPLE = """examples:
   fieldscribe docs hitachi_l200 --format xlsx --out tables

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
+from fractions import Fraction
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_lines
-from fieldscribe.conversation.encoding import encode_point, frames_for
+from fieldscribe.conversation.encoding import Encoded, encode_point, frames_for
 from fieldscribe.conversation.selection import choose_point
-from fieldscribe.families.frame_results import Options
+from fieldscribe.families.frame_results import BuiltFrames, Options
+from fieldscribe.model import Device
 from fieldscribe.report import visible
 from fieldscribe.user_errors import RefusedError
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from fractions import Fraction
-
-    from fieldscribe.conversation.encoding import Encoded
-    from fieldscribe.families.frame_results import BuiltFrames
-    from fieldscribe.model import Device
 
 EXAMPLE = """examples:
   fieldscribe encode hitachi_l200 A020 "50 Hz"

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
 from fieldscribe.conversation.explain_other_items import explain_other_items
-from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.lookup import find, near
+from fieldscribe.conversation.explanation import Explanation, explain_point
+from fieldscribe.conversation.lookup import Match, find, near
 from fieldscribe.conversation.selection import absence
 from fieldscribe.language.units import unit_hint
+from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
 from fieldscribe.wording import label
 
 if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-
-    from fieldscribe.conversation.explanation import Explanation
-    from fieldscribe.conversation.lookup import Match
-    from fieldscribe.model import Device
-
     Found = tuple[list[str], Explanation]
     """How WHAT was read (there may be several ways), and the explanation of what it then means."""
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli import FINE
 from fieldscribe.cli.common import StopError, add_device, open_device, print_json
 from fieldscribe.export import ExportError, export_form, export_model
 from fieldscribe.families import families
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 EXAMPLE = """examples:
   fieldscribe export json hitachi_l200

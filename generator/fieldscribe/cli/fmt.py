@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldscribe.authoring.formatting import Formatting, MovedError, files_of, formatted
 from fieldscribe.cli.common import StopError, add_format, description_paths, print_json, report_findings, some_path
@@ -13,10 +13,6 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.language.source import MOST_BYTES
 from fieldscribe.pipeline import find_devices
 from fieldscribe.report import as_data, visible
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-
 
 EXAMPLE = """examples:
   fieldscribe fmt

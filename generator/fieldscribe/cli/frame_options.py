@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
+from fractions import Fraction
 
 from fieldscribe.cli.common import StopError
 from fieldscribe.conversation.typed_values import read_settings
-from fieldscribe.families import families, family
+from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
+from fieldscribe.model import Device
 from fieldscribe.user_errors import RefusedError, UnclearError
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from fractions import Fraction
-
-    from fieldscribe.families import Family
-    from fieldscribe.model import Device
 
 
 def add_with(parser: ArgumentParser) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldscribe.cli import show_traceback
 from fieldscribe.cli.common import (
@@ -22,9 +22,6 @@ from fieldscribe.output.writing import Result
 from fieldscribe.pipeline import find_devices
 from fieldscribe.report import as_data, visible
 from fieldscribe.targets import TARGETS
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import re
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from hashlib import sha256
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe.cli.common import StopError, some_path
 from fieldscribe.cli.terminal import FINDINGS, FINE
@@ -20,11 +20,6 @@ from fieldscribe.importing.readers import FORMATS, read_tables
 from fieldscribe.importing.tables import MOST_BYTES, UnreadableError
 from fieldscribe.report import visible
 from fieldscribe.safe_files import read_regular
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from pathlib import Path
-
 
 EXAMPLE = f"""examples:
   fieldscribe import table registers.csv --device heat_pump --out heat_pump/device.yaml

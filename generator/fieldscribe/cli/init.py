@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from fieldscribe.authoring.starting import QUESTIONS, NotStartedError, start, startable, wrong_with
+from fieldscribe.authoring.starting import QUESTIONS, NotStartedError, Question, start, startable, wrong_with
 from fieldscribe.cli.common import LOCAL, StopError, some_path
 from fieldscribe.cli.terminal import FINE
 from fieldscribe.report import visible
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable, Mapping
-
-    from fieldscribe.authoring.starting import Question
 
 EXAMPLE = """examples:
   fieldscribe init

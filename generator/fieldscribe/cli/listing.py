@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.cli.common import (
@@ -17,16 +18,11 @@ from fieldscribe.cli.common import (
 )
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import points_by_name, present
+from fieldscribe.model import Device, Point
 from fieldscribe.report import visible
 from fieldscribe.search import summary_of
 from fieldscribe.text import csv_cell, line
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-
-    from fieldscribe.model import Device, Point
 
 EXAMPLE = """examples:
   fieldscribe list

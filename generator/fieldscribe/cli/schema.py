@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.terminal import FINE
 from fieldscribe.export import schema_text as export_schema_text
 from fieldscribe.language.json_schema import schema_text
 from fieldscribe.language.keys_page import keys_markdown
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
 
 EXAMPLE = """examples:
   fieldscribe schema > schema.json

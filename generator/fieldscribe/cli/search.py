@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 
 from fieldscribe.cli.common import (
     StopError,
@@ -18,17 +18,10 @@ from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import place_text, visible
-from fieldscribe.search.entries import entries_of
-from fieldscribe.search.matching import near_words, search
+from fieldscribe.search.entries import Entry, entries_of
+from fieldscribe.search.matching import Hit, near_words, search
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser
-    from collections.abc import Sequence
-
-    from fieldscribe.search.entries import Entry
-    from fieldscribe.search.matching import Hit
 
 EXAMPLE = """examples:
   fieldscribe search Hochlaufzeit

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 
 from fieldscribe.cli.common import add_format, print_json, usage_error
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
-from fieldscribe.language.units import shipped, shipped_unit, unit_hint
+from fieldscribe.language.units import Known, shipped, shipped_unit, unit_hint
 from fieldscribe.text import shortened
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from collections.abc import Sequence
-
-    from fieldscribe.language.units import Known
 
 EXAMPLE = """examples:
   fieldscribe units

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldscribe.checks.device_name_is_free import reasons
 from fieldscribe.cli.common import (
@@ -26,17 +26,10 @@ from fieldscribe.output.depfile import update_depfile
 from fieldscribe.report import visible
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.user_errors import UnclearError
-from fieldscribe.vendoring.deliveries import Order, compare, deliver, leftovers, refuse_duplicates
-from fieldscribe.vendoring.project_file import NAME, read_project
+from fieldscribe.vendoring.deliveries import Delivery, Order, compare, deliver, leftovers, refuse_duplicates
+from fieldscribe.vendoring.project_file import NAME, ProjectDevice, read_project
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 from fieldscribe.vendoring.selection import address_only_messages, select
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser
-    from collections.abc import Sequence
-
-    from fieldscribe.vendoring.deliveries import Delivery
-    from fieldscribe.vendoring.project_file import ProjectDevice
 
 EXAMPLE = """examples:
   fieldscribe vendor c hitachi_l200 --out firmware/drivers

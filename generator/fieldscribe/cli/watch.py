@@ -5,24 +5,19 @@ from __future__ import annotations
 import gc
 import json
 import sys
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
 from signal import SIGINT, SIGTERM, signal
 from threading import Event
 from time import strftime
-from typing import TYPE_CHECKING
+from types import FrameType
 
-from fieldscribe.authoring.watching import Watch
+from fieldscribe.authoring.watching import Outcome, Watch
 from fieldscribe.cli import show_traceback
 from fieldscribe.cli.common import add_format, add_paths, description_paths, report_findings
 from fieldscribe.cli.generate import add_where, print_waiting, targets_of
 from fieldscribe.cli.terminal import FINE
 from fieldscribe.report import as_data, summary, visible
-
-if TYPE_CHECKING:
-    from argparse import ArgumentParser, Namespace
-    from pathlib import Path
-    from types import FrameType
-
-    from fieldscribe.authoring.watching import Outcome
 
 EXAMPLE = """examples:
   fieldscribe watch heat_pump --out bindings

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of, split
-from fieldscribe.conversation.decode_state import PARAMETER, named_item, without_variants
+from fieldscribe.conversation.decode_state import PARAMETER, Base, DecodeState, named_item, without_variants
 from fieldscribe.conversation.selection import absence
 from fieldscribe.families import family
+from fieldscribe.families.decoded_frame import Element, Span, Word
 from fieldscribe.families.frame_results import Item
+from fieldscribe.model import Command, Place, Point
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, fixed_text, title_text
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import counted, element_text, hex_words, span_text, word_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.conversation.decode_state import Base, DecodeState
-    from fieldscribe.families.decoded_frame import Element, Span, Word
-    from fieldscribe.model import Command, Place, Point
 
 _MOST_WORDS = 16
 """How many words without a point are printed."""

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
+from fieldscribe.families.directory import Directory
 from fieldscribe.families.frame_results import Item
+from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from fractions import Fraction
-
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.directory import Directory
-    from fieldscribe.model import Device, Point
 
 Base = tuple[str, int, int]
 """Space or telegram, address, and number of addresses of an item."""

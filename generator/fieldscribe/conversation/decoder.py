@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
 from fieldscribe.conversation.decode_state import DecodeState, PointTextCache
 from fieldscribe.conversation.encoding import family_part
@@ -14,6 +16,7 @@ from fieldscribe.families.decoded_frame import (
     MOST_STATES,
     CutFrame,
     Element,
+    FrameDecoder,
     Masks,
     OpenRequests,
     Piece,
@@ -22,15 +25,8 @@ from fieldscribe.families.decoded_frame import (
     Word,
 )
 from fieldscribe.families.directory import Directory
-from fieldscribe.families.frame_results import Item
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.decoded_frame import FrameDecoder
-    from fieldscribe.families.frame_results import FrameResult, Options
-    from fieldscribe.model import Device
+from fieldscribe.families.frame_results import FrameResult, Item, Options
+from fieldscribe.model import Device
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Span: span_items,

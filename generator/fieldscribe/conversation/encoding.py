@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from typing import Any
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.meanings import meaning_of, raw_text
 from fieldscribe.conversation.refusals import amount_with_unit
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
 from fieldscribe.families import family
+from fieldscribe.families.frame_results import BuiltFrames, Options
+from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import label
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from fractions import Fraction
-
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.frame_results import BuiltFrames, Options
-    from fieldscribe.model import Device, Point
 
 
 @dataclass(frozen=True, slots=True)

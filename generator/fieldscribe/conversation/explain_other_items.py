@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from fieldscribe import wording
 from fieldscribe.conversation.explanation import Explanation
 from fieldscribe.facts.texts import place_in_manual
-from fieldscribe.families import family
+from fieldscribe.families import Codes, family
 from fieldscribe.language.units import shipped, shipped_unit
+from fieldscribe.model import Code, Command, Device, Erratum, Message
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.families import Codes
-    from fieldscribe.model import Code, Command, Device, Erratum, Message
 
 Row = tuple[str, str]
 

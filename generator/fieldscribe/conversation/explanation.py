@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.facts.points import POINT
-from fieldscribe.facts.table import Context
+from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
+from fieldscribe.families.frame_results import WriteMethod
+from fieldscribe.model import Device, Erratum, Point
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, rounded
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.facts.table import Row
-    from fieldscribe.families.frame_results import WriteMethod
-    from fieldscribe.model import Device, Erratum, Point
 
 _ROWS = {
     "wire": "Wire address",

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
-from fieldscribe.families.decoded_frame import Span
+from fieldscribe.families.decoded_frame import DecodedFrame, Span
+from fieldscribe.families.directory import Directory
+from fieldscribe.model import Device, Frame
 from fieldscribe.text import line
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import spaced
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.families.decoded_frame import DecodedFrame
-    from fieldscribe.families.directory import Directory
-    from fieldscribe.model import Device, Frame
 
 
 class FrameWarnings:

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from operator import itemgetter, ne
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.model import Device, Place, Point
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import word_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device, Place, Point
 
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _LONGEST = 64

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
@@ -14,14 +14,10 @@ from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import mask_of, words_of
 from fieldscribe.conversation.refusals import amount, failure
 from fieldscribe.families.frame_results import Bits, bits_label
+from fieldscribe.model import Device, Entry, Flag, Point
 from fieldscribe.report import visible
 from fieldscribe.text import line
 from fieldscribe.wording.exact import number_text, rounded
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.model import Device, Entry, Flag, Point
 
 _MOST_NUMBERS = 64
 """For how many numbers of a flag its texts are cached."""

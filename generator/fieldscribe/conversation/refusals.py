@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from fractions import Fraction
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError, Settings
 from fieldscribe.arithmetic.words import with_fixed
 from fieldscribe.conversation.selection import points_by_name
+from fieldscribe.model import Device, Enum, Point, Special
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from fractions import Fraction
-
-    from fieldscribe.model import Device, Enum, Point, Special
 
 _MOST_DIGITS = 12
 _MOST_NAMES = 30

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.lookup import find, near
+from fieldscribe.conversation.lookup import Match, find, near
+from fieldscribe.model import Device, Point
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
 from fieldscribe.wording import label
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.conversation.lookup import Match
-    from fieldscribe.model import Device, Point
 
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:

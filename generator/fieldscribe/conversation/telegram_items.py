@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import raw_of
-from fieldscribe.conversation.decode_state import named_item
+from fieldscribe.conversation.decode_state import DecodeState, PointFormatter, named_item
+from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
 from fieldscribe.families.frame_results import Item
+from fieldscribe.model import Device, Point
 from fieldscribe.wording.frames import hex_words, word_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.conversation.decode_state import DecodeState, PointFormatter
-    from fieldscribe.families.decoded_frame import Masks, Piece, ProcessData
-    from fieldscribe.model import Device, Point
 
 
 def process_items(state: DecodeState, data: ProcessData) -> Iterator[Item]:

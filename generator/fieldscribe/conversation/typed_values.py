@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
@@ -16,14 +16,10 @@ from fieldscribe.conversation.refusals import refusal
 from fieldscribe.conversation.selection import choose_point
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import factor_between
+from fieldscribe.model import Device, Flag, Point
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean
 from fieldscribe.wording import label
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device, Flag, Point
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*(?![eE][+-]?[0-9])([^\s0-9.,].{0,30})")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")

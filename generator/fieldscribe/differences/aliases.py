@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.nodes import Seq
+from fieldscribe.differences.changes import Comparison
+from fieldscribe.differences.described import Described
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.source import SourceFile
 from fieldscribe.pipeline import load_analysis
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.differences.changes import Comparison
-    from fieldscribe.differences.described import Described
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.language.source import SourceFile
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.point_facts import PointFacts
 
 _SCALAR = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[A-Za-z0-9_]+")
 

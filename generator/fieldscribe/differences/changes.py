@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.differences.comparison import Difference, Thing, differences
+from fieldscribe.differences.sides import Side
 from fieldscribe.facts.table import API, BEHAVIOUR, COMPATIBLE, DOCS, WIRE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from fieldscribe.differences.sides import Side
 
 CLASSES = {
     WIRE: "breaks on the wire",

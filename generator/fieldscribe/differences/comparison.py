@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 from fieldscribe.facts.devices import device_table
-from fieldscribe.facts.table import COMPATIBLE, Parts, View
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from fieldscribe.facts.table import Exported, Weight
+from fieldscribe.facts.table import COMPATIBLE, Exported, Parts, View, Weight
 
 _RAW = re.compile(r"\b([a-z0-9_]+)(?=\.raw\b)")
 """A point in the expression of a limit."""

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache, cached_property
-from typing import TYPE_CHECKING
 
 from fieldscribe.checks.identifier_places import IdentifierPlaces
 from fieldscribe.code_view import for_code
+from fieldscribe.diagnostics import Span
 from fieldscribe.facts.devices import device_table
 from fieldscribe.facts.table import Parts
 from fieldscribe.families import FAMILIES
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Device, Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.targets import TARGETS, knows, target
 from fieldscribe.targets.identifiers import Owner
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Device, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.point_facts import PointFacts
 
 _OF_ENUM = ("", "enum", "open", "name of the enum")
 """The facts of a point that are those of its enum; the enum comes, goes and is renamed with it."""

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from fieldscribe.differences.changes import CLASSES, fact_of, is_taken, next_version, subject_of
+from fieldscribe.differences.changes import CLASSES, Comparison, fact_of, is_taken, next_version, subject_of
+from fieldscribe.differences.comparison import Difference
 from fieldscribe.facts.table import DOCS
-from fieldscribe.report import visible
+from fieldscribe.report import Line, visible
 from fieldscribe.text import markdown
 from fieldscribe.wording import without_lines
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from fieldscribe.differences.changes import Comparison
-    from fieldscribe.differences.comparison import Difference
-    from fieldscribe.report import Line
 
 _MOST_NAMES = 12
 _MOST_SYMBOLS = 3

@@ -5,27 +5,23 @@ from __future__ import annotations
 import json
 import os
 import subprocess
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.diagnostics import Report
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.differences.described import Described
 from fieldscribe.export import export_model
 from fieldscribe.facts.devices import FORMAT, device_table
+from fieldscribe.facts.table import Exported
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.source import MOST_BYTES
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.safe_files import read_regular, shown_path
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.facts.table import Exported
 
 _MOST_MODEL_BYTES = 256 << 20
 _MOST_FILES = 10_000

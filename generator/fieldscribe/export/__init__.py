@@ -6,7 +6,7 @@ Its shape changes only with its `format` number. JSON numbers are integers; ever
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.facts.devices import (
     CODE,
@@ -24,12 +24,9 @@ from fieldscribe.facts.devices import (
 )
 from fieldscribe.facts.points import DIGITS, ENTRY, FLAG, FLAG_VALUE, POINT, SPECIAL
 from fieldscribe.facts.schema import DEFINITIONS, record
-from fieldscribe.facts.table import Context, exported
+from fieldscribe.facts.table import Context, FactTable, exported
 from fieldscribe.families import FAMILIES, families, family
-
-if TYPE_CHECKING:
-    from fieldscribe.facts.table import FactTable
-    from fieldscribe.model import Device
+from fieldscribe.model import Device
 
 
 class ExportError(ValueError):

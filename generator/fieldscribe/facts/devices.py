@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, partial
 from operator import itemgetter
@@ -27,17 +28,12 @@ from fieldscribe.facts.schema import (
     one_of,
     ref,
 )
-from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, Parts, View
-from fieldscribe.families import families, family
+from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, FactTable, Parts, View, Weight
+from fieldscribe.families import Family, families, family
+from fieldscribe.model import Bus, Code
 from fieldscribe.wording import without_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-
-    from fieldscribe.facts.table import FactTable, Weight
-    from fieldscribe.families import Family
-    from fieldscribe.model import Bus, Code
-
     Listed = Callable[[Exported], Iterable[Exported]]
 
 FORMAT = 5

@@ -7,20 +7,16 @@ change of the compiler's own data structures nor an optional key that nobody use
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from hashlib import sha256
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.facts.devices import device_table
 from fieldscribe.facts.points import POINT
-from fieldscribe.facts.table import Context, stated
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from fieldscribe.facts.table import Fact
-    from fieldscribe.model import Device, Point
+from fieldscribe.facts.table import Context, Fact, stated
+from fieldscribe.model import Device, Point
 
 
 def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:

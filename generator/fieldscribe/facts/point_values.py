@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.facts.table import API, COMPATIBLE, DOCS, WIRE
+from fieldscribe.conditions import Comparison, Condition
+from fieldscribe.facts.table import API, COMPATIBLE, DOCS, WIRE, Context, Exported
 from fieldscribe.families import family
-from fieldscribe.model import TYPES, Variant, item_of
+from fieldscribe.model import (
+    TYPES,
+    Allowed,
+    Bound,
+    Entry,
+    Enum,
+    Factor,
+    Flag,
+    Limit,
+    Linear,
+    Place,
+    Point,
+    Source,
+    Variant,
+    item_of,
+)
 from fieldscribe.wording.exact import fixed_rule, number_text, value_multiple
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from fieldscribe.conditions import Comparison, Condition
-    from fieldscribe.facts.table import Context, Exported
-    from fieldscribe.model import Allowed, Bound, Entry, Enum, Factor, Flag, Limit, Linear, Place, Point, Source
 
 _MOST_REPEATS = 8
 _MOST_DIGITS = 1000

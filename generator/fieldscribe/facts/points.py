@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.facts import point_values as values
@@ -28,11 +27,8 @@ from fieldscribe.facts.schema import (
     record,
     ref,
 )
-from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, Parts, View
+from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Fact, FactTable, Parts, View
 from fieldscribe.model import TYPES
-
-if TYPE_CHECKING:
-    from fieldscribe.facts.table import FactTable
 
 _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 

@@ -6,13 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from operator import attrgetter, itemgetter
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
-from fieldscribe.model import Shape, Terms
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
-    from fieldscribe.wording.rules import Points
+from fieldscribe.model import Device, Point, Shape, Terms
+from fieldscribe.wording.rules import Points
 
 WIRE, API, BEHAVIOUR, COMPATIBLE, DOCS = "wire", "api", "behaviour", "compatible", "docs"
 """The classes of differences: breaks on the wire, breaks code, changes behaviour, compatible, for people only."""

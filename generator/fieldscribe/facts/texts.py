@@ -5,17 +5,13 @@ Other points are called as the context says.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 from fieldscribe import wording
+from fieldscribe.facts.table import Context, Row
 from fieldscribe.families import family
+from fieldscribe.model import Device, Point, Source
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.facts.table import Context, Row
-    from fieldscribe.model import Device, Point, Source
 
 _KINDS = {"u": "unsigned", "s": "signed, two's complement", "f": "IEEE 754 floating point"}
 

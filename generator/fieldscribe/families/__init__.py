@@ -26,14 +26,12 @@ A part that a family does not have is left out; whoever asks for a part says wha
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from typing import Any
 
 FAMILIES: dict[str, str] = {
     "modbus": "fieldscribe.families.modbus",

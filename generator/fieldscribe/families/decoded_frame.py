@@ -6,16 +6,12 @@ device and makes a `FrameResult` of it.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from fieldscribe.families.frame_results import FrameResult, Item
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from fieldscribe.model import Telegram
-
+from fieldscribe.model import Telegram
 
 MOST_STATES = 256
 """For how many units, or telegrams of units, a decoder keeps a state: those used last. A stream may last for days."""

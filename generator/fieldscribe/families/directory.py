@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 
 from fieldscribe.arithmetic.codec import setting_of
 from fieldscribe.conditions import absent
 from fieldscribe.families import family
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from fractions import Fraction
-
-    from fieldscribe.model import Device, Place, Point
+from fieldscribe.model import Device, Place, Point
 
 Where = tuple[str, int, int]
 """The space or the telegram, the address, and the index that travels with it (0 without one)."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
+from fieldscribe.model import Bus, Point
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.frames import units_text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from fieldscribe.model import Bus, Point
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,28 +8,20 @@ replaces each fact that it rejects by a question.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.families import families
+from fieldscribe.families import Family, families
 from fieldscribe.families import family as family_of_name
 from fieldscribe.importing.cells import one_line, space_in
-from fieldscribe.importing.draft_points import points_of
-from fieldscribe.importing.draft_text import DraftGroup, Names, draft_lines, snake
-from fieldscribe.importing.headings import columns_of, is_column_number, same_heading, upright
-from fieldscribe.importing.tables import UnreadableError
+from fieldscribe.importing.draft_points import Options, points_of
+from fieldscribe.importing.draft_text import DraftGroup, DraftPoint, Head, Line, Names, draft_lines, snake
+from fieldscribe.importing.headings import Columns, columns_of, is_column_number, same_heading, upright
+from fieldscribe.importing.tables import Table, UnreadableError
 from fieldscribe.pipeline import DEVICE_FILE, load_device
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from fieldscribe.families import Family
-    from fieldscribe.importing.draft_points import Options
-    from fieldscribe.importing.draft_text import DraftPoint, Head, Line
-    from fieldscribe.importing.headings import Columns
-    from fieldscribe.importing.tables import Table
 
 
 class Draft(NamedTuple):

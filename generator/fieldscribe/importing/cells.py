@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import html
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.wording.exact import number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _BREAKS = re.compile(r"\s*<\s*(?:br|/?li|/?ul|/?p)\b[^<>]{0,40}>\s*", re.IGNORECASE)
 _TAGS = re.compile(r"<\s*/?\s*[a-zA-Z][^<>]{0,80}>")

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from fractions import Fraction
 
 from fieldscribe.importing import cells as read
-from fieldscribe.importing.cells import one_line, phrase
+from fieldscribe.importing.cells import Address, one_line, phrase
 from fieldscribe.importing.draft_text import DraftPoint, label_map, scalar
+from fieldscribe.importing.headings import Columns
+from fieldscribe.importing.tables import Row
 from fieldscribe.wording.exact import hex_text, number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from fractions import Fraction
-
-    from fieldscribe.importing.cells import Address
-    from fieldscribe.importing.headings import Columns
-    from fieldscribe.importing.tables import Row
 
 _MODICON_SPACES = {"0": "coil", "1": "discrete", "3": "input", "4": "holding"}
 """The spaces by the first digit of a Modicon reference."""

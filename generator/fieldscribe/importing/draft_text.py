@@ -7,17 +7,15 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import fieldscribe.language.keys  # noqa: F401  # it reads the descriptions of the families, so it is loaded before them
 from fieldscribe.families import family
 from fieldscribe.language.load import as_yaml
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
 
 _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "ae", "Ö": "oe", "Ü": "ue", "ß": "ss", "%": " percent "})
 _SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+": " plus ", ">": " above ", "<": " below "}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,6 @@ from fieldscribe.importing.cells import one_line
 from fieldscribe.importing.tables import Row, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
     Wanted = Mapping[str, Sequence[str]]
 
 IGNORED = "ignore"

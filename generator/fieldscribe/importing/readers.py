@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from fieldscribe.importing.cells import clean
 from fieldscribe.importing.document_tables import read_html, read_text
@@ -19,9 +20,6 @@ from fieldscribe.importing.tables import (
     UnreadableError,
 )
 from fieldscribe.safe_files import read_regular
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 FORMATS = {
     ".csv": "CSV",

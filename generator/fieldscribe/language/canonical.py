@@ -7,15 +7,10 @@ quotes.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from fieldscribe.language.pieces import OddError, pieces
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.language.pieces import Comment, Gap, Piece
+from fieldscribe.language.pieces import Comment, Gap, OddError, Piece, pieces
 
 _INDENT = 2
 _OPENING, _CLOSING = frozenset("[{"), frozenset("]}")

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.hints import nearest
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import load
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
-from fieldscribe.safe_files import shown_path
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.safe_files import Inputs
+from fieldscribe.safe_files import Inputs, shown_path
 
 _PART_KEYS = frozenset({"group", "points"})
 _NEEDED = ("device", "family", "documents")

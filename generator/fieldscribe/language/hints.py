@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterable
 from decimal import Decimal
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import DEVICE, GROUP
 from fieldscribe.language.load import flow_text
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import LANGUAGES, key_suggestion, suggest_bits
-from fieldscribe.schema_types import Text
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
-
-    from fieldscribe.schema_types import Form, Shape
+from fieldscribe.schema_types import Form, Shape, Text
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _GROUP = "a group is a part: `group: …`, `space: …` and `points: […]`, below a line `---` or in a file under `parts`"

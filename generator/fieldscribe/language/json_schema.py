@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.keys.places import DEVICE, PART
 from fieldscribe.language.load import flow_text
-from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Place, Text, Whole
-
-if TYPE_CHECKING:
-    from fieldscribe.schema_types import Key, Kind, Shape
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Items, Key, Kind, Place, Shape, Text, Whole
 
 SCHEMA_ID = "https://fieldscribe.invalid/description-1.json"
 _MARKUP = re.compile(r"[\\*_{}\[\]<>#]")

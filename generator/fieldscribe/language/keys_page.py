@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe.language.keys import forms, keys_of
 from fieldscribe.language.keys.places import PLACES
 from fieldscribe.language.load import flow_text
-from fieldscribe.schema_types import BOOLEAN, NOTHING, Place, Text, Whole, says_yes_or_no
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.schema_types import Kind, Shape
+from fieldscribe.schema_types import BOOLEAN, NOTHING, Kind, Place, Shape, Text, Whole, says_yes_or_no
 
 _FEW = 2
 

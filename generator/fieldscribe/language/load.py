@@ -7,20 +7,17 @@ number of values and expansion of aliases are limited.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from decimal import Decimal
 from sys import intern
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import yaml
 from yaml import MappingEndEvent, ScalarEvent, SequenceEndEvent
 
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq, Value, share
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.language.source import SourceFile
+from fieldscribe.language.source import SourceFile
 
 MOST_DIGITS = 64
 

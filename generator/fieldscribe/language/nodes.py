@@ -6,10 +6,10 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from fieldscribe.diagnostics import Span
+from fieldscribe.language.source import SourceFile
 
 if TYPE_CHECKING:
     from fieldscribe.language.positions import Place
-    from fieldscribe.language.source import SourceFile
 
 
 class Map(dict[str, Any]):

@@ -7,14 +7,11 @@ could be read in two ways (`4E20`, `1,5`, `1FF`) are refused with a hint.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.text import line, shortened
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 LONGEST = 64
 """The most characters that a number may have."""

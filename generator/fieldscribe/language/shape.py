@@ -6,22 +6,17 @@ description and every bad input.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import key_hint, quoted
 from fieldscribe.language.keys import forms, keys_of, needs, required
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.suggestions import reversed_hint
-from fieldscribe.language.value_checks import NumberCheck, ShapeCheck, TextCheck, compiled_pattern
-from fieldscribe.schema_types import Items, Place, Text, Whole
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.language.value_checks import Check
-    from fieldscribe.schema_types import Kind, Shape
+from fieldscribe.language.value_checks import Check, NumberCheck, ShapeCheck, TextCheck, compiled_pattern
+from fieldscribe.schema_types import Items, Kind, Place, Shape, Text, Whole
 
 _ANY: dict[type, Check | None] = dict.fromkeys((Map, Seq, int, Decimal, bool, str, type(None)))
 _NAMING = ("name", "code", "id")

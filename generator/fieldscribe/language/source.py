@@ -7,18 +7,15 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from errno import EFBIG
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Span
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.report import LINE_BREAK
-from fieldscribe.safe_files import UnfitFileError, read_regular, shown_path
+from fieldscribe.safe_files import Content, Inputs, UnfitFileError, read_regular, shown_path
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.diagnostics import Report
     from fieldscribe.language.positions import Place, Positions
-    from fieldscribe.safe_files import Content, Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""

@@ -8,16 +8,13 @@ in `formula/suggestions.py`.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.language.formula.lint import exact_scale
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
 
 _LONGEST = 200
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.load import load
 from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Unit
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
 
 LISTED = "`fieldscribe units` lists what is known"
 _STEPPED = r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)"

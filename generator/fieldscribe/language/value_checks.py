@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
+from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import form_hint, nearest, quoted, type_hint, value_text
 from fieldscribe.language.keys import forms
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
-from fieldscribe.schema_types import says_yes_or_no
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.language.nodes import Map, Seq
-    from fieldscribe.schema_types import Shape, Text, Whole
+from fieldscribe.schema_types import Shape, Text, Whole, says_yes_or_no
 
 _YES_NO = {"yes": True, "no": False}
 

@@ -6,18 +6,15 @@ known of the points that a rule needs. A view asks it and writes the answer in i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.lowered.plans import Plan, plan_of
 from fieldscribe.lowered.template_keys import TemplateKeys
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from fractions import Fraction
-
-    from fieldscribe.model import Device, Enum, Factor, Linear, Point, Shape
+from fieldscribe.model import Device, Enum, Factor, Linear, Point, Shape
 
 __all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "named_numbers", "plan_of"]
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.exact import Line, count_line, nearest, value_line
 from fieldscribe.arithmetic.words import INT32, INT64
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Linear, Shape
+from fieldscribe.model import Linear, Shape
 
 EXACT_FLOAT = 1 << 24
 """Every integer up to this one is a binary32 number."""

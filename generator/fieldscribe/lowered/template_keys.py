@@ -6,13 +6,10 @@ placeholders as wide as the fields, and fills it for every point with the same k
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-
-    from fieldscribe.model import Allowed, Point, Shape, Terms
+from fieldscribe.model import Allowed, Point, Shape, Terms
 
 
 class TemplateKeys:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import NamedTuple, Self
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.model.numbers import Enum, Titles
-    from fieldscribe.model.point import Point, Source
+from fieldscribe.model.numbers import Enum, Titles
+from fieldscribe.model.point import Point, Source
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from fractions import Fraction
+from fieldscribe.model.numbers import Special, Titles
+from fieldscribe.model.rules import Allowed
+from fieldscribe.model.shape import Shape
 
+if TYPE_CHECKING:
     from fieldscribe.conditions import Condition
-    from fieldscribe.model.numbers import Special, Titles
-    from fieldscribe.model.rules import Allowed
-    from fieldscribe.model.shape import Shape
 
 Fact = TypeVar("Fact")
 

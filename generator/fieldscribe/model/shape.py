@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-from fieldscribe.model.numbers import TYPES, TypeInfo
-from fieldscribe.model.rules import Allowed, Interval
-
-if TYPE_CHECKING:
-    from fieldscribe.model.numbers import Digits, Enum, Fixed, Flag, Special, Text
-    from fieldscribe.model.rules import Linear, ScaleCase
+from fieldscribe.model.numbers import TYPES, Digits, Enum, Fixed, Flag, Special, Text, TypeInfo
+from fieldscribe.model.rules import Allowed, Interval, Linear, ScaleCase
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,14 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Iterable
 from errno import EINVAL
 from pathlib import Path
 from time import time_ns
-from typing import TYPE_CHECKING
 
 from fieldscribe.output.writing import replace
 from fieldscribe.resources import compiler_files
 from fieldscribe.safe_files import UnfitFileError, kind_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 _BREAK = " \\\n  "
 

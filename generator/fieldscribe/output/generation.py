@@ -5,27 +5,21 @@ A device with an error in its description or in a target, or with a foreign file
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.model import Device
 from fieldscribe.output.contents import Spool
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import FOLDER, GENERATED, Manifests, Record
-from fieldscribe.output.plan import changed_since, plan_of
+from fieldscribe.output.memory import Memory
+from fieldscribe.output.plan import Plan, TargetFiles, changed_since, plan_of
 from fieldscribe.output.writing import Result, carry_out
-from fieldscribe.pipeline import TargetError, is_new, load_models, outputs
+from fieldscribe.pipeline import Models, TargetError, is_new, load_models, outputs
 from fieldscribe.safe_files import Inputs, shown_path
 from fieldscribe.targets import knows
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
-    from fieldscribe.output.memory import Memory
-    from fieldscribe.output.plan import Plan, TargetFiles
-    from fieldscribe.pipeline import Models
 
 
 @dataclass(slots=True)

@@ -12,8 +12,11 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, NoReturn
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
 
 from fieldscribe.safe_files import UnfitFileError, kind_of
 
@@ -22,10 +25,6 @@ try:
 except ImportError:
     flock = None  # type: ignore[assignment, unused-ignore]  # Windows
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-    from types import FrameType
 
 NAME = ".fieldscribe-lock"
 PATIENCE = 60.0

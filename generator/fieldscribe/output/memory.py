@@ -10,19 +10,15 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from zlib import crc32
 
 from fieldscribe import __version__
 from fieldscribe.resources import compiler_files
-from fieldscribe.safe_files import read_regular, state_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.safe_files import Inputs, State
+from fieldscribe.safe_files import Inputs, State, read_regular, state_of
 
 _MOST_BYTES = 64 << 20
 _SETTLED = 2_000_000_000

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from fieldscribe.output.contents import Contents, contents_of
-from fieldscribe.output.manifests import carries_head, made_of, manifest_text
-from fieldscribe.safe_files import UnsafePathError, inside, kind_of, read_regular, state_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
-
-    from fieldscribe.output.manifests import Manifests, Targets
-    from fieldscribe.safe_files import State
+from fieldscribe.output.manifests import Manifests, Targets, carries_head, made_of, manifest_text
+from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_of
 
 TargetFiles = dict[str, dict[str, Contents]]
 """By target the contents of its files, by path relative to the output folder."""

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.safe_files import inside, state_of
+from fieldscribe.safe_files import State, inside, state_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
     from fieldscribe.output.manifests import Manifests
     from fieldscribe.output.plan import Plan
-    from fieldscribe.safe_files import State
 
 _NEW = ".fieldscribe-new"
 _FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
@@ -13,17 +14,12 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_number, plain_number
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import NOWHERE, TYPES, Place
-from fieldscribe.resolve.point_facts import ALONE
+from fieldscribe.resolve.encodings import Encoding
+from fieldscribe.resolve.point_facts import ALONE, PointFacts
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
 from fieldscribe.resolve.values import FactError, formula_finding, formula_value, whole
 from fieldscribe.wording.exact import number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.resolve.encodings import Encoding
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
 
 WIRE = "wire"
 """The name of the address on the wire in formulas of `numbering`."""

@@ -5,29 +5,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.code_view import for_code
+from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Block, Device, Enum, Group
-from fieldscribe.resolve.errata import fact_text, same
+from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Message, Point
+from fieldscribe.resolve.addresses import Places
+from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, same
 from fieldscribe.resolve.family_reader import reader_of
-from fieldscribe.resolve.scope import humanised, source_of, titles
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.model import About, Bus, Command, Frame, Message, Point
-    from fieldscribe.resolve.addresses import Places
-    from fieldscribe.resolve.errata import LocatedErratum, PrintedFact
-    from fieldscribe.resolve.frames import LocatedFrame
-    from fieldscribe.resolve.points import ResolvedPoint
-    from fieldscribe.resolve.ranges import Ranges
-    from fieldscribe.resolve.scope import Scope
-    from fieldscribe.resolve.symbols import SymbolTable
+from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.ranges import Ranges
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.symbols import SymbolTable
 
 _NO_VERSION = "0.0.0"
 """The version of a device whose version has a finding: its names are compared all the same."""

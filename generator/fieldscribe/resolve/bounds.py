@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.arithmetic.exact import half_away
-from fieldscribe.language.formula.normal import evaluate, limit_rule
+from fieldscribe.diagnostics import Span
+from fieldscribe.language.formula.normal import Affine, evaluate, limit_rule
 from fieldscribe.language.formula.parser import parse_range
-from fieldscribe.language.formula.syntax import Expression, FormulaError, names
+from fieldscribe.language.formula.syntax import Expression, FormulaError, Part, names
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear
+from fieldscribe.resolve.encodings import Encoding
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.values import FactError, Written
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.formula.normal import Affine
-    from fieldscribe.language.formula.syntax import Part
-    from fieldscribe.resolve.encodings import Encoding
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scales import Scales
 
 _DEEPEST = 30
 

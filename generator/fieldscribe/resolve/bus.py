@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.families import families
+from fieldscribe.families import BusKeys, Family, families
 from fieldscribe.language.keys import keys_of_family
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.language.nodes import Map, Seq
@@ -13,9 +13,6 @@ from fieldscribe.resolve.enums import Taken, entry_titles, name_of
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
-
-if TYPE_CHECKING:
-    from fieldscribe.families import BusKeys, Family
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, {}, {}, {})
 _LAST_UNIT = 255

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.families import families
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import integer
-
-if TYPE_CHECKING:
-    from fieldscribe.language.nodes import Map
 
 
 def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:

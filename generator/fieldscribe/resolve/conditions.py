@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import ceil, floor
-from typing import TYPE_CHECKING
 
 from fieldscribe import conditions
 from fieldscribe.conditions import Condition
-from fieldscribe.language.formula.conditions import Comparison, parse_condition, wrong_number
+from fieldscribe.language.formula.conditions import Comparison, Constant, parse_condition, wrong_number
+from fieldscribe.language.formula.normal import Affine
 from fieldscribe.language.formula.suggestions import suggest_condition
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.resolve.enums import enum_of
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scales import Scales
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import FactError, Written, formula_finding
-
-if TYPE_CHECKING:
-    from fieldscribe.language.formula.conditions import Constant
-    from fieldscribe.language.formula.normal import Affine
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scales import Scales
-    from fieldscribe.resolve.scope import Scope
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """The test of raw numbers for a test of values, if raw numbers fall while the value rises."""

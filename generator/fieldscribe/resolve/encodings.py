@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import quoted
 from fieldscribe.language.suggestions import space_hint, suggest_bits
-from fieldscribe.model import TYPES, TypeInfo
+from fieldscribe.model import TYPES, Special, TypeInfo
 from fieldscribe.resolve.memo import Memo
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.special_codes import SpecialCodes
 from fieldscribe.resolve.values import bit_range
-
-if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Special
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
 
 
 class Encoding(NamedTuple):

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Entry, Enum
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import integer
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.point_facts import PointFacts
 
 
 def enum_of(scope: Scope, facts: PointFacts, closed: bool) -> Enum | None:

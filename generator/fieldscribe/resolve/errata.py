@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.families import sections_of_codes
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.model import About, Bus, Erratum, Named
 from fieldscribe.resolve.scope import Scope, source_of
+from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import integer
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.symbols import SymbolTable
-
 
 _NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"))
 """The sections of named things that an erratum may be about, each with the key that names one."""

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import identifying_keys, inherited, keys_of
 from fieldscribe.language.keys.places import FORMAT, POINT, USE
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.suggestions import value_hint
-from fieldscribe.model import Variant, item_of
+from fieldscribe.model import Titles, Variant, item_of
 from fieldscribe.resolve.point_facts import Element, PointFacts, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, humanised, titles
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Titles
 
 MOST_POINTS = 100_000
 """The most points of a device. Without a limit, rows that stand for many points could fill the memory."""

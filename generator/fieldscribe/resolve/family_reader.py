@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 from fieldscribe.families import families
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Block, Bus, Code, FamilyFacts, Message, Point, Telegram
-    from fieldscribe.resolve.scope import Scope
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Block, Bus, Code, FamilyFacts, Message, Point, Telegram
+from fieldscribe.resolve.scope import Scope
 
 
 class FamilyReader:

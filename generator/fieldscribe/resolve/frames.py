@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from typing import Any
 
 from fieldscribe.arithmetic.codec import CodecError, encode, setting_of
 from fieldscribe.families import families
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.model import Bus, Frame, Named, Point
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
+from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, number, whole
 from fieldscribe.wording.exact import number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from fractions import Fraction
-
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.symbols import SymbolTable
-
 
 RAW = ".raw"
 """The suffix of a point's name that marks a raw number instead of a value."""

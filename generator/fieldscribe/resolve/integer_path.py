@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Linear, ScaleCase
-    from fieldscribe.resolve.bounds import Bounds
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.model import Linear, ScaleCase
+from fieldscribe.resolve.bounds import Bounds
+from fieldscribe.resolve.point_facts import PointFacts
 
 MOST_DECIMALS = 12
 

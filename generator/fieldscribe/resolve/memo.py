@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from decimal import Decimal
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
+from fieldscribe.diagnostics import Report
 from fieldscribe.language.keys import identifying_keys, keys_of
 from fieldscribe.language.keys.places import POINT, SOURCE
 from fieldscribe.language.nodes import Map, Seq
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
-
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.point_facts import PointFacts
 
 Fact = TypeVar("Fact")
 

@@ -5,22 +5,18 @@ Also sets and arrays: which points a row stands for if it has `sets`, `indices` 
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.keys import inherited
 from fieldscribe.language.keys.places import GROUP
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import TYPES, Titles, item_of
+from fieldscribe.model import TYPES, Titles, Variant, item_of
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Variant
-    from fieldscribe.resolve.scope import Scope
 
 MOST_ELEMENTS = 4096
 """The most points that one row may stand for."""

@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING
 
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import Point, Source, Terms
+from fieldscribe.model import Linear, Point, Shape, Source, Terms, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.conditions import condition_of
 from fieldscribe.resolve.encodings import Encoding, Encodings
 from fieldscribe.resolve.memo import FactKeys, Memo, hashable
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scales import IDENTITY, Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, cited, first_line, source_from, titles
 from fieldscribe.resolve.shapes import ShapeAndLimits, Shapes
-from fieldscribe.resolve.telegrams import SPACE
+from fieldscribe.resolve.symbols import SymbolTable
+from fieldscribe.resolve.telegrams import SPACE, Telegrams
 from fieldscribe.resolve.values import integer, number
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from fractions import Fraction
-
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Linear, Shape, Unit
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.symbols import SymbolTable
-    from fieldscribe.resolve.telegrams import Telegrams
 
 _MOST_NAMES = 12
 _CITING = {*keys_of(SOURCE), "source"}

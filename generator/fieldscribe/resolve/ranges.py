@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from typing import Any
 
 from fieldscribe.arithmetic.exact import half_away
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.parser import parse_range
 from fieldscribe.language.formula.syntax import Expression, FormulaError
 from fieldscribe.language.nodes import Seq
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.values import FactError, formula_finding
 from fieldscribe.wording.exact import number_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from fractions import Fraction
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.resolve.point_facts import PointFacts
 
 _ONE_SIDED = tuple("<>\u2264\u2265")
 _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")

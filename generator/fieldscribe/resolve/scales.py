@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.conditions import parse_case
 from fieldscribe.language.formula.lint import cut_off
 from fieldscribe.language.formula.normal import Affine, scale_rule
 from fieldscribe.language.formula.parser import parse_scale
 from fieldscribe.language.formula.suggestions import suggest_scale
 from fieldscribe.language.formula.syntax import FormulaError, Part
-from fieldscribe.model import Linear, ScaleCase
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Factor, Linear, ScaleCase
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scope import Scope
+from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, Written, formula_finding
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Factor
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
-    from fieldscribe.resolve.symbols import SymbolTable
 
 IDENTITY = Linear(Fraction(1), Fraction(0), ())
 

@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from fieldscribe.families import family
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.families import Family, family
+from fieldscribe.language.files import Files
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import SOURCE
@@ -16,13 +18,6 @@ from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping
-
-    from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.families import Family
-    from fieldscribe.language.files import Files
 
 _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")

@@ -6,28 +6,24 @@ Points of one kind share their shape, and points with the same limits share thes
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
+from fieldscribe.resolve.addresses import Places
+from fieldscribe.resolve.bounds import Bounds
+from fieldscribe.resolve.encodings import Encoding
 from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
-from fieldscribe.resolve.scope import humanised
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.ranges import Ranges
+from fieldscribe.resolve.scope import Scope, humanised
 from fieldscribe.resolve.special_codes import quantities
 from fieldscribe.resolve.values import FactError
 from fieldscribe.resolve.word_contents import allowed_digits, digits_of, fixed_of, flags_of, text_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.resolve.addresses import Places
-    from fieldscribe.resolve.bounds import Bounds
-    from fieldscribe.resolve.encodings import Encoding
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.ranges import Ranges
-    from fieldscribe.resolve.scope import Scope
 
 _WHOLE = re.compile(r"(-?[0-9]{1,9})\.\.(-?[0-9]{1,9})")
 """An interval of whole numbers in its usual form; the parser of formulas reads all others."""

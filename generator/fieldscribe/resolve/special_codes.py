@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import ends_of, number_of
+from fieldscribe.diagnostics import Span
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.enums import entry_titles, name_of
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
 
 _PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
 """Marks a number that is not decimal: manuals print such codes as the pattern of bits."""

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import nearest
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Variant
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
+from fieldscribe.model import Variant
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scope import Scope
 
 
 @dataclass(slots=True)

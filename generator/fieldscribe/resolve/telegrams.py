@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Message, Telegram
 from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
-
-if TYPE_CHECKING:
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.point_facts import PointFacts
 
 Telegrams = Mapping[str, tuple[Telegram, int]]
 """By name: the telegram, and how many of its words one multiplexed frame carries (0 if it is not multiplexed)."""

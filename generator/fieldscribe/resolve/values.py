@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 from fieldscribe.language.suggestions import suggest_interval
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.diagnostics import Report, Span
 
 
 class FactError(Exception):

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Allowed, Digits, Entry, Fixed, Flag, Interval, Text
 from fieldscribe.resolve.enums import Taken, entries_of, name_of, named_enum
-from fieldscribe.resolve.scope import humanised, titles
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.scope import Scope, humanised, titles
 from fieldscribe.resolve.values import bit_range, integer
 from fieldscribe.schema_types import TEXTS
-
-if TYPE_CHECKING:
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.scope import Scope
 
 WORD_BITS = 16
 _MOST_CHARACTERS = 250

@@ -6,15 +6,13 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_outline
 from fieldscribe.resolve.scope import titles
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.model import Entry as EnumEntry
+from fieldscribe.model.numbers import Titles
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.point_facts import PointFacts
+from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.model import Entry as EnumEntry
-    from fieldscribe.model.numbers import Titles
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.resolve.points import ResolvedPoint
-    from fieldscribe.resolve.scope import Scope
 
 _FAULT_NAMES = ("fault", "error", "trip", "alarm")
 """A point whose name has one of these words lists faults."""

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from fieldscribe.pasted_numbers import number_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from fieldscribe.search.entries import Entry, Text
+from fieldscribe.search.entries import Entry, Text
 
 _FAULTS = frozenset({"error", "exception", "fault"})
 """Kinds of codes that people take for the same."""

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from typing import Protocol
-
     from fieldscribe.model import Device
     from fieldscribe.render import Render
     from fieldscribe.targets.identifiers import Names

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from shlex import quote
-from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.model import Device
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from fieldscribe.model import Device
 
 LEFT_OUT = "..."
 """Replaces a word that is too long for a head, or that a comment would change."""

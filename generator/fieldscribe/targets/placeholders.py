@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from operator import itemgetter
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable, Sequence
 
 _PLACEHOLDERS = tuple(map(chr, range(0xFDD0, 0xFDF0)))
 """Unicode noncharacters: the encoders of `text` strip them, so no text of a description holds one."""

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from fieldscribe.model import Device
 from fieldscribe.output.contents import contents_of
 from fieldscribe.output.lock import only_run
 from fieldscribe.output.manifests import VENDORED, Manifests
-from fieldscribe.output.plan import plan_of
+from fieldscribe.output.plan import Plan, TargetFiles, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import read_regular
 from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-    from pathlib import Path
-    from typing import Protocol
-
-    from fieldscribe.model import Device
-    from fieldscribe.output.plan import Plan, TargetFiles
 
     class Request(Protocol):
         """What a project requests of a device."""

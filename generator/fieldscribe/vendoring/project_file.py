@@ -12,22 +12,18 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.keys.forms import ID
 from fieldscribe.pipeline import DEVICE_FILE
-from fieldscribe.safe_files import read_regular, shown_path
+from fieldscribe.safe_files import Inputs, read_regular, shown_path
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from pathlib import Path
-
-    from fieldscribe.safe_files import Inputs
 
 NAME = "fieldscribe.toml"
 _MOST_BYTES = 1 << 20

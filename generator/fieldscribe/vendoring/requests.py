@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from fieldscribe.code_view import for_code
+from fieldscribe.model import Device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import target
@@ -16,11 +17,6 @@ from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.heads import LEFT_OUT
 from fieldscribe.vendoring.selection import select
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.model import Device
 
 LANGUAGES = ("c", "python", "rust")
 """The languages of code requests."""

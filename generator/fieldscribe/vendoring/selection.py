@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING
 
 from fieldscribe.code_view import for_code
 from fieldscribe.conversation.lookup import find, near
 from fieldscribe.facts.digest import with_digest
 from fieldscribe.families import family
-from fieldscribe.model import Interval
+from fieldscribe.model import Block, Command, Device, Enum, Interval, Point
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Block, Command, Device, Enum, Point
 
 _GLOB = frozenset("*?[")
 _MOST_NAMED = 20

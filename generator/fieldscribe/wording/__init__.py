@@ -7,17 +7,15 @@ The texts are plain; targets escape them (text.py). Another point is written as 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fieldscribe.arithmetic.exact import SAME
+from fieldscribe.model import Device, Entry, Flag, Point, ScaleCase, Special, Titles
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
 from fieldscribe.wording.rules import clause_text as clause_text
 from fieldscribe.wording.rules import condition_text as condition_text
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Entry, Flag, Point, ScaleCase, Special, Titles
 
 LINES_NAMED = re.compile(r"\b[Ll]ine\s+[0-9]+|\b[Ll]ines\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*")
 """Lines of a manual that a sentence names: `the replies at lines 246 and 297`."""

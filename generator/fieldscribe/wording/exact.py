@@ -5,13 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd
-from typing import TYPE_CHECKING
 
-from fieldscribe.arithmetic.exact import SAME, nearest, value_line
-
-if TYPE_CHECKING:
-    from fieldscribe.arithmetic.exact import Line
-    from fieldscribe.model import Factor, Point
+from fieldscribe.arithmetic.exact import SAME, Line, nearest, value_line
+from fieldscribe.model import Factor, Point
 
 _SHORT = 6
 """A factor with at most this many decimals is written as a decimal (`x 0.125`), else as a division (`/ 256`)."""

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
+from fieldscribe.model import Bus, Code
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from fieldscribe.model import Bus, Code
 
 ALL_ELEMENTS = 255
 _NO_ANSWER: Mapping[str, str] = {

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.exact import Line, value_line
+from fieldscribe.conditions import Clause, Comparison, Condition
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
 from fieldscribe.wording.exact import exact, fixed_rule, number_text, plus_text, times_text, value_multiple
-
-if TYPE_CHECKING:
-    from fieldscribe.conditions import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
 """Points by name, in which the texts of rules look up units and names."""

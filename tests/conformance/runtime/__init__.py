@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
+from conformance.package import Package
 from conformance.runtime import (
     arguments,
     can,
@@ -20,11 +21,6 @@ from conformance.runtime import (
     uss,
     words,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from conformance.package import Package
 
 _THEMES = (
     errors,

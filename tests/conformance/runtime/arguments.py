@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses, table
 from conformance.runtime.can_bus import Bus, beat_of
 from conformance.runtime.can_bus import kinds_of as can_kinds
 from conformance.runtime.uss_line import kinds_of as uss_kinds
 from conformance.runtime.uss_line import on_lines
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 class Thing:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
+from conformance.package import Package
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from conformance.package import Package
 
 
 def refusal(function: Callable[..., Any], *arguments: Any, **more: Any) -> Any:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import devices, refusal, refuses
 from conformance.runtime.can_bus import (
     Bus,
@@ -16,11 +18,6 @@ from conformance.runtime.can_bus import (
     roles_of,
 )
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from conformance.package import Package
 
 
 def check_parameters(package: Package) -> None:

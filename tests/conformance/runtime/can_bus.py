@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import devices
 from conformance.scripts import async_twin
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from conformance.package import Package
 
 
 class Bus:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import inspect
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses, table
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _made(package: Package) -> tuple[Any, Any]:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import copy
 import pickle
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from conformance.package import Package
+from conformance.package import Package
 
 _STATUS = {
     "FieldscribeError": "error",

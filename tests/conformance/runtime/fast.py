@@ -6,14 +6,11 @@ import copy
 import math
 import pickle
 import struct
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import refusal, table
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from conformance.package import Package
 
 SLOW = "slow"
 NOTHING: dict[str, int] = {}

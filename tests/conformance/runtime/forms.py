@@ -5,12 +5,10 @@ from __future__ import annotations
 import copy
 import enum
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import refusal, refuses, table
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _names(package: Package, **numbers: int) -> Any:

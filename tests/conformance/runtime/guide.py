@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import inspect
 import pydoc
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import Memory, devices
 from conformance.runtime.words import _word
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 SPEED = """\
 A1 speed, in Hz; it can be read and written.

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import devices, refuses, table
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _points(package: Package) -> dict[str, Any]:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 _MOST = {1: 16, 2: 16, 3: 4, 4: 4, 5: 1, 6: 1, 15: 16, 16: 4}
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import refusal, refuses, table
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _point(package: Package, form: Any, **facts: Any) -> Any:

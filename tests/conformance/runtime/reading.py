@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import pickle
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses
 from conformance.runtime.can_bus import on_lines as can_lines
 from conformance.runtime.uss_line import on_lines as uss_lines
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _points(package: Package) -> dict[str, Any]:

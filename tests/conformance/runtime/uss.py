@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from conformance.package import Package
 from conformance.runtime.bench import refusal, refuses
 from conformance.runtime.uss_line import Line, kinds_of, on_lines, profile_of
 from conformance.scripts import now
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def check_parameters(package: Package) -> None:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import devices
 from conformance.scripts import async_twin
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 _TASKS = {0: (0,), 1: (1, 2), 2: (1,), 3: (2,), 6: (4, 5), 7: (4,), 8: (5,), 11: (5,), 12: (4,), 13: (2,), 14: (1,)}
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import enum
 import types
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from conformance.package import Package
 from conformance.runtime.bench import refusal, refuses, table
-
-if TYPE_CHECKING:
-    from conformance.package import Package
 
 
 def _mode(package: Package) -> Any:

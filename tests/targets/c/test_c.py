@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import platform
 import re
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pytest
+from _pytest.mark.structures import ParameterSet
+from fieldscribe.model import Device
 from fieldscribe.targets import c
 from fieldscribe.targets.identifiers import clashes
 from support.c_device import (
@@ -32,12 +35,6 @@ from support.models import FREQUENCY_SOURCE, point, sample_device, trip_device
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 from support.vector_file import counts_of, spoil
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from _pytest.mark.structures import ParameterSet
-    from fieldscribe.model import Device
 
 GENERATED = ROOT / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import random
 import subprocess
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.resources import templates_dir
 from support.c_device import SANITIZERS, SANITIZING, WARNINGS, program, run_program
 from support.toolchains import compiled, run, succeed, tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 RUNTIME = templates_dir() / "c/runtime"
 INT64 = (1 << 63) - 1

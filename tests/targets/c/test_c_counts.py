@@ -5,18 +5,14 @@ from __future__ import annotations
 import struct
 import subprocess
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from fieldscribe.model import Device
 from fieldscribe.targets.c.scales import Numbers, reciprocal
 from support.c_device import SANITIZERS, WARNINGS, program, write_headers
 from support.models import device_of, point, scaled
 from support.toolchains import compiled
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 INT32 = (1 << 31) - 1
 SCALES = {

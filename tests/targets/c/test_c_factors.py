@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import random
 import struct
+from collections.abc import Iterator
 from itertools import islice
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
+from fieldscribe.model import Point
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, quotient
 from support.c_device import SANITIZERS, WARNINGS, conformance_source, floating_factors, rare_device, write_c
 from support.toolchains import compiled, run
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Point
 
 COUNT = 8000
 INT64 = 1 << 63

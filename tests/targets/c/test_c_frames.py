@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from fieldscribe.model import Point
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c
 from support import wrong_bytes
@@ -15,11 +16,6 @@ from support.described import made, shipped
 from support.models import changed
 from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Point
 
 FAMILIES = ("can", "uss")
 COMPILERS = ("gcc", "clang")

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
-from fieldscribe.model import Limit
+from fieldscribe.model import Bound, Device, Limit, Linear
 from fieldscribe.targets.c.limits import limit
 from fieldscribe.targets.c.scope import scope_of
 from support.c_device import write_headers
 from support.models import allowed, device_of, linear, point, value_of
 from support.toolchains import compiled, run
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Bound, Device, Linear
 
 OTHERS = (
     point("exponent", 0, "s8", allowed=allowed((-2, 4))),

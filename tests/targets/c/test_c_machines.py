@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
-from support.c_device import WARNINGS, conformance_source, write_headers
+from support.c_device import WARNINGS, Folders, conformance_source, write_headers
 from support.files import write_files
 from support.models import device_of, point, scaled
 from support.toolchains import compiled, gcc_for_32_bits, run, succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from support.c_device import Folders
 
 MADE = ("kitchen_sink", "kitchen_can", "kitchen_uss")
 EXCESS = "The arithmetic here has excess precision"

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.resources import templates_dir
 from support.c_device import SANITIZING, WARNINGS, program, run_program, write_headers
 from support.described import made, shipped
 from support.toolchains import compiled, run, succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 KITCHENS = {"modbus": "kitchen_sink", "can": "kitchen_can", "uss": "kitchen_uss"}
 DEVICES = {"modbus": "hitachi_l200", "can": "woodward_mpu2s", "uss": "siemens_mm4"}

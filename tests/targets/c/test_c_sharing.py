@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
+from fieldscribe.model import Device, Factor, Point
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import c
 from fieldscribe.targets.identifiers import clashes
 from support.c_device import run_program, write_headers
 from support.models import allowed, device_of, point, scaled, value_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device, Factor, Point
 
 LISTED = allowed((1, 1), (3, 3), (5, 5), (9, 9))
 

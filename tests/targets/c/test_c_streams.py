@@ -6,17 +6,15 @@ What they ought to find is worked out here, from the bytes of the answer alone.
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Iterator
+from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pytest
 from support.c_device import SANITIZERS, WARNINGS
 from support.places import ROOT
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 HERE = ROOT / "tests/targets/c"
 RTU, TCP, USS = 0, 1, 2

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from misra.misra import TABLE, differences, found, written
 from support.toolchains import tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.mark.full(seconds=35)

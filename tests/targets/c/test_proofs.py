@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from proofs.prove import (
@@ -20,9 +20,6 @@ from proofs.prove import (
 )
 from support.places import TESTS
 from support.toolchains import tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HERE = TESTS / "proofs"
 

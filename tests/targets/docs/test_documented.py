@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from fieldscribe.export import export_model
+from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import TARGETS
 from support.described import described, loaded_in
 from support.python_package import imported, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device
 
 BUS = "{framings: [rtu], units: 1..247, functions: {03h: {name: read, max: 125}, 06h: write_one, 10h: write_many}}"
 POINTS = """\

@@ -8,20 +8,17 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
-from fieldscribe.model import Fixed, Flag, Place, Source, Special, Text
+from fieldscribe.model import Device, Fixed, Flag, Place, Point, Source, Special, Text
 from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from fieldscribe.targets.docs.tables import no_number
 from openpyxl import load_workbook
+from openpyxl.worksheet.worksheet import Worksheet
 from support.described import shipped
 from support.models import HERTZ, allowed, entry, point, sample_device, scaled, titles, units
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
-    from openpyxl.worksheet.worksheet import Worksheet
 
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")

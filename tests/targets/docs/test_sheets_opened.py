@@ -6,20 +6,17 @@ import csv
 import importlib
 import io
 import math
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
+from fieldscribe.model import Device
 from fieldscribe.targets.docs import csv_files, sheet, tables, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of
 from openpyxl import load_workbook
 from support.described import DEVICES, made, shipped
 from support.places import ROOT
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 _AS_THE_DIALOG_DOES = "--infilter=CSV:44,34,76,1,,1033,false,true"
 """Commas, UTF-8 (which the mark tells the dialog), English (USA), and dates wherever something looks like one."""

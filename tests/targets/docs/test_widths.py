@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import re
 from html import unescape
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 from fieldscribe.render import render
@@ -13,9 +14,6 @@ from fieldscribe.targets.docs import outputs
 from support.described import shipped
 from support.places import ROOT
 from support.toolchains import succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DEVICES = sorted(path.parent.name for path in (ROOT / "descriptions").glob("*/device.yaml"))
 WIDE = "\n\n| Too wide |\n| --- |\n| " + "x" * 300 + " |\n"

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.model import Place
+from fieldscribe.model import Device, Place
 from fieldscribe.render import render
 from fieldscribe.targets.docs import outputs
 from support.described import DEVICES, made, shipped
 from support.models import point, sample_device
 from support.places import ROOT
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device
 
 
 def _nearly_alike() -> Device:

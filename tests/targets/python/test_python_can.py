@@ -4,24 +4,20 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.conversation.decoder import decode
 from fieldscribe.families.can.frames import CanFrame, parse
-from fieldscribe.families.frame_results import Options
+from fieldscribe.families.frame_results import FrameResult, Options
+from fieldscribe.model import Message
 from support import wrong_bytes
 from support.described import made
 from support.python_families import CanUnit, can_device
 from support.python_package import error, imported, typed_findings, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.families.frame_results import FrameResult
-    from fieldscribe.model import Message
 
 
 @pytest.fixture(scope="module")

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.code_view import for_code
+from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.targets import TARGETS
 from support.described import group, head, loaded_in, together
 from support.python_package import Slave, error, imported, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 BUS = "{framings: [rtu], units: 1..32, functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}}"
 MAIN = """\

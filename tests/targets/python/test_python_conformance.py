@@ -6,11 +6,12 @@ import subprocess
 import sys
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from conformance import running
 from conformance.runtime import CHECKS
+from fieldscribe.model import Device
 from fieldscribe.render import render
 from fieldscribe.targets import vectors
 from support.c_device import rare_device
@@ -21,11 +22,6 @@ from support.python_families import can_device, uss_device
 from support.python_package import imported, write_package
 from support.rust_crates import odd_device
 from support.vector_file import counts_of, spoil
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from fieldscribe.model import Device
 
 GENERATED = ROOT / "generated"
 RUNNER = TESTS / "conformance"

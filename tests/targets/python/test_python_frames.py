@@ -5,18 +5,17 @@ from __future__ import annotations
 import random
 import sys
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from support.models import sample_device
 from support.python_package import imported, write_package
 
 pytest.importorskip("pymodbus")
+from collections.abc import Iterator
+
 from pymodbus.framer import FramerRTU, FramerSocket
 from pymodbus.pdu import DecodePDU, ExceptionResponse, bit_message, diag_message, register_message
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 REQUESTS: dict[int, tuple[Any, Any, int]] = {
     0x01: (bit_message.ReadCoilsRequest, bit_message.ReadCoilsResponse, 2000),

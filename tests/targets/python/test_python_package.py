@@ -8,7 +8,8 @@ import inspect
 import pydoc
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.model import Place
@@ -27,9 +28,6 @@ from support.python_package import (
     typed_findings,
     write_package,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_names_that_are_taken(tmp_path: Path) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import can
 import pytest
@@ -14,9 +15,6 @@ from support.modbus_server import server
 from support.places import ROOT
 from support.python_families import UssDrive
 from support.python_package import imported
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 PAGE = "\n".join(
     (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("python", "python-transports")

@@ -6,19 +6,17 @@ import asyncio
 import random
 import struct
 import sys
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Fixed, Variant
 from support.python_families import UssDrive, uss_device, word
 from support.python_package import Awaited, error, imported, typed_findings, write_package
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 
 @pytest.fixture(scope="module")

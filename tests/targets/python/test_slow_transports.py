@@ -5,18 +5,15 @@ from __future__ import annotations
 import socket
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import can
 import pytest
 from support.line_ends import pty_end
 from support.python_package import error
 from support.python_transports import NOISE, behind_a_gateway, transport
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    import can
 
 
 def drip(listening: socket.socket, gap: float, data: bytes) -> None:

@@ -9,8 +9,9 @@ import socket
 import threading
 import time
 import tomllib
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import can
 import pytest
@@ -22,9 +23,6 @@ from support.modbus_server import server
 from support.places import ROOT
 from support.python_package import error, imported
 from support.python_transports import NOISE, behind_a_gateway, transport
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 GENERATED = ROOT / "generated/python"
 FREQUENCY, STATUS = 0x1028, 0x0002

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import shutil
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.model import Flag
+from fieldscribe.model import Device, Flag
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
@@ -19,7 +19,7 @@ from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import PointDoc, left_out
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.subjects import scope_of
+from fieldscribe.targets.rust.subjects import CratePoint, scope_of
 from support.described import kitchen_sink, shipped
 from support.made_once import made_once
 from support.models import changed, entry, point, sample_device, titles
@@ -37,12 +37,6 @@ from support.rust_workspace import (
 )
 from support.toolchains import succeed, tool
 from support.vector_file import counts_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device
-    from fieldscribe.targets.rust.subjects import CratePoint
 
 PROGRAMS = TESTS / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))

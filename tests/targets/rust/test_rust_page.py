@@ -9,9 +9,10 @@ import shutil
 import socket
 import threading
 import tty
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.cli import main
@@ -20,10 +21,6 @@ from support.made_once import made_once
 from support.modbus_server import server
 from support.places import ROOT, TESTS
 from support.toolchains import crates, run, succeed, tool
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 PAGE = "\n".join(
     (ROOT / f"descriptions/using/{name}.md").read_text("utf-8") for name in ("rust", "rust-transports", "rust-builds")

@@ -6,7 +6,7 @@ import math
 import struct
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from fieldscribe.model import Linear
@@ -18,9 +18,6 @@ from support.described import described, loaded_in
 from support.models import (
     linear,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @property_of(st.integers(-(10**20), 10**20), st.integers(1, 10**9))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from fieldscribe.model import Device, Interval, Limit, Point, ScaleCase
@@ -15,11 +16,7 @@ from support.models import (
     units,
 )
 from support.sample_vectors import SAMPLE, VECTORS, vectors
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from support.vector_file import Vector
+from support.vector_file import Vector
 
 
 def f64(value: float) -> str:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from fieldscribe.model import Bus, Device
+from fieldscribe.targets.vectors.lines import Lines
 
 from toy_family import of_bus
 from toy_family.frames import strike
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Device
-    from fieldscribe.targets.vectors.lines import Lines
 
 KINDS = {"strike": "unit:int tone:int bytes:bytes"}
 """What rings each tone."""

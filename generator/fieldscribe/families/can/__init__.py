@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family, Option
-from fieldscribe.model import FamilyFacts
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Frame
-
+from fieldscribe.model import Bus, FamilyFacts, Frame
 
 USUAL_BITS = 11
 """The bits of an identifier where the description does not give them."""

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from fieldscribe.facts.schema import ADDRESS, INTEGER, null_or
 from fieldscribe.facts.table import DOCS, WIRE, Fact
 from fieldscribe.families.can import identifier_of, of_bus
+from fieldscribe.model import Bus
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from fieldscribe.facts.schema import Schema
-    from fieldscribe.model import Bus
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Seen
+from fieldscribe.checks.frames_agree import Carries, Seen
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.can.frames import (
@@ -21,14 +21,9 @@ from fieldscribe.families.can.frames import (
     telegram_words,
     unit_of,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.checks.frames_agree import Carries
-    from fieldscribe.model import Frame, Message, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.model import Frame, Message, Point
+from fieldscribe.resolve.analysis import Analysis
+from fieldscribe.resolve.frames import LocatedFrame
 
 _MOST_COMPARED = 64
 """With how many messages of its identifier each message is compared."""

@@ -6,19 +6,14 @@ Messages that share an identifier become one message of the database, whose firs
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe import __version__
 from fieldscribe.export import ExportError
 from fieldscribe.families.can import of_bus
 from fieldscribe.families.can.dbc_signals import DbcMessage, messages_of
+from fieldscribe.model import Device
 from fieldscribe.text import dbc_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device
-
 
 _MASTER = "master"
 _SYMBOLS = ("NS_DESC_", "CM_", "BA_DEF_", "BA_", "VAL_", "BA_DEF_DEF_", "SG_MUL_VAL_")

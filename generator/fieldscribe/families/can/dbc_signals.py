@@ -5,23 +5,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME
 from fieldscribe.export import ExportError
 from fieldscribe.families.can import USUAL_BITS, identifier_bits
 from fieldscribe.families.can.frames import LENGTH, carries, frame_count, places
+from fieldscribe.model import Device, Flag, Message, Point, Telegram
 from fieldscribe.text import line
 from fieldscribe.wording.exact import fixed_rule, hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device, Flag, Message, Point, Telegram
 
 _EXTENDED = 1 << 31
 """The bit that marks an identifier of 29 bits."""

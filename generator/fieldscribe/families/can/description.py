@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from fieldscribe.language.keys import forms
 from fieldscribe.language.keys.places import BUS, FRAME, MESSAGE
 from fieldscribe.language.keys.shapes import DIRECTION, NAMED
 from fieldscribe.schema_types import Key, Shape, Text, Whole, by
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 KEYS = (
     Key("identifier_bits", BUS, "CAN: how many bits the identifiers have.", [11], Whole(choices=(11, 29))),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import remarks
 from fieldscribe.families.can.frames import (
@@ -19,20 +19,13 @@ from fieldscribe.families.can.frames import (
     sums,
     unit_of,
 )
-from fieldscribe.families.can.notation import read_frames, read_identifier
+from fieldscribe.families.can.notation import Pasted, read_frames, read_identifier
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, Piece, Word
-from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, OpenRequests, Piece, Word
+from fieldscribe.families.frame_results import FrameResult, Options
+from fieldscribe.model import Device, Message, Telegram
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import check_text, strange_unit
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.families.can.notation import Pasted
-    from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Device, Message, Telegram
 
 _KINDS = {"request": "request", "response": "reply"}
 

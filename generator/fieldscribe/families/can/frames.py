@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from fieldscribe.model import Device, Message, Role, Telegram
+from fieldscribe.model import Device, Message, Role, Telegram
 
 LENGTH = 8
 """The number of bytes of every message of this family."""

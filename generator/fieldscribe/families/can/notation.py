@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.can.frames import CanFrame
 from fieldscribe.pasted_numbers import HexError, parse_hex, rejoined
 from fieldscribe.text import shortened
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
 
 HINT = "write identifier and data in hexadecimal, as in 321#DD00051513880064, or give the identifier with --can-id 321"
 MOST_IDENTIFIER = 0x1FFFFFFF

@@ -4,25 +4,20 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.families.can import CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
 from fieldscribe.language.formula.syntax import FormulaError
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
-from fieldscribe.model import Message, Role
+from fieldscribe.model import Bus, Code, Message, Role
 from fieldscribe.resolve.family_reader import FamilyReader
-from fieldscribe.resolve.scope import humanised, source_of, titles
+from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
 from fieldscribe.text import shortened
-
-if TYPE_CHECKING:
-    from fieldscribe.diagnostics import Span
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Bus, Code
-    from fieldscribe.resolve.scope import Scope
 
 _HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
 _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.can.frames import carried, parse
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from fieldscribe.families.can.frames import CanFrame
-    from fieldscribe.model import Message, Telegram
+from fieldscribe.families.can.frames import CanFrame, carried, parse
+from fieldscribe.model import Message, Telegram
 
 
 @dataclass(slots=True)

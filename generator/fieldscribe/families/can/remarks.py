@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
-from fieldscribe.families.can.frames import LENGTH, carries, places
+from fieldscribe.families.can.frames import LENGTH, Head, ParameterWord, carries, places
+from fieldscribe.families.can.notation import Pasted
+from fieldscribe.model import Bus, Device, Message, Telegram
 from fieldscribe.text import line
 from fieldscribe.wording import address_text
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import hex_words, strange_unit
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.families.can.frames import Head, ParameterWord
-    from fieldscribe.families.can.notation import Pasted
-    from fieldscribe.model import Bus, Device, Message, Telegram
 
 DAMAGED = "its words are not read, for the frame is damaged"
 

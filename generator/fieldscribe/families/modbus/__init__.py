@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family
-from fieldscribe.model import FamilyFacts
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.model import Bus
+from fieldscribe.model import Bus, FamilyFacts
 
 FRAMINGS = ("rtu", "tcp")
 FAMILY = Family(

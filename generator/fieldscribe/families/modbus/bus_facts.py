@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from fieldscribe.facts.schema import STRING, null_or
 from fieldscribe.facts.table import WIRE, Fact
 from fieldscribe.families.modbus import BROADCAST, of_bus
+from fieldscribe.model import Bus, Code
 from fieldscribe.wording import address_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.model import Bus, Code
-
 
 LIMITS = (
     Fact(

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Seen
+from fieldscribe.checks.frames_agree import Carries, Seen
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
 from fieldscribe.families.modbus.exchange import build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Named
+from fieldscribe.model import Frame, Named, Point
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.errata import PrintedFact
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.checks.frames_agree import Carries
-    from fieldscribe.model import Frame, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.frames import LocatedFrame
-    from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.resolve.points import ResolvedPoint
 
 
 def write_addresses_are_writable(subject: Analysis) -> None:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from fieldscribe.families.modbus import FAMILY
 from fieldscribe.language.keys.places import BUS
 from fieldscribe.schema_types import Items, Key, Shape, one_of
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
 
 KEYS = (
     Key(

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, split
-from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
+from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.modbus import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
+from fieldscribe.model import Device, Point
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import counted, spaced, units_text
-
-if TYPE_CHECKING:
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Device, Point
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from fieldscribe.families.decoded_frame import DecodedFrame, Span, cut_apart
-from fieldscribe.families.frame_results import FrameResult, Item
+from fieldscribe.families.decoded_frame import DecodedFrame, OpenRequests, Span, cut_apart
+from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SINGLE, framings_of, remarks
 from fieldscribe.families.modbus.exchange import Reply, Request, confirmed_write, reply_in, request_in
 from fieldscribe.families.modbus.frames import (
@@ -20,15 +20,9 @@ from fieldscribe.families.modbus.frames import (
     values_in,
     without_crc,
 )
+from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.wording.frames import counted, hex_words, no_answer_text, spaced
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Device
 
 
 class ModbusFrameDecoder:

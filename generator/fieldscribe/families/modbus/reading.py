@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FUNCTIONS, SPACES, ModbusBus, profile_of
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Block, Variant
+from fieldscribe.model import Block, Bus, Code, Point, Variant
 from fieldscribe.resolve.family_reader import FamilyReader
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Bus, Code, Point
-    from fieldscribe.resolve.scope import Scope
+from fieldscribe.resolve.scope import Scope
 
 
 class ModbusReading(FamilyReader):

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST, FAMILY, FUNCTIONS, READS, profile_of
+from fieldscribe.families.modbus.exchange import Request
+from fieldscribe.families.modbus.frames import Flaw, Unwrapped
+from fieldscribe.model import Device
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import (
@@ -17,13 +20,6 @@ from fieldscribe.wording.frames import (
     strange_unit,
     too_short,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.families.modbus.exchange import Request
-    from fieldscribe.families.modbus.frames import Flaw, Unwrapped
-    from fieldscribe.model import Device
 
 _EXCEPTIONS: Mapping[int, str] = {
     0x01: "illegal function",

@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import BusKeys, Codes, Family, Option
-from fieldscribe.model import FamilyFacts
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Code, Frame, Variant
-
+from fieldscribe.model import Bus, Code, FamilyFacts, Frame, Variant
 
 _BOTH = ("decode", "encode")
 

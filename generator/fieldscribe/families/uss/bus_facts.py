@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or
 from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact
 from fieldscribe.families.uss import of_bus, of_frame
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, write_task
+from fieldscribe.model import Bus, Point
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from fieldscribe.facts.schema import Schema
-    from fieldscribe.model import Bus, Point
 
 
 def _limit(key: str, doc: str, schema: Schema) -> Fact:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Seen
+from fieldscribe.checks.frames_agree import Carries, Seen
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.uss import FAMILY, of_bus, of_frame
 from fieldscribe.families.uss.parts import MASKS, READ_TASK, SHORT, VARIABLE, Link, part_of, write_task
@@ -24,17 +24,11 @@ from fieldscribe.families.uss.telegrams import (
     request_in,
 )
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Named
+from fieldscribe.model import Code, Frame, Named, Point
+from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.bus import code_list
 from fieldscribe.resolve.errata import PrintedFact
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.checks.frames_agree import Carries
-    from fieldscribe.model import Code, Frame, Point
-    from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.resolve.frames import LocatedFrame
 
 _LISTS = ("answers", "refusals")
 

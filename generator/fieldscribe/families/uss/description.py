@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection
 
 from fieldscribe.language.keys.bus import CODES
 from fieldscribe.language.keys.places import BUS, FRAME
 from fieldscribe.schema_types import Items, Key, Shape, Text, Whole
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 PKW = Whole(choices=(0, 3, 4, 127))
 

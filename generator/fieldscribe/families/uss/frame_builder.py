@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import insert, with_fixed, words_in, words_of
-from fieldscribe.families.frame_results import BuiltFrames, WriteMethod, refused
+from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, Link, default_link, link_of, write_task
 from fieldscribe.families.uss.remarks import code_text, titled_code, words_printed
 from fieldscribe.families.uss.telegrams import Request, build
+from fieldscribe.model import Device, Point
 from fieldscribe.text import line
 from fieldscribe.user_errors import RefusedError, UnclearError
 from fieldscribe.wording import fixed_text, label
 from fieldscribe.wording.frames import spaced
-
-if TYPE_CHECKING:
-    from fieldscribe.arithmetic.codec import Settings
-    from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Device, Point
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

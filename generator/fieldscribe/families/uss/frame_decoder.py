@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from fieldscribe.families.decoded_frame import DecodedFrame, Element, Masks, ProcessData
-from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.families.decoded_frame import DecodedFrame, Element, Masks, OpenRequests, ProcessData
+from fieldscribe.families.frame_results import FrameResult, Options
 from fieldscribe.families.uss import of_bus, remarks
 from fieldscribe.families.uss.parts import (
     MASKS,
@@ -21,15 +21,9 @@ from fieldscribe.families.uss.parts import (
     split,
 )
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
+from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
 from fieldscribe.wording.frames import element_text, no_answer_text
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from fieldscribe.families.decoded_frame import OpenRequests
-    from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Device
 
 _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 

@@ -5,17 +5,16 @@ Tasks and responses of the protocol are listed here once; frames, checks and tar
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss import of_bus
+from fieldscribe.model import Bus, Device
 from fieldscribe.user_errors import UnclearError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from fieldscribe.families.frame_results import Options
-    from fieldscribe.model import Bus, Device
 
 VARIABLE = 127
 """The setting of the parameter part whose length depends on the request."""

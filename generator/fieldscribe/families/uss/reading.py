@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.parts import VARIABLE
-from fieldscribe.model import Variant
+from fieldscribe.language.nodes import Map
+from fieldscribe.model import Bus, Code, Telegram, Variant
 from fieldscribe.resolve.bus import codes_under, ends_of
 from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Bus, Code, Telegram
-    from fieldscribe.resolve.scope import Scope
 
 _MOST_PZD = 16
 

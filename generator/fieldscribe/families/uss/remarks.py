@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
 
-from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE
-from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, check_byte
+from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE, Link, Part
+from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, Unwrapped, check_byte
+from fieldscribe.model import Code, Device
 from fieldscribe.text import line
 from fieldscribe.wording.frames import check_text, counted, numbered, strange_unit, too_short
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from fieldscribe.families.uss.parts import Link, Part
-    from fieldscribe.families.uss.telegrams import Unwrapped
-    from fieldscribe.model import Code, Device
 
 NO_REQUEST = "read as a request, for there was none before it; --direction response reads it as a response"
 PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from operator import xor
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.decoded_frame import cut_apart
@@ -22,11 +22,7 @@ from fieldscribe.families.uss.parts import (
     part_of,
     split,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from fieldscribe.model import Bus
+from fieldscribe.model import Bus
 
 START = 0x02
 LAST_PARAMETER = FAMILY.last_address

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import FormulaError, Name
 from fieldscribe.language.formula.tokens import Token, number
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from fractions import Fraction
 
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"

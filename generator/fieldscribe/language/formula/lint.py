@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.language.numbers import LONGEST
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _DECIMAL = re.compile(r"(?<![0-9A-Za-z_.,'])[0-9]+\.[0-9]+(?![0-9A-Za-z_]|\.[0-9])")
 _FEWEST_DIGITS = 5

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import gcd, lcm
-from typing import TYPE_CHECKING, NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn
 
 from fieldscribe.language.formula.parser import VARIABLES
 from fieldscribe.language.formula.syntax import (
@@ -22,9 +22,6 @@ from fieldscribe.language.formula.syntax import (
 )
 from fieldscribe.language.numbers import MOST_EXPONENT
 from fieldscribe.model import Factor, Linear
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 MOST_BITS = 4096
 """The most bits of a numerator or denominator; larger results make no sense and cannot be printed."""

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from fieldscribe.language.formula.conditions import parse_condition
 from fieldscribe.language.formula.lint import exact_scale
 from fieldscribe.language.formula.parser import parse_scale
 from fieldscribe.language.formula.syntax import FormulaError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _SIGNS = str.maketrans({"\u00d7": "*", "\u00b7": "*", "\u22c5": "*", "\u00f7": "/", "\u2212": "-", "\u2013": "-"})
 _FACTOR = r"[0-9]+(?:\.[0-9]+)?"

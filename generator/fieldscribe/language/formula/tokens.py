@@ -8,14 +8,12 @@ A word that starts with a digit is a number (`12h` is 18) or an error. A word th
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
+from fractions import Fraction
+from typing import Literal, NamedTuple, NoReturn
 
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.text import shortened
-
-if TYPE_CHECKING:
-    from fractions import Fraction
 
 LONGEST = 2000
 """The most characters that a formula may have."""

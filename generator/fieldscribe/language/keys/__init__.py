@@ -13,15 +13,9 @@ To add a key:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from fieldscribe.families import families
+from fieldscribe.families import Family, families
 from fieldscribe.language.keys import bus, files, frames, meaning, nested_keys, points
-from fieldscribe.schema_types import Items, Place
-
-if TYPE_CHECKING:
-    from fieldscribe.families import Family
-    from fieldscribe.schema_types import Key
+from fieldscribe.schema_types import Items, Key, Place
 
 
 def keys_of_family(bus_family: Family) -> tuple[Key, ...]:

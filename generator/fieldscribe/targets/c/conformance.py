@@ -2,31 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from fieldscribe.families import family
 from fieldscribe.lowered import named_numbers
+from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
+from fieldscribe.render import Render
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
-from fieldscribe.targets.c.frames import frames_of
+from fieldscribe.targets.c.frames import Frames, frames_of
 from fieldscribe.targets.c.header import STATUSES
 from fieldscribe.targets.c.layout import folded
 from fieldscribe.targets.c.literals import raw_type
-from fieldscribe.targets.c.point_templates import texts_of
+from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
 from fieldscribe.targets.c.point_views import names_of
+from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import special_defines
+from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.render import Render
-    from fieldscribe.targets.c.frames import Frames
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
 
 
 def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:

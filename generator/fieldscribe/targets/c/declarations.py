@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.model import Flag, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import WIDTH, filled, folded
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
+from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import code_defines
+from fieldscribe.targets.c.views import Define, PointFields
 from fieldscribe.text import c_comment
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Flag, Point
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import Define, PointFields
 
 
 class PointComment:

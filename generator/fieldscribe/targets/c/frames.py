@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
+from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import WIDTH, folded
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
-from fieldscribe.targets.c.point_templates import texts_of
-from fieldscribe.targets.c.views import AliasView
+from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import AliasView, PointView
 from fieldscribe.targets.c.word_functions import constant_bits
-from fieldscribe.targets.identifiers import Owner
+from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
-    from fieldscribe.targets.identifiers import Named
 
 
 class Descriptor(NamedTuple):

@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import named_numbers
-from fieldscribe.model import Version
+from fieldscribe.model import Device, Point, Version
 from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import folded, framed
-from fieldscribe.targets.c.point_templates import fields_of, texts_of
+from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, texts_of
 from fieldscribe.targets.c.point_views import functions_of, symbols_of
-from fieldscribe.targets.c.views import AliasView
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import AliasView, Define, PointFields, PointView
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import Define, PointFields, PointView
 
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 

@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 from fieldscribe.lowered import named_numbers
+from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import STATUSES, aliases_of, remark_defines, telegrams_of
 from fieldscribe.targets.c.limits import ranges_table
-from fieldscribe.targets.c.point_templates import fields_of, generated_points
+from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, generated_points
 from fieldscribe.targets.c.point_views import names_of, symbols_of
-from fieldscribe.targets.c.scope import scope_of
+from fieldscribe.targets.c.scope import HeaderScope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
-from fieldscribe.targets.identifiers import Names, Owner
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
-    from fieldscribe.targets.identifiers import Named
+from fieldscribe.targets.c.views import PointView
+from fieldscribe.targets.identifiers import Named, Names, Owner
 
 _OWN = Owner("target", "what the header needs")
 

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from math import prod
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import INT64
+from fieldscribe.lowered import Operand, Rule
 from fieldscribe.model import Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import bare, float_order, hexadecimal, raw_type, signed, unsigned
 from fieldscribe.targets.c.scales import linear
-from fieldscribe.targets.c.views import RuleView
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from fieldscribe.lowered import Operand, Rule
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointFields
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import PointFields, RuleView
 
 _TABLE = 3
 """From so many ranges on a table is used; fewer are tested one by one."""

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.exact import pattern_of
 from fieldscribe.arithmetic.words import INT32, INT64, UINT64
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from fieldscribe.model import Point
+from fieldscribe.model import Point
 
 VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
 """The bounds of the types in which values and counts are passed."""

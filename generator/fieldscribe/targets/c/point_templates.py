@@ -6,26 +6,22 @@ rest is laid out once for all points with the same view, with placeholders for t
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, signed
 from fieldscribe.targets.c.point_views import point_view
 from fieldscribe.targets.c.scales import Scaled
+from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import encoded_limits
-from fieldscribe.targets.c.views import PointFields
+from fieldscribe.targets.c.views import PointFields, PointView
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.text import c_comment, c_string
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable, Iterator
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
 
 
 class LimitFields(NamedTuple):

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.lowered import named_numbers
+from fieldscribe.model import Enum, Flag, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import defines
 from fieldscribe.targets.c.layout import INLINE, Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
+from fieldscribe.targets.c.scales import Scaled
+from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
-from fieldscribe.targets.c.views import EnumView, PointView
+from fieldscribe.targets.c.views import EnumView, PointFields, PointView
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
     digits_functions,
@@ -22,14 +25,6 @@ from fieldscribe.targets.c.word_functions import (
     words_functions,
 )
 from fieldscribe.text import c_comment, c_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.model import Enum, Flag, Point
-    from fieldscribe.targets.c.scales import Scaled
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointFields
 
 
 def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Scaled | None) -> PointView:

@@ -7,16 +7,13 @@ number that can occur.
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from fieldscribe.arithmetic.exact import Line
 from fieldscribe.arithmetic.words import INT32, INT64
-from fieldscribe.lowered import plan_of
+from fieldscribe.lowered import Plan, plan_of
+from fieldscribe.model import Point
 from fieldscribe.targets.c.literals import bare, cast, raw_type, real, sign_and_size, signed, unsigned
-
-if TYPE_CHECKING:
-    from fieldscribe.arithmetic.exact import Line
-    from fieldscribe.lowered import Plan
-    from fieldscribe.model import Point
 
 _EXACT = 1 << 53
 

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 from zlib import crc32
 
-from fieldscribe.lowered import lower, named_numbers
+from fieldscribe.lowered import Lowered, lower, named_numbers
+from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.lowered import Lowered
-    from fieldscribe.model import Device, Point
-
 
 _AND = "_and_"
 _LONGEST = 80

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from fieldscribe.model import Point
-    from fieldscribe.targets.c.scales import Scaled
+from fieldscribe.model import Point
+from fieldscribe.targets.c.scales import Scaled
 
 Define = tuple[str, str]
 """A macro's name and its literal."""

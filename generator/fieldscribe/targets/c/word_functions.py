@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe.arithmetic.words import group_mask
+from fieldscribe.model import Point
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, function
 from fieldscribe.targets.c.limits import digits_arguments
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Point
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import SpecialView
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import SpecialView
 
 
 def text_functions(point: Point, name: str) -> Iterator[Function]:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable
+from fieldscribe.model import Device
+from fieldscribe.targets.identifiers import Names
 
-    from fieldscribe.model import Device
+if TYPE_CHECKING:
     from fieldscribe.render import Render
     from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Table
-    from fieldscribe.targets.identifiers import Names
 
 SEES_TITLES = True
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.model import Bus, Code, Device, Role
 from fieldscribe.targets.docs.cells import by_rows, cell, code, link, paragraph, source_cell, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.model import Bus, Code, Device, Role
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.model import Source
 from fieldscribe.text import markdown
-
-if TYPE_CHECKING:
-    from collections.abc import Container, Sequence
 
 LINE_BREAK = "<br>"
 """Begins a new line inside a cell."""

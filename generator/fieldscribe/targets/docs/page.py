@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import fieldscribe
 from fieldscribe import wording
-from fieldscribe.model import Named
+from fieldscribe.model import Command, Device, Erratum, Frame, Named, Point, Special
 from fieldscribe.targets import heads
-from fieldscribe.targets.docs.bus import BusView, bus_view, part_of
+from fieldscribe.targets.docs.bus import BusView, OfFamily, bus_view, part_of
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
     anchor,
@@ -25,18 +26,11 @@ from fieldscribe.targets.docs.cells import (
     target,
 )
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.scope import numbers_head, place_text, reference_heads
+from fieldscribe.targets.docs.scope import DocsScope, numbers_head, place_text, reference_heads
 from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
 from fieldscribe.wording.exact import hex_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Command, Device, Erratum, Frame, Point, Special
-    from fieldscribe.targets.docs.bus import OfFamily
-    from fieldscribe.targets.docs.scope import DocsScope
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.facts.table import Context
+from fieldscribe.model import Enum, Group, Point
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
     anchor,
@@ -22,17 +24,10 @@ from fieldscribe.targets.docs.cells import (
     source_text,
     target,
 )
-from fieldscribe.targets.docs.scope import Remarks, numbers_head, numbers_text, place_text, reference_heads
-from fieldscribe.targets.docs.words import word_views
+from fieldscribe.targets.docs.scope import DocsScope, Remarks, numbers_head, numbers_text, place_text, reference_heads
+from fieldscribe.targets.docs.words import WordView, word_views
 from fieldscribe.wording.exact import fixed_rule
 from fieldscribe.wording.rules import RenamedPoints
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from fieldscribe.model import Enum, Group, Point
-    from fieldscribe.targets.docs.scope import DocsScope
-    from fieldscribe.targets.docs.words import WordView
 
 _ALWAYS = ("Type", "R/W", "Range", "Unit", "Raw range", "Scale", "Remarks", "Source")
 """Columns that every device has: the first point that fills one changes no line of others."""

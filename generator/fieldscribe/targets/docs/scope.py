@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
-from fieldscribe.facts.table import Context
+from fieldscribe.facts.table import Context, Fact
+from fieldscribe.model import Device, Point
 from fieldscribe.targets.docs.cells import LINE_BREAK, cell, number_cell
 from fieldscribe.wording.rules import RenamedPoints
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-
-    from fieldscribe.facts.table import Fact
-    from fieldscribe.model import Device, Point
-
     RemarkOf = Callable[[Point], str]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise, starmap
 from operator import attrgetter
@@ -10,16 +11,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
 from fieldscribe.families import family
+from fieldscribe.model import Command, Point
 from fieldscribe.targets.docs import sheet_cells
+from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.sheet_cells import Sheet
 from fieldscribe.targets.docs.tables import Column, Table, original, source_cells
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Command, Point
-    from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Encode
 
     CellsOf = Callable[[Point, Sheet], Iterable[str]]

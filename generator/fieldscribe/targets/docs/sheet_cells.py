@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.arithmetic.exact import SAME
+from fieldscribe.arithmetic.exact import SAME, Line
+from fieldscribe.facts.table import Fact
+from fieldscribe.model import Point
 from fieldscribe.targets.docs.bus import part_of
-from fieldscribe.targets.docs.scope import Remarks
+from fieldscribe.targets.docs.scope import DocsScope, Remarks
 from fieldscribe.targets.docs.tables import codes_of, decimal, enum_of
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from fieldscribe.arithmetic.exact import Line
-    from fieldscribe.facts.table import Fact
-    from fieldscribe.model import Point
-    from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Encode
 
 _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.text import csv_cell
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
-
     Encode = Callable[[str], str]
     """Makes a text of a description fit for a cell; numbers do not need it."""
 

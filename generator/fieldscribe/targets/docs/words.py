@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe import wording
+from fieldscribe.model import Flag, Point
 from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, by_rows, cell, code, target
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
-    from fieldscribe.model import Flag, Point
 
 _BREAKS = re.compile("<w?br>")
 _BYTE = 8

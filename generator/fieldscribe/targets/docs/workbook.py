@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from datetime import datetime
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import fieldscribe
+from fieldscribe.model import Device
 from fieldscribe.targets.docs.tables import Column, Table
 from fieldscribe.targets.heads import command
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device
     from fieldscribe.targets.docs.tables import Encode
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 from fieldscribe.conditions import absent
+from fieldscribe.model import Device, Point, Variant
+from fieldscribe.render import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.python.families import in_python
-from fieldscribe.targets.python.identifiers import attribute
+from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
 from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from fieldscribe.model import Device, Point, Variant
-    from fieldscribe.render import Render
-    from fieldscribe.targets.python.identifiers import PackageScope
 
 BODY = 8
 """The indentation of an attribute's arguments."""

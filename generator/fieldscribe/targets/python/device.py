@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Device, Point
 from fieldscribe.names import pascal
 from fieldscribe.targets.python.families import RUNTIME, in_python
-from fieldscribe.targets.python.identifiers import attribute, parameter, sorted_imports
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported
 from fieldscribe.text import python_doc, python_string
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Device, Point
-    from fieldscribe.targets.python.identifiers import Identifiers
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Hashable
+from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.model import Device, Entry, Flag, Point, Titles
 from fieldscribe.names import upper
+from fieldscribe.render import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.targets.python.identifiers import word_attribute
+from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
 from fieldscribe.text import python_doc
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
-
-    from fieldscribe.model import Device, Entry, Flag, Point, Titles
-    from fieldscribe.render import Render
-    from fieldscribe.targets.python.identifiers import Identifiers
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 

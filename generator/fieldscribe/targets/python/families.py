@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
 from fieldscribe.families import family
+from fieldscribe.model import Device, Point, Telegram
+from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Node, call
 from fieldscribe.text import python_string
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from fieldscribe.model import Device, Point, Telegram
-    from fieldscribe.targets.python.identifiers import PackageScope
 
 RUNTIME = "fieldscribe_runtime"
 """The package that all generated devices share."""

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-from fieldscribe.lowered import named_numbers
+from fieldscribe.lowered import Lowered, named_numbers
+from fieldscribe.model import Command, Device, Point, Shape
 from fieldscribe.names import pascal
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.lowered import Lowered
-    from fieldscribe.model import Command, Device, Point, Shape
-    from fieldscribe.targets.python.layout import Node
+from fieldscribe.targets.python.layout import Node
 
 _RESERVED = frozenset(
     {"False", "None", "True", "and", "as", "assert", "async", "await", "break", "case", "class", "continue"}

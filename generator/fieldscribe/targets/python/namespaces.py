@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from keyword import iskeyword
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Device, Point
 from fieldscribe.names import pascal, upper
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.python.device import imports_of
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device, Point
 
 LIBRARIES = frozenset({"can", "pymodbus", "serial"})
 """What the transports of the runtime import where a project asks for them."""

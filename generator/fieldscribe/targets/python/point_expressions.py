@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 
+from fieldscribe.lowered import Operand
+from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special
+from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from fractions import Fraction
-
-    from fieldscribe.lowered import Operand
-    from fieldscribe.model import Bound, Command, Linear, Point, ScaleCase, Special
-    from fieldscribe.targets.python.identifiers import PackageScope
-
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
 NUMBERED = frozenset({"parameter", "telegram"})

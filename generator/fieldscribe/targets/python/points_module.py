@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import textwrap
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from fieldscribe.lowered import lower
+from fieldscribe.model import Command, Device, Point, Variant
+from fieldscribe.render import Render
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
-from fieldscribe.targets.python.families import RUNTIME, in_python
-from fieldscribe.targets.python.identifiers import PackageScope, attribute, command_attributes, sorted_imports
+from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
+from fieldscribe.targets.python.identifiers import (
+    Identifiers,
+    PackageScope,
+    attribute,
+    command_attributes,
+    sorted_imports,
+)
 from fieldscribe.targets.python.layout import DOC, Group, assigned, call, comment, docstring, laid_out
 from fieldscribe.targets.python.point_expressions import NUMBERED, addresses_of, place_of_command
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import label
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from fieldscribe.model import Command, Device, Point, Variant
-    from fieldscribe.render import Render
-    from fieldscribe.targets.python.families import PythonFamily
-    from fieldscribe.targets.python.identifiers import Identifiers
 
 
 def points_context(device: Device, names: Identifiers, render: Render) -> dict[str, object]:

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 from fieldscribe.families import family
+from fieldscribe.model import Device
 from fieldscribe.names import upper
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
-from fieldscribe.targets.rust.conformance_rows import bracketed, rows_of
-from fieldscribe.targets.rust.families import END, Table, in_rust, row_text
+from fieldscribe.targets.rust.conformance_rows import Spot, bracketed, rows_of
+from fieldscribe.targets.rust.families import END, Table, Tokens, in_rust, row_text
 from fieldscribe.targets.rust.literals import type_name
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable, Iterator
-
-    from fieldscribe.model import Device
-    from fieldscribe.targets.rust.conformance_rows import Spot
-    from fieldscribe.targets.rust.families import Tokens
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _ALWAYS = {
     "decode": "decode",

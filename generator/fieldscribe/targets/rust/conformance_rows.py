@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
+from fieldscribe.model import Point
 from fieldscribe.targets.rust.enums import getter_name
-from fieldscribe.targets.rust.families import in_rust
+from fieldscribe.targets.rust.families import Needs, Tokens, Way, in_rust
 from fieldscribe.targets.rust.literals import value_name
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Point
-    from fieldscribe.targets.rust.families import Needs, Tokens, Way
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
 class Spot(NamedTuple):

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Sequence
 
-from fieldscribe.model import Version
+from fieldscribe.model import Device, Point, Version
 from fieldscribe.names import upper
+from fieldscribe.render import Render
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
-from fieldscribe.targets.rust.families import Snippet, in_rust, space
-from fieldscribe.targets.rust.layout import Item, binding, filled
+from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space
+from fieldscribe.targets.rust.layout import Item, Lines, binding, filled
 from fieldscribe.targets.rust.literals import float_literal, integer, value_name
 from fieldscribe.targets.rust.point_facts import shared_views
 from fieldscribe.targets.rust.point_macros import point_texts
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.targets.rust.value_forms import argument_structs
 from fieldscribe.text import markdown, rust_code, rust_string, toml_string
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.render import Render
-    from fieldscribe.targets.rust.families import RustFamily
-    from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 
 def head(device: Device, comment: str) -> str:

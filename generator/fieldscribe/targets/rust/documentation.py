@@ -6,16 +6,12 @@ So a corrected title changes neither code nor digest.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe import wording
+from fieldscribe.lowered import Lowered
+from fieldscribe.model import Device, Point
 from fieldscribe.text import rust_code
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.lowered import Lowered
-    from fieldscribe.model import Device, Point
 
 _WIDTH = 104
 _BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")

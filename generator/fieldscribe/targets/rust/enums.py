@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
+from fieldscribe.model import Device, Entry, Enum, Flag
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Device, Entry, Enum, Flag
     from fieldscribe.render import Render
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _LONG = 90
 

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe.families import family
+from fieldscribe.model import Code, Device
+from fieldscribe.targets.identifiers import Names
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.layout import Item, Lines, arm, binding, filled
 from fieldscribe.targets.rust.literals import integer
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-
-    from fieldscribe.model import Code, Device
-    from fieldscribe.targets.identifiers import Names
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 Tokens = tuple[str, ...]
 """The tokens of a row, between which a line may be broken."""

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
+from fieldscribe.model import Device, Enum, Special
 from fieldscribe.names import upper
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.enums import UNKNOWN, constant_name, getter_name
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.literals import RESERVED, type_name, variant_name
 from fieldscribe.targets.rust.subjects import CratePoint, scope_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Device, Enum, Special
 
 CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of
+from fieldscribe.model import Shape
 from fieldscribe.names import pascal
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Shape
 
 RESERVED = frozenset(
     {"Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do"}

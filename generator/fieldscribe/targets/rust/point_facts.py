@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from fieldscribe.model import Limit
+from fieldscribe.model import Bound, Limit, Point, Special
 from fieldscribe.targets.rust import literals
 from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families import Constant
 from fieldscribe.targets.rust.layout import Item, Lines, binding, calls, filled
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.targets.rust.value_forms import count_type, interval, limit_lines
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Bound, Point, Special
-    from fieldscribe.targets.rust.families import Constant
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _WRITES = {"coil": (5, 15), "holding": (6, 16)}
 _BLOCK_WIDTH = 112

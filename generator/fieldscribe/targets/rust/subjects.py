@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from fieldscribe.lowered import lower, named_numbers
+from fieldscribe.lowered import Lowered, lower, named_numbers
+from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
 from fieldscribe.targets.rust.literals import raw_type, type_name
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from fieldscribe.lowered import Lowered
-    from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
 
 
 class CratePoint(NamedTuple):

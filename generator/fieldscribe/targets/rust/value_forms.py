@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits
+from fieldscribe.lowered import Lowered, Operand, Rule
+from fieldscribe.model import Limit, Linear, Point
+from fieldscribe.render import Render
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.layout import Lines, chained, fields_of, filled
 from fieldscribe.targets.rust.literals import integer, raw_type, type_range, value_name
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from fieldscribe.lowered import Lowered, Operand, Rule
-    from fieldscribe.model import Limit, Linear, Point
-    from fieldscribe.render import Render
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 """The count types of points whose raw number is the value, wider than the raw type; `i32` for all others."""

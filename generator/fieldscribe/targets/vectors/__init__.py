@@ -5,14 +5,14 @@ This target shares no code with the others, so that a mistake in one of them can
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable
+from fieldscribe.model import Device
+from fieldscribe.targets.identifiers import Names
 
-    from fieldscribe.model import Device
+if TYPE_CHECKING:
     from fieldscribe.render import Render
-    from fieldscribe.targets.identifiers import Names
 
 SEES_TITLES = False
 NEEDS_FAMILY = False

@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from operator import attrgetter
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
+from fieldscribe.conditions import Condition
 from fieldscribe.families import family
-from fieldscribe.model import item_of
-from fieldscribe.targets.vectors.exchanges import Exchanges
+from fieldscribe.model import Bus, Device, Point, item_of
+from fieldscribe.targets.vectors.exchanges import Exchanges, Wire
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.shared_vectors import SharedVectors
 from fieldscribe.text import line
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from fieldscribe.conditions import Condition
-    from fieldscribe.model import Bus, Device, Point
-    from fieldscribe.targets.vectors.exchanges import Wire
 
 
 class OfFamily:

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple, Protocol
 
+from fieldscribe.model import Code, Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
-from fieldscribe.targets.vectors.lines import script_text
+from fieldscribe.targets.vectors.lines import Lines, script_text
 from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits32, bits64, code_of, outer_bounds
-from fieldscribe.targets.vectors.samples import ascending
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from fieldscribe.model import Code, Point
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
+from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings, ascending
 
 Script = list[tuple[bytes, bytes]]
 """The requests of an exchange with their answers."""

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from math import inf, isfinite, isnan, nan, nextafter
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Allowed, Shape
+from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import bits32, bits64, code_of, float_of_bits
-from fieldscribe.targets.vectors.samples import codes
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Allowed, Shape
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.samples import PointEncoding
+from fieldscribe.targets.vectors.samples import PointEncoding, codes
 
 _PATTERNS_32 = (
     0,

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.lines import text
+from fieldscribe.targets.vectors.lines import Lines, text
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, as_raw, code_of, quantity_at_most
-
-if TYPE_CHECKING:
-    from fieldscribe.model import Shape
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.samples import PointEncoding
+from fieldscribe.targets.vectors.samples import PointEncoding
 
 
 def whole(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import call
 from struct import Struct
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from fieldscribe.targets.vectors.vector_kinds import KINDS, SETS, table
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-
-    from fieldscribe.targets.vectors.vector_kinds import Kind
+from fieldscribe.targets.vectors.vector_kinds import KINDS, SETS, Kind, table
 
 FORMAT = 2
 ABSENT = "-"

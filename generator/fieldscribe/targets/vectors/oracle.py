@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isfinite
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from fieldscribe.model import Allowed, Bound, Factor, Limit, Linear, Point, Shape, Special
-
+from fieldscribe.model import Allowed, Bound, Factor, Limit, Linear, Point, Shape, Special
 
 INFINITY = math.inf
 EXACT = 1 << 53

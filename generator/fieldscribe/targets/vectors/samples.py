@@ -6,20 +6,13 @@ depth, the others only with their limits.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd
-from typing import TYPE_CHECKING
 
-from fieldscribe.model import Allowed, Factor, Limit, Shape
+from fieldscribe.model import Allowed, Bound, Enum, Factor, Interval, Limit, Point, Shape
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-
-    from fieldscribe.model import Allowed, Bound, Enum, Interval, Point, Shape
-
 
 MANY = 3
 """The number of intervals of a list that are tried for every point."""

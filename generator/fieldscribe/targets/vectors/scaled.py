@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from math import inf, nan, nextafter
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Shape
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.lines import real, text
+from fieldscribe.targets.vectors.lines import Lines, real, text
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, admit, code_of, quantity_at_most, quotient
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Shape
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.samples import PointEncoding
+from fieldscribe.targets.vectors.samples import PointEncoding
 
 INT32 = 1 << 31
 

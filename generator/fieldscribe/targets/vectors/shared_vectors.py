@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Hashable
 
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.integers import bits, fixed, flags, names, specials, whole, words
+from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.oracle import Oracle
+from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled
 from fieldscribe.targets.vectors.texts import digits, displayed, text
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.oracle import Oracle
-    from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
 
 
 class SharedVectors:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from math import isfinite
-from typing import TYPE_CHECKING
 
+from fieldscribe.model import Digits, Shape
 from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import (
     INT64,
     Oracle,
@@ -17,15 +19,7 @@ from fieldscribe.targets.vectors.oracle import (
     half_away,
     outer_bounds,
 )
-from fieldscribe.targets.vectors.samples import codes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.model import Digits, Shape
-    from fieldscribe.targets.vectors.lines import Lines
-    from fieldscribe.targets.vectors.samples import PointEncoding
-
+from fieldscribe.targets.vectors.samples import PointEncoding, codes
 
 _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range(0x20, 0x7F), *range(0xA0, 0x100)))}
 

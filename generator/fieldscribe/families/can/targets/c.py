@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
+from fieldscribe.model import Device, Message, Point, Role, Telegram
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, frames_header, lies, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Frame,
+    Frames,
+    FramesHeader,
+    Layouts,
+    exceptions_of,
+    frames_header,
+    lies,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
-from fieldscribe.targets.identifiers import Owner
+from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import PointView
+from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
-    from fieldscribe.model import Device, Message, Point, Role, Telegram
-    from fieldscribe.targets.c.frames import FramesHeader
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
-    from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES: tuple[str, ...] = ()
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
+from fieldscribe.model import Device, Message, Role, Telegram
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.rust.conformance import item_row
 from fieldscribe.targets.rust.conformance_rows import row_of
@@ -13,13 +14,8 @@ from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, Snippet, Table, code_names, constants, row_text
 from fieldscribe.targets.rust.layout import Item, Lines, array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
+from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.model import Device, Message, Role, Telegram
-    from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 
 _NUMBERED = ("unit", "address", "raw", "word")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import (
@@ -18,15 +18,10 @@ from fieldscribe.families.can.frames import (
     request_and_answer,
 )
 from fieldscribe.families.can.receiver import Receiver
-from fieldscribe.targets.vectors.exchanges import codes, single_bit_errors, with_flipped
+from fieldscribe.model import Bus, Device, Message, Point, Telegram
+from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
+from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import as_raw
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.model import Bus, Device, Message, Point, Telegram
-    from fieldscribe.targets.vectors.exchanges import Script
-    from fieldscribe.targets.vectors.lines import Lines
 
 KINDS = {
     "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",

@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import SPACES, profile_of
+from fieldscribe.families.modbus import SPACES, Profile, profile_of
+from fieldscribe.model import Block, Command, Device, Point
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, exceptions_of, frames_header, lies, shares
+from fieldscribe.targets.c.frames import (
+    Descriptor,
+    Frame,
+    Frames,
+    FramesHeader,
+    Layouts,
+    exceptions_of,
+    frames_header,
+    lies,
+    shares,
+)
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
+from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import Define, PointView
 from fieldscribe.targets.c.word_functions import places_of
-from fieldscribe.targets.identifiers import Owner
+from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from fieldscribe.families.modbus import Profile
-    from fieldscribe.model import Block, Command, Device, Point
-    from fieldscribe.targets.c.frames import FramesHeader
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import Define, PointView
-    from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES: tuple[str, ...] = ()
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from fieldscribe.families.modbus import framings_of, of_bus, profile_of
+from fieldscribe.model import Block, Bus, Code, Command, Device
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families import RustFamily, code_names, space_variant
 from fieldscribe.targets.rust.layout import Item, Lines, array, chain
 from fieldscribe.text import rust_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Block, Bus, Code, Command, Device
 
 _WRITE_COILS = 15
 _PORTS = {"rtu": 4001, "tcp": 502}

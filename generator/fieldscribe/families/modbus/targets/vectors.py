@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SPACES, profile_of
+from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SPACES, Profile, profile_of
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
-from fieldscribe.targets.vectors.exchanges import codes, single_bit_errors, with_flipped, writing_addresses
-from fieldscribe.targets.vectors.lines import NO_BROADCAST
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from fieldscribe.families.modbus import Profile
-    from fieldscribe.model import Bus, Device, Point
-    from fieldscribe.targets.vectors.exchanges import Script
-    from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.model import Bus, Device, Point
+from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped, writing_addresses
+from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
 
 KINDS = {
     "build": "status:word bytes:bytes?",

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
+from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
+from fieldscribe.model import Code, Device, Point
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, Layouts, frames_header, lies, shares
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
+from fieldscribe.targets.c.point_templates import GeneratedPoint
+from fieldscribe.targets.c.scope import HeaderScope
+from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import places_of
-from fieldscribe.targets.identifiers import Owner
+from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, c_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from fieldscribe.families import Codes
-    from fieldscribe.model import Code, Device, Point
-    from fieldscribe.targets.c.frames import FramesHeader
-    from fieldscribe.targets.c.point_templates import GeneratedPoint
-    from fieldscribe.targets.c.scope import HeaderScope
-    from fieldscribe.targets.c.views import PointView
-    from fieldscribe.targets.identifiers import Named
 
 NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
 

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from fieldscribe.families.uss import of_bus
+from fieldscribe.model import Device, Point
 from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily, telegrams, usual_maker
+from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from fieldscribe.model import Device, Point
-    from fieldscribe.targets.python.identifiers import PackageScope
 
 _STORED = {"ReadWrite": "Stored", "WriteOnly": "StoredWriteOnly"}
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.uss import of_bus, of_frame
@@ -28,15 +28,9 @@ from fieldscribe.families.uss.telegrams import (
     request_in,
     telegram,
 )
-from fieldscribe.targets.vectors.exchanges import codes, single_bit_errors, with_flipped
-from fieldscribe.targets.vectors.lines import NO_BROADCAST
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Bus, Device, Point
-    from fieldscribe.targets.vectors.exchanges import Script
-    from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.model import Bus, Device, Point
+from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
+from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
 
 _REPLY = "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?"
 KINDS = {
