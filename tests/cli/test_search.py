@@ -93,6 +93,8 @@ def test_search(run: Callable[..., Output]) -> None:
     hits = json.loads(run("search", "Drehrichtung", "--device", "hitachi_l200", "--format", "json").out)["hits"]
     [direction] = [hit for hit in hits if hit["code"] == "F004"]
     assert direction["matched"][0]["file"].endswith("basic_f.yaml")
+    for word, matched in (("error:21h", "number `33`, "), ("fault:7", "enum `overvoltage` (7), ")):
+        assert run("search", word, "--device", "hitachi_l200").out.splitlines()[1].startswith(f"  {matched}")
     nothing = run("search", "bse_frequency", "--device", "hitachi_l200")
     assert (nothing.code, nothing.out) == (1, "")
     assert "did you mean `base_frequency`" in nothing.err

@@ -8,11 +8,14 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from fieldscribe.differences.changes import CLASSES, fact_of, is_taken, next_version, step_for, subject_of
+from fieldscribe.diagnostics import Report
+from fieldscribe.differences.changes import CLASSES, Comparison, fact_of, is_taken, next_version, step_for, subject_of
 from fieldscribe.differences.comparison import differences
+from fieldscribe.differences.described import Described
+from fieldscribe.differences.sides import Side
 from fieldscribe.export import export_model
-from fieldscribe.model import Device
-from support.described import group, head, loaded_in, together
+from fieldscribe.pipeline import load_analysis
+from support.described import group, head, together, write
 
 BASE = together(
     head(
@@ -141,25 +144,34 @@ STEPS = {"wire": "major", "api": "major", "behaviour": "minor", "compatible": "m
 
 
 @cache
+def side(text: str) -> Side:
+    """A description as one side of a comparison."""
+    with TemporaryDirectory() as folder:
+        analysis = load_analysis(write(Path(folder), text), Report())
+    assert analysis is not None
+    described = Described(analysis)
+    return Side(export_model(described.device), described, "device.yaml")
+
+
 def exported(text: str) -> Any:
     """The exported model of a description."""
-    return export_model(_device(text))
-
-
-def _device(text: str) -> Device:
-    with TemporaryDirectory() as folder:
-        return loaded_in(Path(folder), text)
+    return side(text).exported
 
 
 @pytest.mark.parametrize(("old", "new", "told"), EDITS, ids=[f"{old} to {new}"[:60] for old, new, _ in EDITS])
 def test_an_edit(old: str, new: str, told: list[tuple[str, str | None, str]]) -> None:
     assert old in BASE
-    edited = exported(BASE.replace(old, new, 1))
-    found = [(each.weight, subject_of(each), fact_of(each)) for each in differences(exported(BASE), edited)]
+    compared = Comparison("made_up", side(BASE), side(BASE.replace(old, new, 1)))
+    found = [(each.weight, subject_of(each), fact_of(each)) for each in compared.differences]
     assert found[: len(told)] == told or set(told) <= set(found), found
     gravest = next((weight for weight in CLASSES if weight in {weight for weight, *_ in found}), None)
     assert gravest == (told[0][0] if told else None), found
     assert step_for(weight for weight, *_ in found) == (STEPS[told[0][0]] if told else None)
+    if told:
+        places = compared.places(compared.differences[found.index(told[0])])
+        edited = f":{BASE.partition(old)[0].count(chr(10)) + 1}"
+        assert all(place is None or place.endswith(edited) for place in places.values()), (places, edited)
+        assert any(places.values())
 
 
 def test_what_only_names_a_renamed_thing_is_no_difference() -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import CodeType
 from typing import Any
 
@@ -20,7 +20,7 @@ from mutants.children import StoppedError, in_child
 from mutants.importing import compiled, use
 from mutants.judges import KILLED, LEFT_OUT, ROOT, SURVIVED, Verdict
 from mutants.noticing import TARGETS, FileOfTests, Witness, compiled_to, measured_output, measured_tests, run_tests
-from mutants.rooms import HOUSE, place_of
+from mutants.rooms import HOUSE, place_of, room_of
 from mutants.sources import Mutant
 
 TESTED = 12.0
@@ -98,10 +98,12 @@ class GeneratorJudge:
 
     def chosen(self, place: str) -> dict[Path, list[str]]:
         """Return the tests to run, by file, within the time limit: those that enter few functions first."""
+        module, _, function = place.partition("::")
+        of_room = "" if function else f"tests/{room_of(PurePath(module).parts[1:])}/"
         known = [(file, test) for file in self.files for test in entering(file, place) if self._may_judge(test)]
         found: dict[Path, list[str]] = {}
         left = TESTED
-        for file, test in sorted(known, key=lambda one: (len(one[1].enters), one[1].seconds)):
+        for file, test in sorted(known, key=lambda one: _order(one[1], of_room)):
             cost = test.seconds + (0 if file.path in found else STARTED)
             if cost <= left:
                 left -= cost
@@ -141,6 +143,10 @@ class GeneratorJudge:
             if not self.sound[name]:
                 print(f"{name} fails alone without a change, so it is left out")
         return self.sound[name]
+
+
+def _order(test: Witness, first: str) -> tuple[bool, int, float]:
+    return not test.name.startswith(first), len(test.enters), test.seconds
 
 
 def entering(file: FileOfTests, place: str) -> Sequence[Witness]:

@@ -101,7 +101,7 @@ class Described:
         node = next((node for node in self._nodes(kind) if name in (node.get("name"), node.get("id"))), None)
         if node is not None:
             return _said(node, fact) or node.span("name" if "name" in node else "id")
-        return None if parts else self._of_key(kind, name)
+        return None if parts else self._of_key(kind, name, fact)
 
     def _of_point(self, item: str, names: tuple[tuple[str, str], ...], fact: str) -> Span:
         written = self.written(item)
@@ -123,11 +123,13 @@ class Described:
             return (open_erratum.node for open_erratum in analysis.errata)
         return analysis.scope.listed(_LISTED[kind]) if kind in _LISTED else iter(())
 
-    def _of_key(self, kind: str, name: str) -> Span | None:
+    def _of_key(self, kind: str, name: str, fact: str) -> Span | None:
         """The place of what is declared by a key."""
         scope = self.analysis.scope
         if kind == "group":
-            return next((node.span("group") for node in scope.groups if node["group"] == name), None)
+            return next(
+                (_said(node, fact) or node.span("group") for node in scope.groups if node["group"] == name), None
+            )
         if kind in _OF_BUS:
             owner = Owner(kind, name)
             return _found(lambda: self._owners.thing(owner).place)
