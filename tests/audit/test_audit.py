@@ -406,6 +406,15 @@ def test_what_was_looked_through_is_not_uncited(tmp_path: Path, capsys: pytest.C
     assert rows[-2:] == [(35, 35), (37, 38)]  # rows that follow each other are one finding
 
 
+@pytest.mark.parametrize(("pages", "unused"), [("12 13 14", []), ("12 14 13", [12, 14, 13]), ("12 13", [12, 13])])
+def test_numbers_of_pages_are_no_facts(
+    pages: str, unused: list[int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = MANUAL + "".join(f"\nDrive manual\tPage {number}\n" for number in pages.split())
+    _, found = audit(tmp_path, capsys, text)
+    assert [int(one["number"]) for one in found["unused_numbers"]] == unused
+
+
 @pytest.mark.parametrize(("line", "absent"), [("7", ["lost"]), ("32..33", []), ("7, lines: {printed: 32..33}", [])])
 def test_an_erratum_may_span_lines(
     line: str, absent: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -107,8 +107,8 @@ def test_the_list_of_devices(run: Callable[..., Output]) -> None:
     told = run("list")
     assert [line.split()[0] for line in told.out.splitlines()] == ["device", *DEVICES]
     data = json.loads(run("list", "--family", "modbus", "--matching", "*l2*", "--format", "json").out)["devices"]
-    assert [(device["device"], device["points"], device["title"]["de"]) for device in data] == [
-        ("hitachi_l200", 256, "Frequenzumrichter")
+    assert [" ".join(map(str, device.values())) for device in data] == [
+        "hitachi_l200 Hitachi L200 {'en': 'Frequency inverter', 'de': 'Frequenzumrichter'} modbus 1.0.0 256"
     ]
     assert run("list", "--family", "nothing").code == 1
     assert "--unit chooses points" in run("list", "--unit", "Hz").err
