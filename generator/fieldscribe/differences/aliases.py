@@ -96,12 +96,9 @@ def _lost(described: Described, aliases: list[_Alias]) -> tuple[list[tuple[str, 
     """The points that do not get their old names in a copy, and the first finding that the aliases cause."""
     sources = _sources(described)
     texts = {file: file.text for file in sources} | dict(_texts(aliases))
-    folder = os.path.dirname(os.path.abspath(sources[0].name))
     with TemporaryDirectory(prefix="fieldscribe-") as copy:
         for file, text in texts.items():
-            place = Path(copy, os.path.relpath(os.path.abspath(file.name), folder))
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(text.encode("utf-8"))
+            Path(copy, os.path.basename(file.name)).write_bytes(text.encode("utf-8"))
         report = Report()
         analysis = load_analysis(Path(copy, os.path.basename(sources[0].name)), report, with_errors=True)
     before = {(finding.rule, finding.message) for finding in described.analysis.report.findings}
