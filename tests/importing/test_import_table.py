@@ -281,7 +281,9 @@ def test_three_thousand_is_asked_about(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def test_a_point_that_no_question_can_mend_is_a_bug() -> None:
-    point = DraftPoint(1, "holding", "Speed")
+    point = DraftPoint(1, "holding", "Speed", facts={"at": "~", "unit": "V"})
+    point.withdraw("title", "no such title")
+    assert point.questions == ["the row: unit: V? no such title"]
     with pytest.raises(ValueError, match="no such title"):
         point.withdraw("title", "no such title")
 

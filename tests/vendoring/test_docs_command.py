@@ -47,6 +47,12 @@ def test_each_format(form: str, files: set[str], tmp_path: Path, capsys: pytest.
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+def test_the_help_says_what_a_format_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert docs("--help") == 0
+    formats = "csv: the points and their meanings as tables; markdown: the reference as a page; xlsx: the tables, and"
+    assert formats in " ".join(capsys.readouterr().out.split())
+
+
 def test_formats_live_beside_each_other(tmp_path: Path) -> None:
     for form in ("csv", "markdown"):
         assert docs(KITCHEN, "--format", form, "--out", tmp_path) == 0

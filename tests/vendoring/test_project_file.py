@@ -29,6 +29,7 @@ device = "own/siemens_mm4"     # a description of the project's own
 targets = ["c", "python"]
 out = "more"
 as = "second_drive"
+frames = false
 """
 
 
@@ -48,6 +49,10 @@ def test_one_command_leaves_and_checks_all_of_it(project: Path, capsys: pytest.C
     assert {path.name for path in (project / "more").iterdir()} >= {"second_drive.h", "second_drive", "fieldscribe.h"}
     manifest = json.loads((project / "more/second_drive.manifest.json").read_text("utf-8"))
     assert sorted(manifest["asked"]) == sorted(manifest["targets"]) == ["c", "python"]
+    assert {language: "frames" in asked for language, asked in manifest["asked"].items()} == {
+        "c": True,
+        "python": False,
+    }
     capsys.readouterr()
     assert main(["vendor", "--check"]) == 0
     assert "0 of" in capsys.readouterr().out

@@ -170,8 +170,7 @@ def _names(name: str, plain: Device) -> Mapping[Owner, Mapping[str, None]]:
     """All names in a language by owner, each once, in the order of the listing."""
     by_owner: dict[Owner, dict[str, None]] = {}
     for _, owner, names in target(name).identifiers(plain):
-        if owner.kind != "target":
-            by_owner.setdefault(owner, {}).update(dict.fromkeys(names))
+        by_owner.setdefault(owner, {}).update(dict.fromkeys(names))
     return by_owner
 
 

@@ -206,7 +206,7 @@ def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
     yield Line(f"space: {group.space}")
     yield Line(f"access: {access}" if access else comment("not every row prints an access; without the key it is rw"))
     yield Line(f"source: {{document: manual, section: {scalar(group.section or group.title)}}}")
-    references = {_numbering(*point.reference): point.reference[0] for point in group.points if point.reference}
+    references = {_numbering(point.reference[1]): point.reference[0] for point in group.points if point.reference}
     if references:
         numberings = ", ".join(f"{name}: wire + {base}" for name, base in references.items())
         yield Line(f"numbering: {{{numberings}}}")
@@ -217,9 +217,9 @@ def _group_lines(group: DraftGroup, language: str) -> Iterator[Line]:
             yield Line(f"{'  ' if number else '- '}{text}", point, key)
 
 
-def _numbering(base: int, printed: str) -> str:
+def _numbering(printed: str) -> str:
     """Return the name of a numbering: references of six digits have one of their own beside those of five."""
-    return "long_reference" if base > 1 and len(printed) > 5 else "reference"
+    return "long_reference" if len(printed) > 5 else "reference"
 
 
 def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: str) -> Iterator[tuple[str, str]]:
@@ -238,5 +238,5 @@ def _point_lines(point: DraftPoint, group: DraftGroup, access: str, language: st
         yield "section", f"section: {scalar(point.section)}"
     yield "line", f"line: {point.line}"
     if point.reference and point.facts["at"] != "~":
-        yield "printed", f"printed: {{{_numbering(*point.reference)}: {point.reference[1]}}}"
+        yield "printed", f"printed: {{{_numbering(point.reference[1])}: {point.reference[1]}}}"
     yield from (("", comment(question)) for question in point.questions)
