@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from fieldscribe.families import family
-from fieldscribe.model import Bus, Code, Device, Role
-from fieldscribe.targets.docs.cells import by_rows, cell, code, link, paragraph, source_cell, target
+from fieldscribe.model import Bus, Code, Command, Device, Message, Telegram
+from fieldscribe.targets.docs.cells import Columns, by_rows, cell, code, link, paragraph, source_cell, table, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
 
@@ -78,13 +79,23 @@ class OfFamily:
         return {}
 
 
+_CODE: Columns[Code] = {
+    "Code": lambda listed: f"{hex_text(listed.number, 2)} ({listed.number})",
+    "Name": lambda listed: code(listed.name),
+    "Title": lambda listed: cell(title_text(listed.title)),
+}
+
+
 def _answered(bus: Bus) -> str:
-    rows = [(*_code(function), _numbers(function.answers), _numbers(function.refusals)) for function in bus.functions]
-    return by_rows(("Code", "Name", "Title", "Response", "Response when refused"), rows)
+    answers: Columns[Code] = {
+        "Response": lambda function: _numbers(function.answers),
+        "Response when refused": lambda function: _numbers(function.refusals),
+    }
+    return table(bus.functions, {**_CODE, **answers})
 
 
 def _linked_codes(codes: tuple[Code, ...], head: str) -> str:
-    return by_rows(("Code", "Name", "Title", head), [(*_code(listed), _numbers(listed.answers)) for listed in codes])
+    return table(codes, {**_CODE, head: lambda listed: _numbers(listed.answers)})
 
 
 def _numbers(numbers: tuple[int, ...]) -> str:
@@ -93,25 +104,26 @@ def _numbers(numbers: tuple[int, ...]) -> str:
 
 def _messages(device: Device) -> str:
     """The table of messages, with a column for each byte."""
-    rows = [
-        (
-            target("message", message.name),
-            cell(title_text(message.title)),
-            cell(message.direction),
-            link("message", message.answers) if message.answers else "",
-            hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else ""),
-            *(_role(role) for role in message.roles),
-            source_cell(message.source, len(device.documents) > 1),
-        )
-        for message in device.messages
-    ]
-    bytes_heads = (f"Byte {place}" for place in range(len(device.messages[0].roles) if device.messages else 0))
-    return by_rows(
-        ("Name", "Title", "Direction", "Answers", f"{device.family.upper()} id", *bytes_heads, "Source"), rows
-    )
+    count = len(device.messages[0].roles) if device.messages else 0
+    columns: Columns[Message] = {
+        "Name": lambda message: target("message", message.name),
+        "Title": lambda message: cell(title_text(message.title)),
+        "Direction": lambda message: cell(message.direction),
+        "Answers": lambda message: link("message", message.answers) if message.answers else "",
+        f"{device.family.upper()} id": _identifier,
+        **{f"Byte {place}": partial(_role, place) for place in range(count)},
+        "Source": lambda message: source_cell(message.source, len(device.documents) > 1),
+    }
+    return table(device.messages, columns)
 
 
-def _role(role: Role) -> str:
+def _identifier(message: Message) -> str:
+    return hex_text(message.identifier, 3) + (" + unit" if message.adds_unit else "")
+
+
+def _role(place: int, message: Message) -> str:
+    """What a byte of a message holds."""
+    role = message.roles[place]
     part = "high" if role.number == 8 else "low"
     if role.kind in ("address", "raw"):
         return f"{role.kind} {part}"
@@ -124,63 +136,41 @@ def _role(role: Role) -> str:
 
 
 def _telegrams(device: Device) -> str:
-    rows = [
-        (
-            target("telegram", telegram.name),
-            cell(title_text(telegram.title)),
-            cell(telegram.direction),
-            str(telegram.words),
-            link("message", telegram.message) if telegram.message else "",
-            source_cell(telegram.source, len(device.documents) > 1),
-        )
-        for telegram in device.telegrams
-    ]
-    return by_rows(("Name", "Title", "Direction", "Words", "Message", "Source"), rows)
+    columns: Columns[Telegram] = {
+        "Name": lambda telegram: target("telegram", telegram.name),
+        "Title": lambda telegram: cell(title_text(telegram.title)),
+        "Direction": lambda telegram: cell(telegram.direction),
+        "Words": lambda telegram: str(telegram.words),
+        "Message": lambda telegram: link("message", telegram.message) if telegram.message else "",
+        "Source": lambda telegram: source_cell(telegram.source, len(device.documents) > 1),
+    }
+    return table(device.telegrams, columns)
 
 
 def _functions(bus: Bus, part: OfFamily) -> str:
     """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
-    heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
-    rows = [(*_code(function), "" if function.most is None else str(function.most)) for function in bus.functions]
-    if bus.broadcast is None:
-        return by_rows(heads, rows)
-    taken = [
-        part.goes_to_all(function) if function.broadcast is None else function.broadcast for function in bus.functions
-    ]
-    answers = ["yes" if yes else "no" for yes in taken]
-    return by_rows((*heads, "Broadcast"), [(*row, answer) for row, answer in zip(rows, answers, strict=True)])
 
+    def broadcast(function: Code) -> str:
+        allowed = part.goes_to_all(function) if function.broadcast is None else function.broadcast
+        return "" if bus.broadcast is None else "yes" if allowed else "no"
 
-def _code(listed: Code) -> tuple[str, str, str]:
-    return f"{hex_text(listed.number, 2)} ({listed.number})", code(listed.name), cell(title_text(listed.title))
+    most: Columns[Code] = {
+        "Most items in one request": lambda function: "" if function.most is None else str(function.most)
+    }
+    return table(bus.functions, {**_CODE, **most, "Broadcast": broadcast})
 
 
 def _commands(device: Device) -> str:
-    rows = [
-        (
-            target("command", command.name),
-            cell(title_text(command.title)),
-            cell(command.space),
-            address_text(command.address),
-            hex_text(command.function, 2),
-            "any" if command.value is None else str(command.value),
-            "" if command.wears is None else f"{command.wears} writes",
-            cell(command.busy or ""),
-            cell(title_text(command.note)) if command.note else "",
-            source_cell(command.source, len(device.documents) > 1),
-        )
-        for command in device.commands
-    ]
-    heads = (
-        "Name",
-        "Title",
-        "Space",
-        "Wire address",
-        "Function",
-        "Value",
-        "Memory stands",
-        "Busy while",
-        "Note",
-        "Source",
-    )
-    return by_rows(heads, rows)
+    columns: Columns[Command] = {
+        "Name": lambda command: target("command", command.name),
+        "Title": lambda command: cell(title_text(command.title)),
+        "Space": lambda command: cell(command.space),
+        "Wire address": lambda command: address_text(command.address),
+        "Function": lambda command: hex_text(command.function, 2),
+        "Value": lambda command: "any" if command.value is None else str(command.value),
+        "Memory stands": lambda command: "" if command.wears is None else f"{command.wears} writes",
+        "Busy while": lambda command: cell(command.busy or ""),
+        "Note": lambda command: cell(title_text(command.note)) if command.note else "",
+        "Source": lambda command: source_cell(command.source, len(device.documents) > 1),
+    }
+    return table(device.commands, columns)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from functools import lru_cache
+from typing import TypeAlias, TypeVar
 
 from fieldscribe.model import Source
 from fieldscribe.text import markdown
+
+Thing = TypeVar("Thing")
+Columns: TypeAlias = Mapping[str, Callable[[Thing], str]]
+"""What the columns of a table show of a thing, by head."""
 
 LINE_BREAK = "<br>"
 """Begins a new line inside a cell."""
@@ -50,6 +55,11 @@ def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Contain
     heads_kept, columns = zip(*kept, strict=True)
     lines = [" | ".join(row) for row in (heads_kept, ("---",) * len(kept), *zip(*columns, strict=True))]
     return "| " + " |\n| ".join(lines) + " |\n"
+
+
+def table(things: Iterable[Thing], columns: Columns[Thing], always: Container[str] = ()) -> str:
+    """Return the table with a row for each thing, as `by_rows` does."""
+    return by_rows(tuple(columns), [[cell_of(thing) for cell_of in columns.values()] for thing in things], always)
 
 
 def cell(text: str) -> str:

@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import fieldscribe
 from fieldscribe import wording
-from fieldscribe.model import Command, Device, Erratum, Frame, Named, Point, Special
+from fieldscribe.model import Command, Device, Document, Erratum, Frame, Named, Point, Special
 from fieldscribe.targets import heads
 from fieldscribe.targets.docs.bus import BusView, OfFamily, bus_view, part_of
 from fieldscribe.targets.docs.cells import (
     LINE_BREAK,
+    Columns,
     anchor,
     by_rows,
     cell,
@@ -23,6 +24,7 @@ from fieldscribe.targets.docs.cells import (
     number_cell,
     paragraph,
     source_cell,
+    table,
     target,
 )
 from fieldscribe.targets.docs.points import GroupView, group_views
@@ -31,6 +33,7 @@ from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
 from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import spaced
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
@@ -122,36 +125,31 @@ def _facts(device: Device) -> list[tuple[str, str]]:
 
 
 def _documents(device: Device) -> str:
-    rows = [
-        (
-            code(document.id),
-            cell(document.title),
-            cell(document.language),
-            cell(document.file or ""),
-            code(document.sha256) if document.sha256 else "",
-        )
-        for document in device.documents
-    ]
-    return by_rows(("Document", "Title", "Language", "File", "SHA-256"), rows)
+    columns: Columns[Document] = {
+        "Document": lambda document: code(document.id),
+        "Title": lambda document: cell(document.title),
+        "Language": lambda document: cell(document.language),
+        "File": lambda document: cell(document.file or ""),
+        "SHA-256": lambda document: code(document.sha256) if document.sha256 else "",
+    }
+    return table(device.documents, columns)
 
 
 def _frames(scope: DocsScope) -> str:
-    rows = [_frame_row(scope, frame) for frame in scope.device.frames]
-    heads = ("Frame", "Kind", "Bytes", "Meaning", "Errata", "Source")
-    return by_rows(heads, rows, always=heads)
-
-
-def _frame_row(scope: DocsScope, frame: Frame) -> tuple[str, ...]:
-    answers = f"answers {link('frame', frame.answers)}" if frame.answers else ""
-    corrected = "" if frame.valid else f"correct: {code(frame.corrected.hex(' ').upper())}"
-    return (
-        _lines(target("frame", frame.name), cell(wording.title_text(frame.title))),
-        _lines(cell(f"{frame.framing} {frame.direction}"), answers),
-        _lines(code(frame.printed.hex(" ").upper()), corrected),
-        _lines(*(_meaning(name, raw, scope.by_name) for name, raw in frame.meaning.items())),
-        _lines(*(link("erratum", erratum) for erratum in frame.errata)),
-        source_cell(frame.source, scope.several),
-    )
+    columns: Columns[Frame] = {
+        "Frame": lambda frame: _lines(target("frame", frame.name), cell(wording.title_text(frame.title))),
+        "Kind": lambda frame: _lines(
+            cell(f"{frame.framing} {frame.direction}"),
+            f"answers {link('frame', frame.answers)}" if frame.answers else "",
+        ),
+        "Bytes": lambda frame: _lines(
+            code(spaced(frame.printed)), "" if frame.valid else f"correct: {code(spaced(frame.corrected))}"
+        ),
+        "Meaning": lambda frame: _lines(*(_meaning(name, raw, scope.by_name) for name, raw in frame.meaning.items())),
+        "Errata": lambda frame: _lines(*(link("erratum", erratum) for erratum in frame.errata)),
+        "Source": lambda frame: source_cell(frame.source, scope.several),
+    }
+    return table(scope.device.frames, columns, always=columns)
 
 
 def _lines(*texts: str) -> str:
@@ -167,23 +165,19 @@ def _meaning(name: str, raw: int, by_name: Mapping[str, Point]) -> str:
 
 def _errata(device: Device) -> str:
     items = items_of(device)
-    rows = [
-        (
-            _lines(
-                narrow_target("erratum", erratum.id),
-                *(narrow_link("point", item) for name in erratum.points for item in items.get(name, ())),
-                _where(erratum),
-            ),
-            cell(erratum.printed),
-            cell(erratum.taken),
-            cell(erratum.why),
-            cell(erratum.certainty),
-            source_cell(erratum.source, len(device.documents) > 1),
-        )
-        for erratum in device.errata
-    ]
-    heads = ("Erratum, about", "Printed", "Taken", "Why", "Certainty", "Source")
-    return by_rows(heads, rows, always=heads)
+    columns: Columns[Erratum] = {
+        "Erratum, about": lambda erratum: _lines(
+            narrow_target("erratum", erratum.id),
+            *(narrow_link("point", item) for name in erratum.points for item in items.get(name, ())),
+            _where(erratum),
+        ),
+        "Printed": lambda erratum: cell(erratum.printed),
+        "Taken": lambda erratum: cell(erratum.taken),
+        "Why": lambda erratum: cell(erratum.why),
+        "Certainty": lambda erratum: cell(erratum.certainty),
+        "Source": lambda erratum: source_cell(erratum.source, len(device.documents) > 1),
+    }
+    return table(device.errata, columns, always=columns)
 
 
 def _where(erratum: Erratum) -> str:
@@ -197,18 +191,14 @@ def _where(erratum: Erratum) -> str:
 
 
 def _missing(device: Device) -> str:
-    rows = [
-        (
-            cell(point.code or ""),
-            _lines(link("point", point.item), cell(wording.title_text(point.title))),
-            place_text(point),
-            cell(point.reason or "no reason given"),
-            ", ".join(link("erratum", erratum) for erratum in point.errata),
-        )
-        for point in device.points
-        if not point.generated
-    ]
-    return by_rows(("Code", "Name", "Wire address", "Why", "Errata"), rows)
+    columns: Columns[Point] = {
+        "Code": lambda point: cell(point.code or ""),
+        "Name": lambda point: _lines(link("point", point.item), cell(wording.title_text(point.title))),
+        "Wire address": place_text,
+        "Why": lambda point: cell(point.reason or "no reason given"),
+        "Errata": lambda point: ", ".join(link("erratum", erratum) for erratum in point.errata),
+    }
+    return table([point for point in device.points if not point.generated], columns)
 
 
 def _codes(device: Device) -> str:

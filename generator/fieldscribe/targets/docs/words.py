@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.model import Flag, Point
-from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, by_rows, cell, code, target
+from fieldscribe.targets.docs.cells import LINE_BREAK, MAY_BREAK, Columns, by_rows, cell, code, table, target
 
 _BREAKS = re.compile("<w?br>")
 _BYTE = 8
@@ -139,18 +139,18 @@ def _constant(point: Point, high: int, low: int) -> str:
 
 
 def _flag_table(point: Point) -> str:
-    rows = [
-        (
-            wording.flag_bits(flag, point),
-            code(flag.name),
-            cell(wording.title_text(flag.title)),
-            str(flag.active) if flag.width == 1 else "",
-            *(_meaning_of(flag, number) for number in (0, 1)),
-            LINE_BREAK.join(cell(wording.flag_value_text(entry)) for entry in flag.values) if flag.width > 1 else "",
-        )
-        for flag in point.flags
-    ]
-    return by_rows(("Bits", "Name", "Title", "True at", "0 means", "1 means", "Numbers"), rows)
+    columns: Columns[Flag] = {
+        "Bits": lambda flag: wording.flag_bits(flag, point),
+        "Name": lambda flag: code(flag.name),
+        "Title": lambda flag: cell(wording.title_text(flag.title)),
+        "True at": lambda flag: str(flag.active) if flag.width == 1 else "",
+        "0 means": lambda flag: _meaning_of(flag, 0),
+        "1 means": lambda flag: _meaning_of(flag, 1),
+        "Numbers": lambda flag: (
+            LINE_BREAK.join(cell(wording.flag_value_text(entry)) for entry in flag.values) if flag.width > 1 else ""
+        ),
+    }
+    return table(point.flags, columns)
 
 
 def _meaning_of(flag: Flag, number: int) -> str:
