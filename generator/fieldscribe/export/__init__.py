@@ -86,4 +86,4 @@ def schema_text() -> str:
 
 
 def _object(table: FactTable) -> dict[str, Any]:
-    return dict(record({fact.key: (fact.doc, fact.schema) for fact in table if fact.published}))
+    return dict(record(*((fact.key, fact.doc, fact.schema) for fact in table if fact.published)))

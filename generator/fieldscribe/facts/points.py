@@ -247,7 +247,7 @@ POINT: FactTable = (
     Fact(
         "written",
         "Where it is written, if that is not where it is read.",
-        null_or(record({"addresses": ("As the point's own.", list_of(ADDRESS)), "references": _REFERENCES})),
+        null_or(record(("addresses", "As the point's own.", list_of(ADDRESS)), ("references", *_REFERENCES))),
         attribute="write_place",
         value=lambda point, _: None if point.write_place is None else values.place(point.write_place),
         views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
@@ -366,7 +366,7 @@ POINT: FactTable = (
     Fact(
         "step",
         "Which raw steps the device keeps, from which raw number on; null for every number.",
-        null_or(list_of(record({"from": ("The first raw number.", INTEGER), "step": ("The step in raw.", INTEGER)}))),
+        null_or(list_of(record(("from", "The first raw number.", INTEGER), ("step", "The step in raw.", INTEGER)))),
         BEHAVIOUR,
         shared="terms",
         value=lambda point, _: [{"from": start, "step": step} for start, step in point.steps] or None,
@@ -380,12 +380,11 @@ POINT: FactTable = (
         "How a person should see the value; null where nothing says it.",
         null_or(
             record(
-                {
-                    "decimals": (
-                        "With how many decimals, rounded to nearest, halves away from zero; zeros at the end stay.",
-                        {**ADDRESS, "maximum": 12},
-                    )
-                }
+                (
+                    "decimals",
+                    "With how many decimals, rounded to nearest, halves away from zero; zeros at the end stay.",
+                    {**ADDRESS, "maximum": 12},
+                )
             )
         ),
         BEHAVIOUR,
@@ -409,16 +408,12 @@ POINT: FactTable = (
         "raw",
         "Which raw numbers may be written.",
         record(
-            {
-                "ranges": (
-                    "Closed ranges, ascending; for f32, f64 and unknown scales in the unit.",
-                    list_of(list_of(ref("range_end"), 2, 2)),
-                ),
-                "values": (
-                    "The same as single numbers where the manual lists them; else null.",
-                    null_or(list_of(INTEGER)),
-                ),
-            }
+            (
+                "ranges",
+                "Closed ranges, ascending; for f32, f64 and unknown scales in the unit.",
+                list_of(list_of(ref("range_end"), 2, 2)),
+            ),
+            ("values", "The same as single numbers where the manual lists them; else null.", null_or(list_of(INTEGER))),
         ),
         shared="limits",
         value=values.raw,

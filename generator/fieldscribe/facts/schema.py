@@ -61,34 +61,31 @@ def by_number(schema: Schema) -> Schema:
     return {**map_of(schema), **_BY_NUMBER}
 
 
-def record(properties: Mapping[str, tuple[str, Schema]]) -> Schema:
-    """Return the schema of an object with exactly these keys; each has a description and a schema."""
-    described = {key: {"description": description, **schema} for key, (description, schema) in properties.items()}
-    return {
-        "type": "object",
-        "properties": described,
-        "required": list(described),
-        "additionalProperties": False,
-    }
+def record(*properties: tuple[str, str, Schema]) -> Schema:
+    """Return the schema of an object with exactly these keys, each with its description and its schema."""
+    described = {key: {"description": description, **schema} for key, description, schema in properties}
+    return {"type": "object", "properties": described, "required": list(described), "additionalProperties": False}
 
 
 def _uses() -> list[Schema]:
-    point = "The point that the factor is read from.", STRING
-    number: dict[str, tuple[str, Schema]] = {
-        "part": ("Which of its numbers: the raw number, or the value.", one_of("raw", "value"))
-    }
-    linear: dict[str, tuple[str, Schema]] = {
-        "part": ("Always the raw number.", one_of("raw")),
-        "times": ("What the raw number is multiplied by.", INTEGER),
-        "plus": ("What is added then.", INTEGER),
-    }
+    point = "point", "The point that the factor is read from.", STRING
+    number = [("part", "Which of its numbers: the raw number, or the value.", one_of("raw", "value"))]
+    linear = [
+        ("part", "Always the raw number.", one_of("raw")),
+        ("times", "What the raw number is multiplied by.", INTEGER),
+        ("plus", "What is added then.", INTEGER),
+    ]
     sign = "1: multiply raw by it; -1: divide.", one_of(1, -1)
-    return [record({"point": point, **part, kind: sign}) for part in (number, linear) for kind in ("power", "ten_to")]
+    return [record(point, *part, (kind, *sign)) for part in (number, linear) for kind in ("power", "ten_to")]
 
 
 _NUMBER_OF_ROLE = (
     "Of a constant the byte; of unit, address and raw the distance from bit 0; of a word twice its place in the frame, "
     "plus 1 for its low byte; of xor a mask of the combined bytes."
+)
+
+_SCALE_CONDITION = record(
+    ("point", "The point that decides.", STRING), ("raw", "The raw number that it must have.", INTEGER)
 )
 
 DEFINITIONS: Mapping[str, Schema] = {
@@ -111,45 +108,29 @@ DEFINITIONS: Mapping[str, Schema] = {
     "source": {
         "description": "Where in the manual a fact stands.",
         **record(
-            {
-                "document": ("The id of the document.", STRING),
-                "section": ("The section, as printed.", null_or(STRING)),
-                "page": ("The page, as printed.", null_or(STRING)),
-                "line": ("The line of the manual's text.", null_or(ADDRESS)),
-            }
+            ("document", "The id of the document.", STRING),
+            ("section", "The section, as printed.", null_or(STRING)),
+            ("page", "The page, as printed.", null_or(STRING)),
+            ("line", "The line of the manual's text.", null_or(ADDRESS)),
         ),
     },
     "place": {
         "description": "Where a point is, for one purpose.",
         **record(
-            {
-                "for": ("The purpose: `read`, `write`, `ram` (written, but not kept), ...", STRING),
-                "space": ("The space in which the address counts.", STRING),
-                "address": ("The lowest address, which a request names.", null_or(ADDRESS)),
-                "function": ("The function to use; null for the usual one of the space.", null_or(INTEGER)),
-            }
+            ("for", "The purpose: `read`, `write`, `ram` (written, but not kept), ...", STRING),
+            ("space", "The space in which the address counts.", STRING),
+            ("address", "The lowest address, which a request names.", null_or(ADDRESS)),
+            ("function", "The function to use; null for the usual one of the space.", null_or(INTEGER)),
         ),
     },
     "scale_case": {
         "description": "raw = value * num / den * (the factors of `uses`) + offset.",
         **record(
-            {
-                "when": (
-                    "When this case holds; null for always.",
-                    null_or(
-                        record(
-                            {
-                                "point": ("The point that decides.", STRING),
-                                "raw": ("The raw number that it must have.", INTEGER),
-                            }
-                        )
-                    ),
-                ),
-                "num": ("The numerator.", ref("integer_text")),
-                "den": ("The denominator.", ref("integer_text")),
-                "offset": ("What is added to raw, after the factors.", ref("fraction_text")),
-                "uses": ("Factors read from other points at run time.", list_of(ref("use"))),
-            }
+            ("when", "When this case holds; null for always.", null_or(_SCALE_CONDITION)),
+            ("num", "The numerator.", ref("integer_text")),
+            ("den", "The denominator.", ref("integer_text")),
+            ("offset", "What is added to raw, after the factors.", ref("fraction_text")),
+            ("uses", "Factors read from other points at run time.", list_of(ref("use"))),
         ),
     },
     "use": {
@@ -165,39 +146,29 @@ DEFINITIONS: Mapping[str, Schema] = {
     },
     "condition": {
         "description": "When the point exists: when all comparisons of one of these hold.",
-        **record(
-            {"any": ("One of these.", list_of(record({"all": ("All of these.", list_of(ref("comparison"), 1))}), 1))}
-        ),
+        **record(("any", "One of these.", list_of(record(("all", "All of these.", list_of(ref("comparison"), 1))), 1))),
     },
     "comparison": {
         "description": "A variant axis or a point against constants.",
         **record(
-            {
-                "of": (
-                    "The variant axis, compared with names of its values; or the point, compared by its raw number.",
-                    STRING,
-                ),
-                "is": ("How they are compared; `in` takes a list.", one_of("==", "!=", "<", "<=", ">", ">=", "in")),
-                "than": (
-                    "The constant, or for `in` all of them.",
-                    {"anyOf": [_CONSTANT, {"type": "array", "minItems": 1, "items": _CONSTANT}]},
-                ),
-            }
+            (
+                "of",
+                "The variant axis, compared with names of its values; or the point, compared by its raw number.",
+                STRING,
+            ),
+            ("is", "How they are compared; `in` takes a list.", one_of("==", "!=", "<", "<=", ">", ">=", "in")),
+            (
+                "than",
+                "The constant, or for `in` all of them.",
+                {"anyOf": [_CONSTANT, {"type": "array", "minItems": 1, "items": _CONSTANT}]},
+            ),
         ),
     },
     "role": {
         "description": "What a byte of a message holds.",
         **record(
-            {
-                "holds": (
-                    "The kind of byte.",
-                    one_of("constant", "unit", "address", "raw", "multiplexer", "word", "xor"),
-                ),
-                "number": (
-                    _NUMBER_OF_ROLE,
-                    ADDRESS,
-                ),
-            }
+            ("holds", "The kind of byte.", one_of("constant", "unit", "address", "raw", "multiplexer", "word", "xor")),
+            ("number", _NUMBER_OF_ROLE, ADDRESS),
         ),
     },
 }

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Code, Command, Device, Message, Telegram
@@ -25,7 +26,8 @@ class BusView:
 
 def bus_view(device: Device) -> BusView:
     """Return the bus section of a device."""
-    bus, own_family, part = device.bus, family(device.family), part_of(device)
+    bus, own_family = device.bus, family(device.family)
+    facts_of = getattr(_bus_facts(device), "facts", lambda bus: [("Unit numbers", "{}..{}".format(*bus.units))])
     asks = next((section for section in own_family.codes if section.section == "functions"), None)
     answered = asks is not None and asks.belongs_to is not None
     serial = [
@@ -35,7 +37,7 @@ def bus_view(device: Device) -> BusView:
     ]
     responses = _linked_codes(bus.codes("responses"), "Tasks")
     sections = (
-        ("" if asks is None else f"{asks.kind.capitalize()}s", _answered(bus) if answered else _functions(bus, part)),
+        ("" if asks is None else f"{asks.kind.capitalize()}s", _answered(bus) if answered else _functions(device)),
         ("Responses", responses),
         ("Error values" if responses else "Exceptions", _linked_codes(bus.exceptions, "Tasks")),
         ("Messages", _messages(device)),
@@ -46,37 +48,19 @@ def bus_view(device: Device) -> BusView:
     )
     return BusView(
         paragraph(title_text(bus.note)) if bus.note else "",
-        by_rows(("Fact", "Value"), [(cell(label), cell(text)) for label, text in part.facts(bus)]),
+        by_rows(("Fact", "Value"), [(cell(label), cell(text)) for label, text in facts_of(bus)]),
         tuple((heading, table) for heading, table in sections if table),
     )
 
 
-def part_of(device: Device) -> OfFamily:
-    """Return what the family of a device knows about its bus."""
-    return OfFamily(family(device.family).part("bus_facts"))
+def numbers_of(device: Device) -> Callable[[str, int], Mapping[str, int]]:
+    """Return the function of the family that gives the numbers that people use for an address, by numbering."""
+    numbers: Callable[[str, int], Mapping[str, int]] = getattr(_bus_facts(device), "numbers", lambda _space, _: {})
+    return numbers
 
 
-class OfFamily:
-    """What the part `bus_facts` of a family defines of these functions, and defaults for the others."""
-
-    def __init__(self, part: object) -> None:
-        for name in ("facts", "goes_to_all", "numbers"):
-            if hasattr(part, name):
-                setattr(self, name, getattr(part, name))
-
-    def facts(self, bus: Bus) -> Iterator[tuple[str, str]]:
-        """Yield label and text of each fact about the line."""
-        yield "Unit numbers", "{}..{}".format(*bus.units)
-
-    def goes_to_all(self, function: Code) -> bool:
-        """Return True if a function may be broadcast where the description does not say so."""
-        del function
-        return False
-
-    def numbers(self, space: str, address: int) -> Mapping[str, int]:
-        """Return the numbers that people use for an address in this family, by numbering."""
-        del space, address
-        return {}
+def _bus_facts(device: Device) -> Any:
+    return family(device.family).part("bus_facts")
 
 
 _CODE: Columns[Code] = {
@@ -147,17 +131,18 @@ def _telegrams(device: Device) -> str:
     return table(device.telegrams, columns)
 
 
-def _functions(bus: Bus, part: OfFamily) -> str:
+def _functions(device: Device) -> str:
     """The table of functions; it has a column about broadcast only if the device has a broadcast unit."""
+    goes_to_all = getattr(_bus_facts(device), "goes_to_all", lambda _: False)
 
     def broadcast(function: Code) -> str:
-        allowed = part.goes_to_all(function) if function.broadcast is None else function.broadcast
-        return "" if bus.broadcast is None else "yes" if allowed else "no"
+        allowed = goes_to_all(function) if function.broadcast is None else function.broadcast
+        return "" if device.bus.broadcast is None else "yes" if allowed else "no"
 
     most: Columns[Code] = {
         "Most items in one request": lambda function: "" if function.most is None else str(function.most)
     }
-    return table(bus.functions, {**_CODE, **most, "Broadcast": broadcast})
+    return table(device.bus.functions, {**_CODE, **most, "Broadcast": broadcast})
 
 
 def _commands(device: Device) -> str:

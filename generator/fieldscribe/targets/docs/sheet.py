@@ -188,7 +188,7 @@ def _fill(row: list[str], parts: Iterable[tuple[slice, CellsOf]], point: Point, 
 
 def _command_cells(command: Command, sheet: Sheet) -> Mapping[str, str]:
     """Return the cells of a command's row by column."""
-    encode, numbers = sheet.encode, sheet.part.numbers(command.space, command.address)
+    encode, numbers = sheet.encode, sheet.numbers_at(command.space, command.address)
     value = "" if command.value is None else str(command.value)
     is_bit = family(sheet.scope.device.family).spaces[command.space] == "bit"
     return {

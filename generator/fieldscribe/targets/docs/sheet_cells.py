@@ -10,7 +10,7 @@ from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME, Line
 from fieldscribe.facts.table import Fact
 from fieldscribe.model import Point
-from fieldscribe.targets.docs.bus import part_of
+from fieldscribe.targets.docs.bus import numbers_of
 from fieldscribe.targets.docs.scope import DocsScope, Remarks
 from fieldscribe.targets.docs.tables import codes_of, decimal, enum_of
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
@@ -27,7 +27,7 @@ class Sheet:
     """What the cells of all points of a device need."""
 
     def __init__(self, scope: DocsScope, encode: Encode) -> None:
-        self.scope, self.encode, self.part = scope, encode, part_of(scope.device)
+        self.scope, self.encode, self.numbers_at = scope, encode, numbers_of(scope.device)
         further = {
             "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
             "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",
@@ -76,7 +76,7 @@ def references(point: Point, sheet: Sheet) -> tuple[str, str, str, str]:
             known[name] = str(number)
         else:
             others.append(f"{name} {number}")
-    numbers = sheet.part.numbers(point.space, min(place.addresses)) if place.addresses else {}
+    numbers = sheet.numbers_at(point.space, min(place.addresses)) if place.addresses else {}
     computed = {name: str(number) for name, number in numbers.items() if name not in place.references}
     known |= computed
     return known["modicon"], known["reference"], " ".join(computed), sheet.encode(", ".join(others))
