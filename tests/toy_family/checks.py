@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fieldscribe.checks.frames_agree import Seen, report_no_frame
-from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.frames import LocatedFrame
 
@@ -26,11 +25,7 @@ def read(subject: Analysis, one: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     tone = tone_of(one.frame.printed)
     if tone is None:
         return report_no_frame(subject, one, "this rings nothing")
-
-    def carries(point: Point) -> int | None:
-        return tone if point.addresses == (tone,) else None
-
-    return Seen(one.frame, None, carries)
+    return Seen(one.frame, None, {("tone", tone, 0): (tone,)})
 
 
 CHECKS = (stays_whole,)

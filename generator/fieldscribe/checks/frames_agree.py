@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,21 +14,29 @@ from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.frames import LocatedFrame
 
-Carries = Callable[["Point"], int | None]
-"""Returns the raw number that a frame carries of a point; None if it carries none."""
+Words = Mapping[tuple[str, int, int], tuple[int, ...]]
+"""The words that a frame carries, by space or telegram, address, and the index that travels with it (0 without one)."""
 
 
 @dataclass(slots=True)
 class Seen:
     """How the family read a frame.
 
-    `request` is the family's own form of the frame, for parsing its answers. `carries` is None if the device has no
-    such frame.
+    `request` is the family's own form of the frame, for parsing its answers. `words` is None if the device has no such
+    frame; with `written` they have the addresses at which points are written.
     """
 
     frame: Frame
     request: Any = None
-    carries: Carries | None = None
+    words: Words | None = None
+    written: bool = False
+
+    def raw(self, point: Point, indexed: Collection[str]) -> int | None:
+        """Return the raw number that the frame carries of a point; None if it carries none."""
+        where, index = point.telegram or point.space, (point.index or 0) if point.space in indexed else 0
+        addresses, known = (point.written if self.written else point.place).addresses, self.words or {}
+        words = [word for address in addresses for word in known.get((where, address, index), ())]
+        return raw_of(point, words) if len(words) == point.words else None
 
 
 Reader = Callable[[Analysis, "LocatedFrame", dict[str, Seen]], Seen]
@@ -46,10 +54,10 @@ def check(analysis: Analysis) -> None:
     fixed = [point for point in points.values() if point.fixed is not None and point.generated]
     for located in analysis.located_frames:
         read_frame = read(analysis, located, seen)
-        if read_frame.carries is not None:
-            _compare_meaning(analysis, located, read_frame.carries, points)
+        if read_frame.words is not None:
+            _compare_meaning(analysis, located, read_frame, points)
             if located.frame.direction == "request":
-                _compare_fixed_bits(analysis, located, read_frame.carries, fixed)
+                _compare_fixed_bits(analysis, located, read_frame, fixed)
         ids = tuple(erratum.erratum.id for erratum in analysis.cited.get(located.about, ()))
         seen[located.frame.name] = read_frame
         analysis.frames.append(replace(read_frame.frame, errata=ids))
@@ -61,8 +69,8 @@ def _unread(analysis: Analysis, located: LocatedFrame, seen: dict[str, Seen]) ->
     return Seen(located.frame)
 
 
-def _compare_meaning(analysis: Analysis, located: LocatedFrame, carries: Carries, points: dict[str, Point]) -> None:
-    says = located.node.get("says")
+def _compare_meaning(analysis: Analysis, located: LocatedFrame, seen: Seen, points: dict[str, Point]) -> None:
+    says, indexed = located.node.get("says"), analysis.scope.family.indexed
     if not isinstance(says, Map):
         return
     for word in says:
@@ -70,17 +78,17 @@ def _compare_meaning(analysis: Analysis, located: LocatedFrame, carries: Carries
         point = points.get(facts.item) if facts is not None else None
         if facts is None or point is None or point.item not in located.frame.meaning or "at" in facts.failed:
             continue
-        wanted, carried = located.frame.meaning[point.item], carries(point)
+        wanted, carried = located.frame.meaning[point.item], seen.raw(point, indexed)
         if carried != wanted:
             text = "does not carry it" if carried is None else f"carries raw {carried}"
             message = f"`says` gives raw {wanted} for `{word}`, the frame {text}"
             analysis.report_printed(PrintedFact(located.about, "says", says[word], None, says.span(word), message))
 
 
-def _compare_fixed_bits(analysis: Analysis, located: LocatedFrame, carries: Carries, points: list[Point]) -> None:
+def _compare_fixed_bits(analysis: Analysis, located: LocatedFrame, seen: Seen, points: list[Point]) -> None:
     """Report requests that write a word without its constant bits."""
     for point in points:
-        word = carries(_whole_word(point))
+        word = seen.raw(_whole_word(point), analysis.scope.family.indexed)
         if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
             continue
         message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
@@ -134,12 +142,6 @@ def report_wrong_sum(analysis: Analysis, located: LocatedFrame, key: str, here: 
         what = "checksum" if key == "xor" else key.upper()
         message = f"the {what} {printed} is printed, the bytes give {taken}"
         analysis.report_printed(located.printed(key, printed, taken, message))
-
-
-def from_words(point: Point, words: tuple[int | None, ...]) -> int | None:
-    """Return the raw number of a point from its words, high part first; None if a word is missing."""
-    known = [word for word in words if word is not None]
-    return raw_of(point, known) if known and len(known) == len(words) else None
 
 
 def hex_of(data: bytes) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Carries, Seen
+from fieldscribe.checks.frames_agree import Seen, Words
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.can import identifier_of
 from fieldscribe.families.can.frames import (
@@ -108,7 +108,7 @@ def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> 
     fault = _fault(subject, frame, readings, reading, request)
     if fault is not None or reading is None:
         return frames_agree.report_no_frame(subject, open_frame, fault or "")
-    return Seen(frame, reading, _carries(subject, reading, frame))
+    return Seen(frame, reading, _words(subject, reading, frame))
 
 
 def _readings(subject: Analysis, frame: Frame, number: int, request: _Reading | None) -> Iterator[_Reading]:
@@ -154,20 +154,13 @@ def _fault(
     return None
 
 
-def _carries(subject: Analysis, reading: _Reading, frame: Frame) -> Carries:
-    """Return what finds raw numbers in a frame: the word of a parameter, or words of a telegram."""
+def _words(subject: Analysis, reading: _Reading, frame: Frame) -> Words:
+    """Return the word of a parameter, and the words of telegrams in a frame."""
     message, parsed = reading.message, reading.parsed
-    raw = (parsed.raw,) if carries(message, "raw") else (None,)
     words = telegram_words(message, CanFrame(0, frame.corrected))
-    telegrams = {name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == message.name}
-
-    def carried_by_frame(point: Point) -> int | None:
-        if point.telegram is None:
-            return frames_agree.from_words(point, raw) if point.addresses == (parsed.address,) else None
-        known = point.telegram in telegrams
-        return frames_agree.from_words(point, tuple(map(words.get, point.addresses))) if known else None
-
-    return carried_by_frame
+    telegrams = [name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == message.name]
+    carried = {(name, address, 0): (word,) for name in telegrams for address, word in words.items()}
+    return carried | ({("parameter", parsed.address, 0): (parsed.raw,)} if carries(message, "raw") else {})
 
 
 CHECKS = (messages_differ, parameters_are_reachable)

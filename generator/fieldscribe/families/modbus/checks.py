@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Carries, Seen
+from fieldscribe.checks.frames_agree import Seen
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.modbus import BIT_LISTS, FUNCTIONS, READS, SPACES, profile_of
-from fieldscribe.families.modbus.exchange import build, parse_reply, parse_request
+from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, data_size, unwrap
 from fieldscribe.families.modbus.remarks import flaw_text
 from fieldscribe.language.nodes import Map
@@ -139,8 +139,7 @@ def _request(subject: Analysis, open_frame: LocatedFrame) -> Seen:
     if frame.valid and rebuilt != frame.printed:
         message = f"this request would be {frames_agree.hex_of(rebuilt)}"
         frame = frames_agree.report_no_frame(subject, open_frame, message).frame
-    carries = _carries(request.function, request.address, request.values)
-    return Seen(replace(frame, corrected=rebuilt), request, carries)
+    return _seen(replace(frame, corrected=rebuilt), request, request.values)
 
 
 def _reply(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
@@ -154,21 +153,14 @@ def _reply(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -
     if reply.status not in ("ok", "exception"):
         return frames_agree.report_refused(subject, open_frame, reply.status)
     frames_agree.report_wrong_error(subject, open_frame, reply.exception if reply.status == "exception" else None)
-    return Seen(frame, request, _carries(request.function, request.address, reply.values or request.values))
+    return _seen(frame, request, reply.values or request.values)
 
 
-def _carries(function: int, first: int, values: tuple[int, ...]) -> Carries:
-    """Return what finds raw numbers in a frame: values from an address on, in the space of its function."""
-
-    def carries(point: Point) -> int | None:
-        addresses = point.addresses if function in READS else point.written.addresses
-        if not addresses or point.space != FUNCTIONS[function].space:
-            return None
-        if not all(first <= word < first + len(values) for word in addresses):
-            return None
-        return frames_agree.from_words(point, tuple(values[word - first] for word in addresses))
-
-    return carries
+def _seen(frame: Frame, request: Request, values: tuple[int, ...]) -> Seen:
+    """Return the frame with its values from an address on, in the space of its function."""
+    space, function = FUNCTIONS[request.function].space, request.function
+    words = {(space, address, 0): (value,) for address, value in enumerate(values, request.address)}
+    return Seen(frame, request, words, written=function not in READS)
 
 
 def _count_of_erratum(subject: Analysis, open_frame: LocatedFrame, otherwise: int) -> int:

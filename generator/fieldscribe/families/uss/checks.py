@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from fieldscribe.arithmetic.words import words_in
+from fieldscribe.arithmetic.words import split, words_in
 from fieldscribe.checks import frames_agree
-from fieldscribe.checks.frames_agree import Carries, Seen
+from fieldscribe.checks.frames_agree import Seen, Words
 from fieldscribe.checks.reachability import report_missing
 from fieldscribe.families.uss import FAMILY, of_bus, of_frame
 from fieldscribe.families.uss.parts import MASKS, READ_TASK, SHORT, VARIABLE, Link, part_of, write_task
@@ -127,16 +127,8 @@ def _missing_tasks(subject: Analysis, points: list[Point]) -> Iterator[tuple[int
             yield count, f"the device has no task {task}, which writes such a value", "functions", hint
 
 
-@dataclass(frozen=True, slots=True)
-class _SentRequest:
-    """A request with the link that it was sent over."""
-
-    link: Link
-    request: Request
-
-
 def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
-    """Read a worked frame, a whole telegram or one part, as the device does; `Seen.request` is a `_SentRequest`."""
+    """Read a worked frame, a whole telegram or one part, as the device does; `Seen.request` is (link, `Request`)."""
     frame = open_frame.frame
     if frame.framing == "broadcast":
         return _broadcast(subject, open_frame)
@@ -172,9 +164,9 @@ def _telegram(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...
         return _request(subject, open_frame, words)
     frames_agree.report_no_request(subject, open_frame)
     before = seen.get(frame.answers or "")
-    if before is None or not isinstance(before.request, _SentRequest):
+    if before is None or before.request is None:
         return Seen(replace(frame, valid=False))
-    link, request = before.request.link, before.request.request
+    link, request = before.request
     if frame.framing == "uss":
         reply = parse(subject.bus, link, request, frame.corrected)
     else:
@@ -188,8 +180,8 @@ def _telegram(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...
         if error is None or (error.answers and request.task not in error.answers):
             what = "does not exist" if error is None else f"is not for the task {request.task}"
             return frames_agree.report_no_frame(subject, open_frame, f"the error {reply.error} {what}")
-    value = (reply.width, reply.value) if reply.status == "ok" and reply.width else None
-    return Seen(frame, before.request, _carries(subject, request, value, reply.words, "response"))
+    value = split(reply.value, reply.width) if reply.status == "ok" else ()
+    return Seen(frame, before.request, _words(subject, "response", reply.words, request, value))
 
 
 def _request(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]) -> Seen:
@@ -211,8 +203,8 @@ def _request(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]
     built = words_in(data[3:-1])[: len(words)] if short else words_in(data[3:-1])
     if built != words:
         return frames_agree.report_no_frame(subject, open_frame, f"this request would be {words_printed(built)}")
-    value = (request.width, request.value) if request.width else None
-    return Seen(frame, _SentRequest(link, request), _carries(subject, request, value, rest, "request"))
+    value = split(request.value, request.width)
+    return Seen(frame, (link, request), _words(subject, "request", rest, request, value))
 
 
 def _process_data(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]) -> Seen:
@@ -220,7 +212,7 @@ def _process_data(subject: Analysis, open_frame: LocatedFrame, words: tuple[int,
     if not low <= len(words) <= high:
         message = f"there are {low}..{high} words of process data, not {len(words)}"
         return frames_agree.report_no_frame(subject, open_frame, message)
-    return Seen(open_frame.frame, None, _carries(subject, None, None, words, open_frame.frame.direction))
+    return Seen(open_frame.frame, None, _words(subject, open_frame.frame.direction, words))
 
 
 def _broadcast(subject: Analysis, open_frame: LocatedFrame) -> Seen:
@@ -233,33 +225,20 @@ def _broadcast(subject: Analysis, open_frame: LocatedFrame) -> Seen:
     if status != "ok":
         message = f"this device takes no such broadcast: {status.replace('_', ' ')}"
         return frames_agree.report_no_frame(subject, open_frame, message)
-    return Seen(open_frame.frame, None, _carries(subject, None, None, words[MASKS:], "request"))
+    return Seen(open_frame.frame, None, _words(subject, "request", words[MASKS:]))
 
 
-def _carries(
+def _words(
     subject: Analysis,
-    request: Request | None,
-    value: tuple[int, int] | None,
-    words: tuple[int, ...],
     direction: str,
-) -> Carries:
-    """Return what finds raw numbers in a telegram: a parameter's value (number of words, number) and process data."""
-    telegrams = {name for name, (telegram, _) in subject.places.telegrams.items() if telegram.direction == direction}
-
-    def carries(point: Point) -> int | None:
-        if not point.addresses:
-            return None
-        if point.telegram is not None:
-            known = point.telegram in telegrams and max(point.addresses) < len(words)
-            return frames_agree.from_words(point, tuple(words[place] for place in point.addresses)) if known else None
-        if request is None or value is None:
-            return None
-        if (point.addresses[0], point.index or 0) != (request.parameter, request.index) or value[0] != point.words:
-            return None
-        number = value[1]
-        return frames_agree.from_words(point, (number >> 16, number & 0xFFFF) if value[0] == 2 else (number,))
-
-    return carries
+    words: tuple[int, ...],
+    request: Request | None = None,
+    value: tuple[int, ...] = (),
+) -> Words:
+    """Return the words of process data in this direction, and the value that a request is about."""
+    telegrams = [name for name, (telegram, _) in subject.places.telegrams.items() if telegram.direction == direction]
+    carried = {(name, address, 0): (word,) for name in telegrams for address, word in enumerate(words)}
+    return carried if request is None else {**carried, ("parameter", request.parameter, request.index): value}
 
 
 CHECKS = (codes_agree, parameters_are_reachable)
