@@ -29,7 +29,7 @@ ROOMS = (
     ("exact arithmetic", "arithmetic"),
     ("words for people", "wording"),
     ("the registry of families", "families"),
-    ("frames taken apart, as all families say it", "families.frame_results families.directory families.decoded_frame"),
+    ("frames taken apart, as all families say it", "families.frame_results families.decoded_frame"),
     ("facts and frames of a family", "families.*"),
     ("the table of facts", "facts"),
     ("the facts of a bus that only a family has", "families.*.bus_facts"),

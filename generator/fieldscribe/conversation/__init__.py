@@ -6,7 +6,7 @@ The modules, in the order in which they build on each other:
 - `typed_values`, `refusals`, `encoding`: a typed value into a raw number and frames, or the reason why not
 - `meanings`: a raw number into words
 - `explanation`, `explain_other_items`: all facts of a point, and of what is no point
-- `decode_state`, `address_items`, `telegram_items`, `frame_warnings`, `decoder`: frames into results
+- `decode_state`, `address_items`, `telegram_items`, `decoder`: frames into results
 
 What depends on the family is in the parts `frame_decoder` and `frame_builder` of its folder.
 """

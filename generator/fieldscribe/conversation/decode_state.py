@@ -1,19 +1,20 @@
-"""What decoding keeps from frame to frame: texts of points, and the numbers that frames have brought so far."""
+"""What decoding knows of points: their addresses, their texts, and the numbers that frames have brought so far."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
 
-from fieldscribe.arithmetic.codec import Settings
+from fieldscribe.arithmetic.codec import Settings, setting_of
+from fieldscribe.conditions import absent
 from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import written_remarks
 from fieldscribe.conversation.selection import absence, same_meaning
-from fieldscribe.families.directory import Directory
+from fieldscribe.families import family
 from fieldscribe.families.frame_results import Item
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device, Place, Point
 from fieldscribe.text import line
 from fieldscribe.wording import label, title_text
 
@@ -25,6 +26,73 @@ PARAMETER = "parameter"
 
 _MOST_ITEMS = 64
 """How many items of one point are cached: a stream may last for days."""
+
+
+Where = tuple[str, int, int]
+"""The space or the telegram, the address, and the index that travels with it (0 without one)."""
+
+PointPlace = tuple[Point, Place]
+
+
+class Directory:
+    """The points of a device by address: those that are read there, and those that are written there."""
+
+    def __init__(self, device: Device) -> None:
+        self._at: dict[Where, list[PointPlace]] = {}
+        self._points: dict[Where, list[Point]] = {}
+        indexed = family(device.family).indexed
+        # points that the chosen variants lack come last, so that present points win their places
+        for point in sorted(device.points, key=lambda point: absent(point.when, device.variants)):
+            for place in point.places:
+                index = (point.index or 0) if point.space in indexed else 0
+                for address in place.addresses:
+                    here = self._at.setdefault((point.telegram or point.space, address, index), [])
+                    if not (here and absent(point.when, device.variants)):
+                        here.append((point, place))
+        places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
+        for point in device.points:
+            places.setdefault(point.name, set()).add((point.addresses, point.index))
+        rules = {name for point in device.points for name in point.arguments}
+        self._settings = {name for name in rules if len(places.get(name, ())) == 1}
+        named = ((point.telegram or "", point) for point in device.points if point.addresses)
+        self._firsts = {(telegram, point.name): point.addresses[0] for telegram, point in named}
+        self._derived: dict[str, list[Point]] = {}
+        for point in device.points:
+            for name in point.changes_with:
+                self._derived.setdefault(name, []).append(point)
+
+    def places(self, where: str, address: int, index: int = 0) -> list[PointPlace]:
+        """Return the points that have a word at this address, each with its place."""
+        return self._at.get((where, address, index), [])
+
+    def at(self, where: str, address: int, index: int = 0) -> list[Point]:
+        """Return the points that have a word at this address."""
+        place = where, address, index
+        if place not in self._points and place in self._at:  # as many as the device has
+            self._points[place] = list({point.item: point for point, _ in self._at[place]}.values())
+        return self._points.get(place, [])
+
+    def starting_at(self, where: str, address: int) -> list[PointPlace]:
+        """Return the points whose lowest address is this, each with its place."""
+        return [(point, place) for point, place in self.places(where, address) if min(place.addresses) == address]
+
+    def first(self, telegram: str, name: str) -> int | None:
+        """Return the first address of a point of the telegram; None if the telegram has no such point."""
+        return self._firsts.get((telegram, name))
+
+    def derived(self, name: str) -> list[Point]:
+        """Return the points whose values the device computes again when the named point is written."""
+        return self._derived.get(name, [])
+
+    def settings(self, raws: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
+        """Yield the settings that raw numbers give to rules, without points whose variants have several places."""
+        for point, raw in raws:
+            if self.teaches(point):
+                yield point.name, setting_of(point, raw)
+
+    def teaches(self, point: Point) -> bool:
+        """Return True if the raw number of a point is a setting that some rule needs."""
+        return point.name in self._settings
 
 
 class PointFormatter:
@@ -70,28 +138,14 @@ class PointFormatter:
         )  # fmt: skip
 
 
-class PointTextCache:
-    """The formatters of a device's points, each made once."""
-
-    def __init__(self, device: Device, directory: Directory) -> None:
-        self.device, self.directory = device, directory
-        self._formatters: dict[tuple[str, Base, bool], PointFormatter] = {}
-
-    def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
-        """Return the formatter of a point at this place."""
-        key = point.item, base, written
-        if key not in self._formatters:
-            self._formatters[key] = PointFormatter(self.device, point, base, written=written)
-        return self._formatters[key]
-
-
 @dataclass(slots=True)
 class DecodeState:
     """What the frames of one unit have brought: numbers for rules, words of parameters, and incomplete points."""
 
     device: Device
     directory: Directory
-    texts: PointTextCache
+    formatters: dict[tuple[str, Base, bool], PointFormatter]
+    """The formatters that all units of the device share, each made once."""
     given: Mapping[str, int | Fraction]
     settings: dict[str, int | Fraction]
     """The numbers for rules: those that the user gave, else those of frames."""
@@ -125,7 +179,14 @@ class DecodeState:
 
     def value(self, point: Point, base: Base, raw: int, *, written: bool = False) -> Item:
         """Return a point with the meaning of its raw number."""
-        return self.texts.formatter(point, base, written=written).item(raw, self.settings)
+        return self.formatter(point, base, written=written).item(raw, self.settings)
+
+    def formatter(self, point: Point, base: Base, *, written: bool = False) -> PointFormatter:
+        """Return the formatter of a point at this place."""
+        key = point.item, base, written
+        if key not in self.formatters:
+            self.formatters[key] = PointFormatter(self.device, point, base, written=written)
+        return self.formatters[key]
 
 
 def english_title(point: Point) -> str:

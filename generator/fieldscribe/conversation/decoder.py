@@ -1,20 +1,21 @@
-"""Decodes frames one after the other: each with what the frames before it have brought."""
+"""Decodes frames one after the other: each with what the frames before it have brought, and with warnings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.conversation.address_items import element_items, span_items, word_items
-from fieldscribe.conversation.decode_state import DecodeState, PointTextCache
+from fieldscribe.conversation.decode_state import DecodeState, Directory, PointFormatter
 from fieldscribe.conversation.encoding import family_part
-from fieldscribe.conversation.frame_warnings import FrameWarnings
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
 from fieldscribe.families.decoded_frame import (
     MOST_STATES,
     CutFrame,
+    DecodedFrame,
     Element,
     FrameDecoder,
     Masks,
@@ -24,9 +25,12 @@ from fieldscribe.families.decoded_frame import (
     Span,
     Word,
 )
-from fieldscribe.families.directory import Directory
 from fieldscribe.families.frame_results import FrameResult, Item, Options
-from fieldscribe.model import Device
+from fieldscribe.model import Device, Frame
+from fieldscribe.text import line
+from fieldscribe.wording import label
+from fieldscribe.wording.exact import hex_text
+from fieldscribe.wording.frames import spaced
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
     Span: span_items,
@@ -57,12 +61,13 @@ class StreamDecoder:
 
     def __init__(self, device: Device, settings: Settings, frame_decoder: FrameDecoder) -> None:
         given, directory = dict(settings), Directory(device)
-        texts = PointTextCache(device, directory)
-        self._frame_decoder = frame_decoder
-        self._warnings = FrameWarnings(device, directory)
+        formatters: dict[Any, PointFormatter] = {}
+        self._frame_decoder, self._framings, self._directory = frame_decoder, device.bus.framings, directory
+        misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
+        self._misprints = {frame.printed: frame for frame in misprinted}
         self._open_requests = OpenRequests()
         self._state_of_unit = lru_cache(MOST_STATES)(
-            lambda _unit: DecodeState(device, directory, texts, given, dict(given))
+            lambda _unit: DecodeState(device, directory, formatters, given, dict(given))
         )
 
     def requests(self, options: Options) -> list[FrameResult]:
@@ -81,7 +86,39 @@ class StreamDecoder:
         state = self._state_of_unit(decoded.unit)
         items = tuple([item for content in decoded.contents for item in _ITEMS[type(content)](state, content)])
         self._open_requests.follow(decoded, expecting=expecting)
-        notes = self._warnings.notes(decoded)
-        if isinstance(frame, CutFrame):
-            notes = (*notes, frame.note)
-        return decoded.with_items(items, self._warnings.findings(decoded), notes)
+        result, findings = decoded.result, decoded.result.findings
+        if self._framings and result.framing not in self._framings:  # the device does not use it
+            findings = (*findings, f"the manual knows only {' and '.join(self._framings).upper()} frames")
+        notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, CutFrame) else ()))
+        return replace(result, items=items, findings=findings, notes=result.notes + notes)
+
+    def _warnings(self, decoded: DecodedFrame) -> Iterator[str]:
+        """Yield what may be a mistake in a frame: an address that counts from 1, a misprint of the manual."""
+        for content in decoded.contents if decoded.request else ():
+            if isinstance(content, Span):
+                yield from _off_by_one(self._directory, content)
+        misprint = self._misprints.get(decoded.result.data)
+        if misprint is not None:
+            yield _misprint_text(misprint)
+
+
+def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
+    """Return a note if a point starts one below the address, and none at it: probably a Modicon number (from 1)."""
+    if span.address == 0 or directory.starting_at(span.space, span.address):
+        return
+    for point, place in directory.starting_at(span.space, span.address - 1):
+        if len(place.addresses) > span.count:
+            continue
+        keys = [key for key, number in place.references.items() if number == span.address]
+        named = f"{span.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
+        below = hex_text(span.address - 1)
+        yield (
+            f"no point starts at {hex_text(span.address)}, but one less, {below}, is {label(point)}: {named}on "
+            "the wire addresses count from 0, so this frame may be one too high"
+        )
+
+
+def _misprint_text(frame: Frame) -> str:
+    """Return the note for a frame that the manual prints with this very error."""
+    known = f" (errata: {', '.join(frame.errata)})" if frame.errata else ""
+    return line(f"the manual prints exactly these bytes as {frame.name}{known}; right is {spaced(frame.corrected)}")

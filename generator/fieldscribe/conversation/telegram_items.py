@@ -79,7 +79,7 @@ def piece_items(state: DecodeState, piece: Piece) -> list[Item]:
         for point in points:
             if place != min(position for position in point.addresses if position in piece.positions):
                 continue
-            formatter = state.texts.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
+            formatter = state.formatter(point, (telegram, min(point.addresses), len(point.addresses)))
             raw = raws[point.item]
             if raw is None:
                 items.append(named_item(point, formatter.base, _incomplete_text(state, piece, point, formatter)))

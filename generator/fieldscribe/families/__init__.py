@@ -8,7 +8,7 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 - `reading.py`: `READING` turns these keys into facts of the model.
 - `checks.py`: `CHECKS` report what only this family can get wrong; `read` reads a worked example.
 - `frames.py` (Modbus also `exchange.py`; USS `telegrams.py` and `parts.py`) builds and parses bytes; pure functions.
-- `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has its sentences.
+- `frame_decoder.py`: `decoder_of(device, options)` decodes pasted frames; `remarks.py` has longer lists of sentences.
 - `frame_builder.py`: `frames_for`, `read_text` and `way_to_write` build the frames that read and write a point.
 - `bus_facts.py`: what the documentation and exports say of the bus.
 - `targets/<target>.py`: what the generated code of one target needs: profile, requests, tables, test vectors.

@@ -7,7 +7,7 @@ device and makes a `FrameResult` of it.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from fieldscribe.families.frame_results import FrameResult, Item
@@ -118,11 +118,6 @@ class DecodedFrame:
     unanswered: bool = False
     answers: bool = False
     stays_open: bool = False
-
-    def with_items(self, items: tuple[Item, ...], findings: tuple[str, ...], notes: tuple[str, ...]) -> FrameResult:
-        """Return the result with the items of its points, and with more findings and notes."""
-        result = self.result
-        return replace(result, items=items, findings=result.findings + findings, notes=result.notes + notes)
 
 
 @dataclass(slots=True)

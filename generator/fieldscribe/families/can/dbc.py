@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from fieldscribe import __version__
 from fieldscribe.export import ExportError
 from fieldscribe.families.can import of_bus
-from fieldscribe.families.can.dbc_signals import DbcMessage, messages_of
+from fieldscribe.families.can.dbc_signals import DbcMessage, Signal, messages_of
 from fieldscribe.model import Device
 from fieldscribe.text import dbc_string
 
@@ -56,8 +56,17 @@ def _lines(device: Device, unit: int, messages: list[DbcMessage]) -> Iterator[st
     yield from _comments(device, messages)
     yield from _ATTRIBUTES
     yield from _attributes(device, messages)
-    yield from _value_tables(messages)
-    yield from _multiplexing(messages)
+    for message in messages:
+        for signal in message.signals:
+            if signal.values:
+                named = " ".join(f"{raw} {dbc_string(name)}" for raw, name in signal.values)
+                yield f"VAL_ {message.id} {signal.short} {named} ;"
+    for message in messages:
+        shorts = {signal.name: signal.short for signal in message.signals}
+        for signal in message.signals:
+            if signal.switch is not None:
+                name, value = signal.switch
+                yield f"SG_MUL_VAL_ {message.id} {signal.short} {shorts[name]} {value}-{value};"
 
 
 def _message(message: DbcMessage, node: str) -> Iterator[str]:
@@ -78,11 +87,9 @@ def _comments(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
         f"({device.digest[:16]}); it belongs to whoever runs it (0BSD)"
     )
     yield f"CM_ {dbc_string(head)};"
-    for message in messages:
-        yield f"CM_ BO_ {message.id} {dbc_string(message.comment)};"
-        for signal in message.signals:
-            if signal.comment:
-                yield f"CM_ SG_ {message.id} {signal.short} {dbc_string(signal.comment)};"
+    for _, place, thing in _things(messages):
+        if thing.comment:
+            yield f"CM_ {place} {dbc_string(thing.comment)};"
 
 
 def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
@@ -90,26 +97,13 @@ def _attributes(device: Device, messages: list[DbcMessage]) -> Iterator[str]:
     bitrate = of_bus(device.bus).bitrate
     if bitrate is not None:
         yield f'BA_ "Baudrate" {bitrate};'
+    for kind, place, thing in _things(messages):
+        if thing.name != thing.short:
+            yield f'BA_ "System{kind}LongSymbol" {place} {dbc_string(thing.name)};'
+
+
+def _things(messages: list[DbcMessage]) -> Iterator[tuple[str, str, DbcMessage | Signal]]:
+    """Yield each message and its signals: the kind, how a line of the database names it, and the thing."""
     for message in messages:
-        if message.name != message.short:
-            yield f'BA_ "SystemMessageLongSymbol" BO_ {message.id} {dbc_string(message.name)};'
-        for signal in message.signals:
-            if signal.name != signal.short:
-                yield f'BA_ "SystemSignalLongSymbol" SG_ {message.id} {signal.short} {dbc_string(signal.name)};'
-
-
-def _value_tables(messages: list[DbcMessage]) -> Iterator[str]:
-    for message in messages:
-        for signal in message.signals:
-            if signal.values:
-                named = " ".join(f"{raw} {dbc_string(name)}" for raw, name in signal.values)
-                yield f"VAL_ {message.id} {signal.short} {named} ;"
-
-
-def _multiplexing(messages: list[DbcMessage]) -> Iterator[str]:
-    for message in messages:
-        shorts = {signal.name: signal.short for signal in message.signals}
-        for signal in message.signals:
-            if signal.switch is not None:
-                name, value = signal.switch
-                yield f"SG_MUL_VAL_ {message.id} {signal.short} {shorts[name]} {value}-{value};"
+        yield "Message", f"BO_ {message.id}", message
+        yield from (("Signal", f"SG_ {message.id} {signal.short}", signal) for signal in message.signals)

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from fieldscribe.families.can import remarks
 from fieldscribe.families.can.frames import (
     LENGTH,
     CanFrame,
@@ -23,10 +22,13 @@ from fieldscribe.families.can.notation import Pasted, read_frames, read_identifi
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.decoded_frame import MOST_STATES, DecodedFrame, OpenRequests, Piece, Word
 from fieldscribe.families.frame_results import FrameResult, Options
-from fieldscribe.model import Device, Message, Telegram
+from fieldscribe.model import Bus, Device, Message, Telegram
+from fieldscribe.text import line
+from fieldscribe.wording import address_text
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import check_text, strange_unit
+from fieldscribe.wording.frames import check_text, hex_words, strange_unit
 
+_DAMAGED = "its words are not read, for the frame is damaged"
 _KINDS = {"request": "request", "response": "reply"}
 
 
@@ -76,7 +78,7 @@ class CanFrameDecoder:
         message, frame = head.message, pasted.frame
         telegram = self._telegrams.get(message.name)
         about = {"parameter": head.address} if telegram is None else {"multiplexer": head.slot}
-        text = remarks.message_text(head, frame.id, telegram)
+        text = _message_text(head, frame.id, telegram)
         details = {"can_id": frame.id, "message": message.name, **about}
         return FrameResult(
             frame.data,
@@ -86,7 +88,7 @@ class CanFrameDecoder:
             None,
             text,
             checks=check_text(*sums(message, frame.data)) if carries(message, "xor") else "",
-            faults=tuple(remarks.faults(head, self._device.bus)),
+            faults=tuple(_faults(head, self._device.bus)),
             details=details,
             captured=pasted,
         )
@@ -94,9 +96,10 @@ class CanFrameDecoder:
     def _cyclic(self, head: Head, pasted: Pasted, telegram: Telegram) -> DecodedFrame:
         message, result = head.message, self._result(head, pasted)
         if head.slot * message.words >= (telegram.words if message.words else 0):
-            return DecodedFrame(replace(result, findings=(remarks.multiplexer_finding(message, telegram),)))
+            last = -(-telegram.words // max(1, message.words)) - 1
+            return DecodedFrame(replace(result, findings=(f"the manual knows multiplexers 0 to {last} only",)))
         if head.differences or head.wrong_sum:
-            return DecodedFrame(replace(result, notes=(remarks.DAMAGED,)))
+            return DecodedFrame(replace(result, notes=(_DAMAGED,)))
         receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
         return DecodedFrame(result, (piece,), head.unit)
@@ -121,7 +124,7 @@ class CanFrameDecoder:
             return DecodedFrame(result, (word,), head.unit, message.name, request=about)
         exchange = message.answers or ""
         open_request: ParameterWord | None = requests.request(head.unit, exchange)
-        findings = () if open_request is None else tuple(remarks.answer_findings(open_request, about))
+        findings = () if open_request is None else tuple(_answer_findings(open_request, about))
         answers = open_request is not None and open_request.address == about.address
         result = replace(result, findings=findings) if findings else result
         return DecodedFrame(result, (word,), head.unit, exchange, answers=answers)
@@ -134,11 +137,11 @@ class CanFrameDecoder:
         result = FrameResult(frame.data, "can", "other", None, None, text, details=details, captured=pasted)
         senders = list(_senders(self._device, frame))
         if senders:
-            fault = remarks.unknown_kind(pasted, [message for message, _ in senders])
+            fault = _unknown_kind(pasted, [message for message, _ in senders])
             text, unit = f"{text}: not readable", senders[0][1]
             result = replace(result, kind="unreadable", unit=unit, summary=text, faults=(fault,))
         else:
-            notes = (remarks.foreign_note(self._device),)
+            notes = (_foreign_note(self._device),)
             result = replace(result, summary=f"{text}: not of this device", notes=notes)
         return DecodedFrame(result)
 
@@ -161,3 +164,63 @@ def _fits(message: Message, frame: CanFrame) -> bool:
     """Return True if the first constant byte is that of the message; else it is another message."""
     first = next(iter(places(message, "constant")), None)
     return first is None or frame.data[first] == message.roles[first].number
+
+
+def _message_text(head: Head, identifier: int, telegram: Telegram | None) -> str:
+    """Return a frame in one line: `CAN 321h, unit 1, visualisation: multiplexer 0, words 0 to 2 (nr 1 to 3)`."""
+    message = head.message
+    unit = "" if head.unit is None else f", unit {head.unit}"
+    name = f"CAN {hex_text(identifier, 3)}{unit}, {message.name}"
+    if head.address is not None:
+        return f"{name}: parameter {address_text(head.address)}"
+    if telegram is None:
+        return line(f"{name}: {message.title['en']}")
+    first = head.slot * message.words
+    where = f"multiplexer {head.slot}, " if carries(message, "multiplexer") else ""
+    return f"{name}: {where}words {first} to {first + message.words - 1} of {telegram.name}"
+
+
+def _foreign_note(device: Device) -> str:
+    """Return the identifiers of the messages: `33Fh read_request, write_request; 320h to 33Eh visualisation, ...`."""
+    low, high = device.bus.units
+    names: dict[str, list[str]] = {}
+    for message in device.messages:
+        where = hex_text(message.identifier, 3)
+        if message.adds_unit:
+            where = f"{hex_text(message.identifier + low, 3)} to {hex_text(message.identifier + high, 3)}"
+        names.setdefault(where, []).append(message.name)
+    known = "; ".join(f"{where} {', '.join(here)}" for where, here in names.items())
+    return f"no message of {device.id} has this identifier: {known}"
+
+
+def _faults(head: Head, bus: Bus) -> Iterator[str]:
+    """Yield what is wrong with a frame as this message."""
+    if head.foreign:
+        yield strange_unit(bus, head.unit or 0)
+    for byte in head.differences:
+        here, due = hex_text(byte.here, 2), hex_text(byte.due, 2)
+        yield f"byte {byte.place} is {here}, in this message it is {due}"
+    if head.wrong_sum:
+        yield "the checksum is wrong"
+
+
+def _answer_findings(request: ParameterWord, answer: ParameterWord) -> Iterator[str]:
+    """Yield how an answer contradicts the request before it."""
+    if request.address != answer.address:
+        yield f"the request before asked for parameter {request.address}, this answers {answer.address}"
+    elif request.raw is not None and request.raw != answer.raw:
+        was, came = (hex_words((word or 0,)) for word in (request.raw, answer.raw))
+        yield f"it does not repeat what was written: {was} was, {came} came back"
+
+
+def _unknown_kind(pasted: Pasted, messages: Sequence[Message]) -> str:
+    """Return why a frame is none of the messages with its identifier."""
+    frame = pasted.frame
+    if pasted.remote:
+        return "a remote request carries no data, and the manual knows none"
+    if len(frame.data) != LENGTH:
+        return f"every message has {LENGTH} bytes, here are {len(frame.data)}"
+    known = [(at, message) for message in messages for at in places(message, "constant")[:1]]
+    place = known[0][0] if known else 0
+    names = ", ".join(f"{hex_text(message.roles[at].number, 2)} {message.name}" for at, message in known)
+    return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"
