@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import pytest
 from fieldscribe import pipeline
-from fieldscribe.cli import decoded_frames, main
+from fieldscribe.cli import main
 from fieldscribe.conversation import decode_state, meanings
 from support.described import shipped
 from support.places import ROOT
@@ -121,7 +121,6 @@ def test_what_is_remembered_gives_way_and_nothing_else_changes(
     for module, limit in (
         (decode_state, "_MOST_ITEMS"),
         (meanings, "_MOST_NUMBERS"),
-        (decoded_frames, "_MOST_LABELS"),
     ):
         monkeypatch.setattr(module, limit, 1)
     assert decode("-", given=text) == told

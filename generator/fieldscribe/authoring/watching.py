@@ -95,19 +95,15 @@ class Watch:
         generation = Generation(self.out, self.targets, report, self.debug, self.known)
         generation.load(device_files)
         loaded = {file for file, _ in generation.devices.values()}
-        wrong = _errors(report)
+        wrong = report.count_of("error")
         trouble = None
         try:
             generation.write(self.waiting, None, force=False)
         except OSError as error:
             trouble = error
-        self.failed = set(device_files) - (set() if trouble or _errors(report) > wrong else loaded)
+        self.failed = set(device_files) - (set() if trouble or report.count_of("error") > wrong else loaded)
         names, lost = ([_name(file) for file in files] for files in (device_files, gone))
         return Outcome(names, lost, report, generation.result, monotonic() - start, trouble)
-
-
-def _errors(report: Report) -> int:
-    return sum(finding.severity == "error" for finding in report.findings)
 
 
 def _name(device_file: Path) -> str:

@@ -54,25 +54,18 @@ class _Text(NamedTuple):
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     add_device(parser, variants=False)
-    parser.add_argument(
+    add(
         "--manual", type=some_path, required=True, metavar="FILE", help="the manual's text, or the folder that holds it"
     )
-    parser.add_argument(
-        "--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report"
-    )
-    parser.add_argument(
-        "--old", type=some_path, metavar="FILE", help="the text of the edition before: list every line that differs"
-    )
-    parser.add_argument(
-        "--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description"
-    )
-    parser.add_argument(
-        "--accept", action="store_true", help="with --old: record the new text, if every cited fact stands in it"
-    )
+    add("--report", "--format", dest="format", choices=("text", "json", "html"), default="text", help="how to report")
+    add("--old", type=some_path, metavar="FILE", help="the text of the edition before: list every line that differs")
+    add("--renumber", action="store_true", help="with --old: write the new numbers of cited lines into the description")
+    add("--accept", action="store_true", help="with --old: record the new text, if every cited fact stands in it")
     for key in ("file", "edition"):
-        parser.add_argument(f"--{key}", metavar="TEXT", help=f"with --accept: the `{key}` of the document to record")
-    parser.add_argument("--all", action="store_true", help="list also sections and rows that nothing cites")
+        add(f"--{key}", metavar="TEXT", help=f"with --accept: the `{key}` of the document to record")
+    add("--all", action="store_true", help="list also sections and rows that nothing cites")
 
 
 def run(arguments: Namespace) -> int:

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
@@ -62,6 +62,12 @@ def add_format(parser: ArgumentParser, more: tuple[str, ...] = (), remark: str =
     )
 
 
+def add_repeated(parser: ArgumentParser, name: str, metavar: str, help_text: str, **more: Any) -> None:
+    """Add an option whose values make a list, because it may be repeated."""
+    help_text += "; may be repeated"
+    parser.add_argument(name, action="append", default=[], metavar=metavar, help=help_text, **more)
+
+
 def add_paths(parser: ArgumentParser) -> None:
     """Add the PATH arguments; `description_paths` resolves them."""
     parser.add_argument(
@@ -80,8 +86,7 @@ def add_device(parser: ArgumentParser, *, variants: bool = True, optional: bool 
     parser.add_argument("device", nargs="?" if optional else None, metavar="DEVICE", help=help_text)
     add_descriptions(parser)
     if variants:
-        help_text = "choose a variant, as in voltage_class=400V; may be repeated"
-        parser.add_argument("--variant", action="append", default=[], metavar="AXIS=VALUE", help=help_text)
+        add_repeated(parser, "--variant", "AXIS=VALUE", "choose a variant, as in voltage_class=400V")
 
 
 def add_descriptions(parser: ArgumentParser) -> None:

@@ -62,16 +62,9 @@ complete -c fieldscribe -f -a '(__fieldscribe_words)'
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument(
-        "shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (their scripts call `words`)"
-    )
-    parser.add_argument(
-        "typed",
-        nargs="*",
-        default=[],
-        metavar="WORD",
-        help="with `words`: what is typed, the last word in part",
-    )
+    add = parser.add_argument
+    add("shell", choices=(*SCRIPTS, "words"), metavar="SHELL", help="bash, zsh or fish (their scripts call `words`)")
+    add("typed", nargs="*", default=[], metavar="WORD", help="with `words`: what is typed, the last word in part")
 
 
 def run(arguments: Namespace) -> int:

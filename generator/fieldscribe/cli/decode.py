@@ -5,12 +5,12 @@ from __future__ import annotations
 import gc
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from io import BufferedIOBase
 from itertools import groupby
 from typing import cast
 
-from fieldscribe.cli.common import StopError, add_device, add_format, open_device, usage_error
+from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, usage_error
 from fieldscribe.cli.decoded_frames import FramePrinter, frame_printer
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
 from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
@@ -45,31 +45,25 @@ _GC_THRESHOLD = 100_000
 """The new objects after which a stream collects garbage; the default is too often for short-lived texts."""
 _MOST_MESSAGES = 10
 """How many lines that are no frames get a message of their own."""
-_CHUNK = 1 << 16
 _LONGEST_LINE = 1 << 16
 """The bytes of a line that are read; a longer line ends in dots, and so is no frame."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     add_device(parser)
-    parser.add_argument(
+    add(
         "frames",
         nargs="*",
         metavar="FRAME",
         help='bytes in hexadecimal: "05 06 10 28", 05061028, 0x05,0x06, 05:06; CAN: 321#DD00, lines of candump; '
         "- reads frames from standard input, one a line",
     )
-    parser.add_argument(
-        "--log",
-        action="append",
-        default=[],
-        metavar="FILE",
-        help="read frames from a file, one a line; may be repeated",
-    )
-    parser.add_argument("--request", metavar="FRAME", help="the request that the frames answer")
+    add_repeated(parser, "--log", "FILE", "read frames from a file, one a line")
+    add("--request", metavar="FRAME", help="the request that the frames answer")
     add_framing(parser, "rtu or tcp by the bytes; uss")
-    parser.add_argument("--unit", type=int, metavar="N", help="only frames to or from this unit")
+    add("--unit", type=int, metavar="N", help="only frames to or from this unit")
     add_family_options(parser, "decode")
     add_with(parser)
     add_format(parser, ("jsonl",), "; json is one object, jsonl one object a line")
@@ -128,13 +122,14 @@ class _Output:
         """Decode the lines of a stream, and print each before waiting for the next; skip lines that are no frames."""
         gc.set_threshold(_GC_THRESHOLD)
         gc.enable()  # a stream may last for days
-        for number, text in stream_lines(stream, sys.stdout.flush):
+        for number, text in enumerate(_lines(stream), 1):
             try:
-                self.print(self._decoder.pasted([text]))
+                self.print(self._decoder.pasted([text]) if text else ())
             except UnclearError as error:
                 self._unread += 1
                 if self._unread <= _MOST_MESSAGES:
                     usage_error(f"{name}:{number}: {error.message}", error.hint if self._unread == 1 else "")
+            sys.stdout.flush()
         gc.disable()
 
     def end(self) -> int:
@@ -145,32 +140,11 @@ class _Output:
         return USAGE if self._unread else FINDINGS if self._wrong else FINE
 
 
-def stream_lines(stream: BufferedIOBase, before_waiting: Callable[[], object]) -> Iterator[tuple[int, str]]:
-    """Return the lines of a stream that are not blank, with their numbers, in constant memory.
-
-    `before_waiting` is called each time all that has arrived is decoded.
-    """
-    rest, number = b"", 0
-    for chunk in _chunks(stream, before_waiting):
-        *whole, rest = (rest + chunk).splitlines(keepends=True)
-        if rest.endswith(b"\n"):
-            whole, rest = [*whole, rest], b""
-        rest = rest[: _LONGEST_LINE + 1]
-        for line in whole:
-            number += 1
-            if line.strip():
-                yield number, _decoded(line, number)
-    if rest.strip():
-        yield number + 1, _decoded(rest, number + 1)
-
-
-def _decoded(line: bytes, number: int) -> str:
-    text = line[:_LONGEST_LINE].decode("utf-8", "replace").strip()
-    text = text.removeprefix("\ufeff") if number == 1 else text
-    return text if len(line) <= _LONGEST_LINE else f"{text}..."
-
-
-def _chunks(stream: BufferedIOBase, before_waiting: Callable[[], object]) -> Iterator[bytes]:
-    while chunk := stream.read1(_CHUNK):
-        yield chunk
-        before_waiting()
+def _lines(stream: BufferedIOBase) -> Iterator[str]:
+    """Yield the lines of a stream without their blanks, each as it arrives, in constant memory."""
+    while line := stream.readline(_LONGEST_LINE + 1):
+        rest = line
+        while rest and not rest.endswith(b"\n"):
+            rest = stream.readline(_LONGEST_LINE)
+        text = line[:_LONGEST_LINE].decode("utf-8-sig", "replace").strip()
+        yield text if len(line) <= _LONGEST_LINE else f"{text}..."

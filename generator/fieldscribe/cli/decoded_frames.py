@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import json
 import sys
-from functools import lru_cache
 from typing import Protocol
 
-from fieldscribe.cli.terminal import is_coloured, print_rows
+from fieldscribe.cli.terminal import print_rows
 from fieldscribe.families.frame_results import FrameResult, bits_label
 from fieldscribe.model import Device
 from fieldscribe.report import visible
 from fieldscribe.wording.frames import spaced
-
-_MOST_LABELS = 256
-"""How many labels of rows are cached."""
 
 
 class FramePrinter(Protocol):
@@ -40,20 +36,13 @@ class _TextPrinter:
 
     def __init__(self, device: Device) -> None:
         labels = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
-        width = max(map(len, labels | {"Checksum"}))
-        self._margin = lru_cache(_MOST_LABELS)(lambda label: f"\n  {label:<{width}}  ")
-        self._coloured = is_coloured(sys.stdout)
+        self._width = max(map(len, labels | {"Checksum"}))
         self._separator = ""
 
     def frame(self, result: FrameResult) -> None:
         heading = spaced(result.data) if result.captured is None else visible(result.captured.text)
-        rows = _rows(result)
-        if self._coloured:
-            sys.stdout.write(self._separator)
-            print_rows(heading, rows)
-        else:  # print_rows would ask for the widest label of each frame
-            lines = [self._margin(label) + text for label, text in rows]
-            sys.stdout.write(f"{self._separator}{heading}{''.join(lines)}\n")
+        sys.stdout.write(self._separator)
+        print_rows(heading, _rows(result), width=self._width)
         self._separator = "\n"
 
     def end(self, nothing: str) -> None:

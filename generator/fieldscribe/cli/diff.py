@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
 from pathlib import Path
 
-from fieldscribe.differences.changes import CLASSES, Comparison
+from fieldscribe.cli.common import StopError, description_paths, print_json, report_findings
+from fieldscribe.cli.rewriting import rewrite
+from fieldscribe.cli.terminal import print_lines
+from fieldscribe.diagnostics import Report
+from fieldscribe.differences.aliases import with_aliases
+from fieldscribe.differences.changes import CLASSES, Comparison, as_data, compared
+from fieldscribe.differences.rendering import as_markdown, as_text
+from fieldscribe.differences.sides import EXPORT_HINT, opened
+from fieldscribe.report import visible
 
 EXAMPLE = """examples:
   fieldscribe diff HEAD~1:descriptions/hitachi_l200 descriptions/hitachi_l200
@@ -24,29 +33,21 @@ _LEAST = {"breaking": 2, "behaviour": 3, "any": len(CLASSES)}
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
+    add = parser.add_argument
     what = "a device's id, a folder of one device or of several, a file, an exported model, or GIT-REVISION:PATH"
-    parser.add_argument("old", metavar="OLD", help=what)
-    parser.add_argument("new", metavar="NEW", help="the same; they may be of different kinds")
-    parser.add_argument(
-        "--fail-on", choices=tuple(_LEAST), default="any", help="which differences end with 1 (default: any)"
-    )
-    parser.add_argument(
+    add("old", metavar="OLD", help=what)
+    add("new", metavar="NEW", help="the same; they may be of different kinds")
+    add("--fail-on", choices=tuple(_LEAST), default="any", help="which differences end with 1 (default: any)")
+    add(
         "--keep-names",
         action="store_true",
         help="write `was: [OLD NAME]` to renamed points of NEW, so that the old names stay as deprecated aliases",
     )
-    parser.add_argument(
-        "--format", choices=("text", "json", "markdown"), default="text", help="how to report (default: text)"
-    )
+    add("--format", choices=("text", "json", "markdown"), default="text", help="how to report (default: text)")
 
 
 def run(arguments: Namespace) -> int:
     """Compare and report; return the exit code."""
-    from fieldscribe.cli.common import StopError, report_findings
-    from fieldscribe.diagnostics import Report
-    from fieldscribe.differences.changes import compared
-    from fieldscribe.differences.sides import EXPORT_HINT, opened
-
     report = Report()
     exported: list[str] = []
     try:
@@ -72,8 +73,6 @@ def run(arguments: Namespace) -> int:
 
 def _known(argument: str) -> str:
     """Return the argument, or the folder of the device that it names. Raises StopError."""
-    from fieldscribe.cli.common import StopError, description_paths
-
     if not argument:
         raise StopError("the path is empty")
     if ":" in argument:
@@ -82,17 +81,9 @@ def _known(argument: str) -> str:
 
 
 def _print(form: str, comparisons: list[Comparison]) -> None:
-    from fieldscribe.cli.common import print_json
-    from fieldscribe.cli.terminal import print_lines
-
     if form == "json":
-        from fieldscribe.differences.changes import as_data
-
         print_json(as_data(comparisons))
-        return
-    from fieldscribe.differences.rendering import as_markdown, as_text
-
-    if form == "markdown":
+    elif form == "markdown":
         print("\n".join(as_markdown(comparisons)))
     else:
         print_lines(list(as_text(comparisons)))
@@ -100,13 +91,6 @@ def _print(form: str, comparisons: list[Comparison]) -> None:
 
 def _keep_names(argument: str, comparisons: list[Comparison]) -> bool:
     """Write `was` to the renamed points; return True if anything was written. Raises StopError."""
-    import sys
-
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.cli.rewriting import rewrite
-    from fieldscribe.differences.aliases import with_aliases
-    from fieldscribe.report import visible
-
     if any(each.new and (each.new.described is None or each.new.copied) for each in comparisons):
         raise StopError(f"--keep-names writes to a description, `{argument}` is none", "name a folder or a file as NEW")
     written = False

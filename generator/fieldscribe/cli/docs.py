@@ -23,15 +23,14 @@ ends with 1, too, when a device has errors or a foreign file is in the way; noth
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument(
-        "devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml"
-    )
+    add = parser.add_argument
+    add("devices", nargs="+", metavar="DEVICE", help="ids of devices, or paths of their folders or device.yaml")
     add_descriptions(parser)
     forms = "; ".join(f"{form}: {what}" for form, what in FORMATS.items())
-    parser.add_argument("--format", choices=tuple(FORMATS), required=True, help=forms)
-    parser.add_argument("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
-    parser.add_argument("--check", action="store_true", help="write nothing; say what is not as it should be")
-    parser.add_argument("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
+    add("--format", choices=tuple(FORMATS), required=True, help=forms)
+    add("--out", type=some_path, required=True, metavar="DIR", help="the folder that they go to")
+    add("--check", action="store_true", help="write nothing; say what is not as it should be")
+    add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
 
 
 def run(arguments: Namespace) -> int:

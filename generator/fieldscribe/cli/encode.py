@@ -35,20 +35,19 @@ ends with 2 when the command lacks something (as --with), or VALUE is no value""
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     add_device(parser)
-    parser.add_argument("point", metavar="POINT", help="its code, name or address; POINT.raw takes a raw number")
-    parser.add_argument(
+    add("point", metavar="POINT", help="its code, name or address; POINT.raw takes a raw number")
+    add(
         "value",
         metavar="VALUE",
         help='50, "50 Hz", a name from its list, on, off, flags joined by |, digits joined by commas, a text',
     )
     add_with(parser)
-    parser.add_argument("--frame", action="store_true", help="print the request frame, or all frames that it takes")
-    parser.add_argument(
-        "--unit", type=int, metavar="N", help="the unit that the frame goes to (default: 1, or the lowest)"
-    )
+    add("--frame", action="store_true", help="print the request frame, or all frames that it takes")
+    add("--unit", type=int, metavar="N", help="the unit that the frame goes to (default: 1, or the lowest)")
     add_framing(parser, "the device's first")
-    parser.add_argument("--index", type=int, metavar="N", help="uss: the element of an array")
+    add("--index", type=int, metavar="N", help="uss: the element of an array")
     add_family_options(parser, "encode")
     add_format(parser)
 

@@ -37,17 +37,16 @@ ends with 2 when nothing has that code, name or address, with 1 when the chosen 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     add_device(parser)
-    parser.add_argument(
+    add(
         "what",
         metavar="WHAT",
         help="a code, a name, or an address (4136, 0x1028, 1028h); [1] after it chooses an element of an array; "
         "wire:, modicon:, code: or name: before it force one reading; can:, task:, response:, error:, function: "
         "look up frames, unit: a unit",
     )
-    parser.add_argument(
-        "--as-documented", action="store_true", help="show what the manual alone would say, without errata"
-    )
+    add("--as-documented", action="store_true", help="show what the manual alone would say, without errata")
     add_format(parser)
 
 

@@ -27,9 +27,10 @@ def _forms() -> tuple[str, ...]:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("form", choices=_forms(), metavar="FORM", help=f"the form: {' or '.join(_forms())}")
+    add = parser.add_argument
+    add("form", choices=_forms(), metavar="FORM", help=f"the form: {' or '.join(_forms())}")
     add_device(parser)
-    parser.add_argument("--unit", type=int, metavar="N", help="dbc: the unit that sends (default: 1 or the lowest)")
+    add("--unit", type=int, metavar="N", help="dbc: the unit that sends (default: 1 or the lowest)")
 
 
 def run(arguments: Namespace) -> int:

@@ -28,9 +28,10 @@ _STDIN = Path("-")
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     paths = "device ids, folders of descriptions, single files, or - (default: device.yaml here, else descriptions)"
-    parser.add_argument("paths", nargs="*", type=some_path, metavar="PATH", help=paths)
-    parser.add_argument("--check", action="store_true", help="write nothing; say what is not in its canonical form")
+    add("paths", nargs="*", type=some_path, metavar="PATH", help=paths)
+    add("--check", action="store_true", help="write nothing; say what is not in its canonical form")
     add_format(parser)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from fractions import Fraction
 
-from fieldscribe.cli.common import StopError
+from fieldscribe.cli.common import StopError, add_repeated
 from fieldscribe.conversation.typed_values import read_settings
 from fieldscribe.families import Family, families, family
 from fieldscribe.families.frame_results import Options
@@ -15,14 +15,8 @@ from fieldscribe.user_errors import RefusedError, UnclearError
 
 def add_with(parser: ArgumentParser) -> None:
     """Add `--with`, the values of other points; `settings_of` reads it."""
-    parser.add_argument(
-        "--with",
-        dest="settings",
-        action="append",
-        default=[],
-        metavar="POINT=VALUE",
-        help="what another point holds, where a scale or range depends on it; may be repeated",
-    )
+    what = "what another point holds, where a scale or range depends on it"
+    add_repeated(parser, "--with", "POINT=VALUE", what, dest="settings")
 
 
 def add_framing(parser: ArgumentParser, default: str) -> None:
@@ -72,12 +66,12 @@ def options_of(device: Device, arguments: Namespace) -> Options:
 
 def _refuse_foreign(device: Device, options: Options) -> None:
     """Refuse options that only other families take. Raises StopError."""
-    for name in _given(options):
-        takers = [bus_family.name for bus_family in families() if _takes(bus_family, name)]
+    given = [name for name in ("framing", "index") if getattr(options, name) is not None]
+    for name in (*given, *options.own):
+        takers = [bus_family.name for bus_family in families() if name in _names(bus_family)]
         if device.family not in takers:
             flag = f"--{name.replace('_', '-')}"
-            message = f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device"
-            raise StopError(message)
+            raise StopError(f"{flag} is for {' and '.join(takers)} devices; {device.id} is a {device.family} device")
     known = _framings(family(device.family))
     if options.framing is not None and options.framing not in known:
         message = f"--framing {options.framing} is not for {device.family} devices such as {device.id}"
@@ -89,12 +83,7 @@ def _framings(bus_family: Family) -> tuple[str, ...]:
     return bus_family.framings if len(bus_family.framings) > 1 else ()
 
 
-def _given(options: Options) -> list[str]:
-    """Return the names of the options that were given and not every family takes."""
-    return [name for name in ("framing", "index") if getattr(options, name) is not None] + list(options.own)
-
-
-def _takes(bus_family: Family, name: str) -> bool:
-    if name == "framing":
-        return bool(_framings(bus_family))
-    return bool(bus_family.indexed) if name == "index" else any(option.name == name for option in bus_family.options)
+def _names(bus_family: Family) -> list[str]:
+    """Return the names of the options that a family takes and others may not."""
+    shared = {"framing": _framings(bus_family), "index": bus_family.indexed}
+    return [name for name, takes in shared.items() if takes] + [option.name for option in bus_family.options]

@@ -9,7 +9,7 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from hashlib import sha256
 from pathlib import Path
 
-from fieldscribe.cli.common import StopError, some_path
+from fieldscribe.cli.common import StopError, add_repeated, some_path
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.families import FAMILIES, families
 from fieldscribe.importing import Draft, compilable, draft
@@ -45,8 +45,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--device", metavar="ID", help="write a whole device of this name")
     add("--family", choices=tuple(FAMILIES), help="the device's family (default: by its spaces)")
     add("--space", choices=tuple(spaces), help="the space of all points (default: by headings)")
-    what = "what the column with this heading or number holds; may be repeated"
-    add("--column", type=_column, action="append", default=[], metavar="ROLE=HEADING|N", help=what)
+    what = "what the column with this heading or number holds"
+    add_repeated(parser, "--column", "ROLE=HEADING|N", what, type=_column)
     base = "the number printed for wire address 0 (default: 0), or `modicon` for references such as 40001"
     add("--base", type=_base, default=0, metavar="N|modicon", help=base)
     add("--hex", dest="is_hex", action="store_true", help="addresses without a mark are hexadecimal")
@@ -59,15 +59,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add("--ranges", choices=("raw", "units"), help="what ranges hold: raw numbers, or values in the unit")
     add("--language", default="en", metavar="CODE", help="the language of the tables, two letters (default: en)")
-    add(
-        "--table",
-        type=int,
-        dest="tables",
-        action="append",
-        default=[],
-        metavar="N",
-        help="only this table; may be repeated",
-    )
+    add_repeated(parser, "--table", "N", "only this table", type=int, dest="tables")
     add("--lines", type=_lines, metavar="A..B", help="only tables that begin in these lines (or rows)")
     add("--list", action="store_true", help="list the tables and their columns, and draft nothing")
     add("--out", type=some_path, metavar="FILE", help="where to write (default: standard output)")

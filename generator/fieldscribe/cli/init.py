@@ -23,12 +23,13 @@ On a terminal, what no option says is asked; ends with 2 when something is missi
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     device, *others = QUESTIONS
-    parser.add_argument(device.name, nargs="?", metavar="DEVICE", help=device.asks)
+    add(device.name, nargs="?", metavar="DEVICE", help=device.asks)
     for question in others:
         usual = f" (default: {question.usual.format(vendor='VENDOR', model='MODEL')})" if question.usual else ""
-        parser.add_argument(f"--{question.name}", metavar="TEXT", help=question.asks + usual)
-    parser.add_argument("--in", dest="folder", type=some_path, metavar="DIR", help="the folder to make it in")
+        add(f"--{question.name}", metavar="TEXT", help=question.asks + usual)
+    add("--in", dest="folder", type=some_path, metavar="DIR", help="the folder to make it in")
 
 
 def run(arguments: Namespace) -> int:

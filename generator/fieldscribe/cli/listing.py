@@ -11,6 +11,7 @@ from fieldscribe.cli.common import (
     StopError,
     add_device,
     add_format,
+    add_repeated,
     open_device,
     print_json,
     searched_devices,
@@ -62,13 +63,12 @@ _FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
+    add = parser.add_argument
     add_device(parser, optional=True)
-    parser.add_argument(
-        "--matching", action="append", default=[], metavar="GLOB", help="only names or codes like this; may be repeated"
-    )
-    parser.add_argument("--family", metavar="NAME", help="only devices of this family")
+    add_repeated(parser, "--matching", "GLOB", "only names or codes like this")
+    add("--family", metavar="NAME", help="only devices of this family")
     for option, (metavar, which, _) in _FILTERS.items():
-        parser.add_argument(f"--{option}", metavar=metavar, help=f"only points {which}")
+        add(f"--{option}", metavar=metavar, help=f"only points {which}")
     add_format(parser, ("csv",))
 
 

@@ -9,6 +9,7 @@ from fieldscribe.cli.common import (
     StopError,
     add_descriptions,
     add_format,
+    add_repeated,
     device_file,
     print_json,
     searched_devices,
@@ -41,16 +42,11 @@ _MOST = 20
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.add_argument(
-        "words", nargs="+", metavar="WORD", help="a word, a code, a section, or a number with its kind: error:21h"
-    )
-    parser.add_argument(
-        "--device", action="append", default=[], metavar="DEVICE", help="only this device; may be repeated"
-    )
+    add = parser.add_argument
+    add("words", nargs="+", metavar="WORD", help="a word, a code, a section, or a number with its kind: error:21h")
+    add_repeated(parser, "--device", "DEVICE", "only this device")
     add_descriptions(parser)
-    parser.add_argument(
-        "--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})"
-    )
+    add("--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})")
     add_format(parser)
 
 

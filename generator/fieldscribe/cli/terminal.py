@@ -48,16 +48,18 @@ def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
     stream.writelines(f"{line}\n" for line in text)
 
 
-def print_rows(heading: str, rows: Sequence[Row], stream: TextIO | None = None) -> None:
-    """Print a heading and rows of label and text below it; a terminal gets long texts wrapped in their column."""
-    stream = stream or sys.stdout
-    width = max((len(label) for label, _ in rows), default=0)
-    if not is_coloured(stream):
+def print_rows(heading: str, rows: Sequence[Row], width: int = 0) -> None:
+    """Print a heading and rows of label and text below it; a terminal gets long texts wrapped in their column.
+
+    `width` is the least width of the labels.
+    """
+    width = max(width, *(len(label) for label, _ in rows))
+    if not is_coloured(sys.stdout):
         margin, gap = " " * _MARGIN, " " * _GAP
         lines = [heading, *(f"{margin}{label:<{width}}{gap}{text}".rstrip() for label, text in rows)]
     else:
         lines = [_styled("1", heading), *(line for label, text in rows for line in _wrapped(label, text, width))]
-    stream.writelines(f"{line}\n" for line in lines)
+    sys.stdout.writelines(f"{line}\n" for line in lines)
 
 
 def _wrapped(label: str, text: str, width: int) -> Iterable[str]:

@@ -118,9 +118,9 @@ class Generation:
         """Record the version with the digest of its facts; the same version with other facts is a finding instead."""
         from fieldscribe.facts.digest import facts_digest
 
-        before, now = manifests.record(device.id), Record(device.version, facts_digest(device))
+        before, now = manifests.records.get(device.id), Record(device.version, facts_digest(device))
         if before is None or before.version != now.version or self.unreleased:
-            manifests.set_record(device.id, now)
+            manifests.records[device.id] = now
         elif before != now:
             self._report_changed_version(device)
         if FOLDER in manifests.of(device.id):

@@ -80,47 +80,29 @@ class Manifests:
     def __init__(self, out: Path, layout: Layout = GENERATED) -> None:
         self.layout = layout
         self._of: dict[str, Targets] = {}
-        self._requests: dict[str, dict[str, Any]] = {}
-        self._records: dict[str, Record] = {}
+        self.requests: dict[str, dict[str, Any]] = {}
+        """What was requested of each device in each target, where a manifest records it."""
+        self.records: dict[str, Record] = {}
+        """The recorded version and digest of each device."""
         self._users: dict[str, dict[tuple[str, str], Digests]] = {}
         for place in sorted((out / layout.folder).glob(f"*{layout.ending}")):
             device = place.name.removesuffix(layout.ending)
             if "." in device:
                 continue  # written by an earlier version; no device has a dot in its name
-            targets, self._requests[device], record = _read(place, device, layout)
+            targets, self.requests[device], record = _read(place, device, layout)
             if record is not None:
-                self._records[device] = record
+                self.records[device] = record
             self.settle(device, targets)
 
     def of(self, device: str) -> Targets:
         """Return the recorded files of a device."""
         return self._of.get(device, {})
 
-    def request_of(self, device: str) -> Mapping[str, object]:
-        """Return what was requested in each target, where a manifest records it."""
-        return self._requests.get(device, {})
-
-    @property
-    def requests(self) -> list[tuple[str, str]]:
-        """Every device and target with a recorded request."""
-        return [(device, target) for device, targets in self._requests.items() for target in targets]
-
-    def set_request(self, device: str, target: str, request: Mapping[str, object]) -> None:
-        """Record what is requested in a target."""
-        self._requests[device] = dict(sorted({**self.request_of(device), target: request}.items()))
-
-    def record(self, device: str) -> Record | None:
-        """Return the version and the digest that the manifest records; None if it has none."""
-        return self._records.get(device)
-
-    def set_record(self, device: str, record: Record) -> None:
-        """Set the version and the digest that the manifest will record."""
-        self._records[device] = record
-
     def further_keys(self, device: str) -> dict[str, object]:
         """Return what the manifest of a device holds beside its files."""
-        record = self._records.get(device)
-        keys = {"asked": self.request_of(device), "facts": record and record._asdict()}
+        record = self.records.get(device)
+        requests = dict(sorted(self.requests.get(device, {}).items()))
+        keys = {"asked": requests, "facts": record and record._asdict()}
         return {key: value for key, value in keys.items() if value}
 
     def settle(self, device: str, targets: Targets) -> None:

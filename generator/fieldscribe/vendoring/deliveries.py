@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import NamedTuple
 
 from fieldscribe.model import Device
 from fieldscribe.output.contents import contents_of
@@ -17,26 +17,7 @@ from fieldscribe.output.plan import Plan, TargetFiles, plan_of
 from fieldscribe.output.writing import carry_out
 from fieldscribe.safe_files import read_regular
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-
-    class Request(Protocol):
-        """What a project requests of a device."""
-
-        @property
-        def language(self) -> str:
-            """The language or the format of the files."""
-
-        @property
-        def name(self) -> str | None:
-            """The device's name in the project if it is not the id."""
-
-        def as_data(self, device: str) -> Mapping[str, object]:
-            """Return what the manifest records of the request."""
-
-        def contents(self, device: Device) -> Iterator[tuple[str, bytes]]:
-            """Yield the files: path below the folder, and bytes."""
-
+from fieldscribe.vendoring.requests import CodeRequest, DocumentRequest
 
 _MOST_BYTES = 512 << 20
 """The largest file that is compared."""
@@ -46,7 +27,7 @@ class Order(NamedTuple):
     """A request, with the device and the folder of the project."""
 
     device: Device
-    request: Request
+    request: CodeRequest | DocumentRequest
     out: Path
 
     @property
@@ -136,7 +117,7 @@ def leftovers(orders: Collection[Order], languages: Collection[str]) -> list[Pat
     paths: list[Path] = []
     for folder, out in folders.items():
         manifests = Manifests(out, VENDORED)
-        for name, language in manifests.requests:
+        for name, language in ((name, language) for name, of in manifests.requests.items() for language in of):
             if language in languages and (folder, name, language) not in wanted:
                 files = manifests.of(name).get(language, {})
                 unshared = [path for path in files if not manifests.is_shared(path, name, [language])]
@@ -149,7 +130,8 @@ def _files(order: Order) -> TargetFiles:
 
 
 def _plan(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> Plan:
-    manifests.set_request(order.name, order.request.language, order.request.as_data(order.device.id))
+    requests = manifests.requests.setdefault(order.name, {})
+    requests[order.request.language] = order.request.as_data(order.device.id)
     return plan_of(order.out, manifests, order.name, made, force=force)
 
 
