@@ -148,8 +148,7 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
 
 
 def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
-    from fieldscribe.render import render
-    from fieldscribe.resources import templates_dir
+    from fieldscribe.resources import render, templates_dir
 
     yield from target.outputs(device, render)
     for path, template in target.runtime(device):

@@ -11,6 +11,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from fieldscribe.diagnostics import Diagnostic, Report, Span
+from fieldscribe.text import counted
 
 Line = list[tuple[str, str]]
 """One line as (style, text); styles are error, warning, strong, place, frame, hint, and empty."""
@@ -60,8 +61,8 @@ def summary(report: Report) -> str:
     """Return one line such as `3 errors in 2 files; 1 warning`; empty when there are none."""
     errors, warnings = report.count_of("error"), report.count_of("warning")
     files = {finding.span.file for finding in report.findings if finding.severity == "error"}
-    parts = [f"{_count(errors, 'error')} in {_count(len(files), 'file')}"] if errors else []
-    return "; ".join(parts + ([_count(warnings, "warning")] if warnings else []))
+    parts = [f"{counted(errors, 'error')} in {counted(len(files), 'file')}"] if errors else []
+    return "; ".join(parts + ([counted(warnings, "warning")] if warnings else []))
 
 
 def split_lines(text: str) -> list[str]:
@@ -120,7 +121,3 @@ def columns(text: str) -> int:
 
 def _place_data(span: Span) -> dict[str, object]:
     return {"file": span.file, "line": span.line, "column": span.column, "width": span.width}
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"

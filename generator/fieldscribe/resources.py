@@ -1,11 +1,21 @@
-"""Finds the templates and the shipped descriptions: inside the installed package, or beside it in a checkout."""
+"""Finds the templates and the shipped descriptions, inside the installed package or beside it; fills templates.
+
+Templates only place text: what they need is worked out before.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+Render = Callable[[str, Mapping[str, object]], str]
+"""A function that fills the template of a name from a context."""
 
 _LEFT_BEHIND = frozenset({"__pycache__", "target", ".mypy_cache", ".ruff_cache"})
 _PACKAGE = Path(__file__).resolve().parent
@@ -41,3 +51,24 @@ def runtime_files(folder: str) -> tuple[str, ...]:
 def _shipped(name: str) -> Path:
     inside = _PACKAGE / "shipped" / name
     return inside if inside.is_dir() else _PACKAGE.parents[1] / name
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Environment:
+    """Return the environment. Templates are compiled once a run and never stored: no code comes from a cache."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(templates_dir()),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        auto_reload=False,
+        autoescape=False,  # noqa: S701 - no HTML: views hold finished text, encoded by text.py
+    )
+
+
+def render(template: str, context: Mapping[str, object]) -> str:
+    """Return the template of that path below the templates' folder, filled from `context`."""
+    return _environment().get_template(template).render(context)

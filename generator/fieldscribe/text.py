@@ -37,6 +37,11 @@ def line(text: str) -> str:
     return _SPACES.sub(" ", text).strip()
 
 
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun: `1 word`, `2 words`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def shortened(text: str) -> str:
     """Return what somebody typed or wrote as messages repeat it: clean, on one line, at most 60 characters."""
     cleaned = line(text[:200])
@@ -141,3 +146,20 @@ def csv_cell(text: str) -> str:
     if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
         cleaned = "'" + cleaned
     return '"' + cleaned.replace('"', '""') + '"' if any(char in cleaned for char in ',"') else cleaned
+
+
+@lru_cache(maxsize=65536)
+def pascal(name: str) -> str:
+    """Return `base_frequency` as `BaseFrequency`; an underscore between digits stays (`a_1_2` is `A1_2`)."""
+    parts = name.split("_")
+    result = parts[0].capitalize()
+    for part in parts[1:]:
+        joined_digits = part[:1].isdigit() and result[-1:].isdigit()
+        result += ("_" if joined_digits else "") + part.capitalize()
+    return result
+
+
+@lru_cache(maxsize=65536)
+def upper(name: str) -> str:
+    """Return `base_frequency` as `BASE_FREQUENCY`."""
+    return name.upper()

@@ -13,7 +13,7 @@ import pytest
 from fieldscribe.arithmetic.codec import decode, setting_of
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.model import Point
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import docs
 from support.c_device import WARNINGS, write_headers
 from support.described import compile_in, described, kitchen_sink, loaded_in

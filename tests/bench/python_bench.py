@@ -23,8 +23,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.families.can.dbc import export
 from fieldscribe.model import Device
 from fieldscribe.pipeline import load_device
-from fieldscribe.render import render
-from fieldscribe.resources import descriptions_dir, templates_dir
+from fieldscribe.resources import descriptions_dir, render, templates_dir
 from fieldscribe.targets import python as target
 from synthetic import write_frame_device
 

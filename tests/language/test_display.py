@@ -13,7 +13,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.explanation import explain_point
 from fieldscribe.conversation.meanings import meaning_of
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
 from fieldscribe.wording.exact import rounded

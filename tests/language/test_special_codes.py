@@ -11,7 +11,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.meanings import meaning_of
 from fieldscribe.model import Device, Special
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, python, rust
 from support.described import DEVICES, kitchen_sink, loaded_in, made
 from support.models import named

@@ -12,7 +12,7 @@ from fieldscribe.export import export_model
 from fieldscribe.families.frame_results import Options
 from fieldscribe.families.modbus.frame_builder import write_request
 from fieldscribe.families.modbus.frames import crc16
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, rust
 from support.described import kitchen_sink
 from support.models import named

@@ -15,7 +15,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.conditions import Comparison, Condition
 from fieldscribe.lowered.template_keys import TemplateKeys
 from fieldscribe.model import Device, Enum, Erratum, Limit, Place, Point, Special, Variant
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import c, python, rust
 from fieldscribe.targets.c import point_templates
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplate, placeholders

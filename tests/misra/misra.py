@@ -18,8 +18,7 @@ from pathlib import Path
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
+from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import c
 
 HERE = Path(__file__).resolve().parent

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
-from fieldscribe.output.depfile import write_depfile
+from fieldscribe.output.writing import write_depfile
 from fieldscribe.pipeline import find_devices, load_models
 from fieldscribe.safe_files import UnfitFileError
 from support.places import ROOT

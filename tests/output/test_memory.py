@@ -223,9 +223,9 @@ def test_nothing_executable_is_kept_or_loaded(place: Path, monkeypatch: pytest.M
     for module in (marshal, pickle):
         monkeypatch.setattr(module, "load", loaded)
         monkeypatch.setattr(module, "loads", loaded)
-    from fieldscribe import render
+    from fieldscribe import resources
 
-    render._environment.cache_clear()
+    resources._environment.cache_clear()
     shutil.rmtree(place / "made")
     assert main(COMMAND) == 0
     kept = [path for path in (place / "cache").rglob("*") if path.is_file()]

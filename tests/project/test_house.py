@@ -22,8 +22,8 @@ HOUSE = Path(fieldscribe.__file__).parent
 ROOMS = (
     (
         "words, places, files of the package",
-        """__init__ user_errors pasted_numbers text names patterns
-        diagnostics schema_types safe_files report resources render""",
+        """__init__ user_errors pasted_numbers text
+        diagnostics schema_types safe_files report resources""",
     ),
     ("the neutral model", "conditions model code_view"),
     ("exact arithmetic", "arithmetic"),

@@ -7,8 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 from fieldscribe.model import Device
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
+from fieldscribe.resources import render, templates_dir
 
 
 def write_files(texts: Mapping[str, str], out: Path) -> Path:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.model import Device
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets.vectors import outputs
 
 from support.models import sample_device

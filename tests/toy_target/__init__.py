@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from fieldscribe.model import Device, Point
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names, Owner
 
 SEES_TITLES = False

@@ -12,7 +12,7 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
-from fieldscribe.output.manifests import VENDORED, carries_head
+from fieldscribe.output.manifests import VENDORED, made_of
 from fieldscribe.pipeline import load_device
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.requests import LANGUAGES, LICENCE, CodeRequest, files_of
@@ -311,7 +311,7 @@ def test_files_without_our_head_go_with_their_wish(tmp_path: Path) -> None:
         known = {path for path in (tmp_path / language).rglob("*") if path.is_file()}
         for path in known:
             name = path.relative_to(tmp_path / language).as_posix()
-            assert VENDORED.names(name, "hitachi_l200") or carries_head("hitachi_l200", path.read_bytes()), name
+            assert VENDORED.names(name, "hitachi_l200") or made_of(path.read_bytes()) == "hitachi_l200", name
 
 
 def test_what_is_in_the_way_gets_advice_that_helps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -185,7 +185,7 @@ class _Table(NamedTuple):
 
 def audit_page(outcome: Audit) -> str:
     """Return a page of tables that needs nothing beside it."""
-    from fieldscribe.render import render
+    from fieldscribe.resources import render
 
     tables = [
         _Table(

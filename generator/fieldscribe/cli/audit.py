@@ -22,6 +22,7 @@ from fieldscribe.pipeline import load_analysis
 from fieldscribe.report import visible
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.safe_files import read_regular
+from fieldscribe.text import counted
 
 EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual hitachi_l200_modbus.txt
@@ -124,7 +125,7 @@ def _renumber(subject: Analysis, document: Document, editions: Editions) -> str:
     before = {file.file.name: file.file.text for file in subject.scope.files}
     rewrite({name: (before[name], text) for name, text in result.texts.items()})
     by_hand = "".join(f"\n  {note}" for note in result.by_hand)
-    return f"renumbered: {_counted(result.count, 'line')} in {_counted(len(result.texts), 'file')}{by_hand}"
+    return f"renumbered: {counted(result.count, 'line')} in {counted(len(result.texts), 'file')}{by_hand}"
 
 
 def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: _Text) -> str | None:
@@ -132,7 +133,7 @@ def _refusal(arguments: Namespace, outcome: Comparison, subject: Analysis, new: 
     if not outcome.stands:
         return "not every cited fact stands in the new edition"
     if outcome.left_to_renumber:
-        return f"{_counted(outcome.left_to_renumber, 'cited place')} have the lines of the old edition: add --renumber"
+        return f"{counted(outcome.left_to_renumber, 'cited place')} have the lines of the old edition: add --renumber"
     recorded = subject.scope.header["documents"][new.document.id]
     return "; ".join(hindrances(new.document.id, recorded, _given(arguments), new.name, new.sha256)) or None
 
@@ -158,9 +159,9 @@ def _accept(arguments: Namespace, outcome: Comparison, editions: Editions, subje
     done = [f"accepted: {recorded.file.name}:{recorded.span('sha256').line} records the new edition"]
     if outcome.uncited:
         differ = "differs" if outcome.uncited == 1 else "differ"
-        done.append(f"look at them: {_counted(outcome.uncited, 'line')} that {differ}, which no fact cites")
+        done.append(f"look at them: {counted(outcome.uncited, 'line')} that {differ}, which no fact cites")
     if findings := audit_of(editions.in_new, new.name, same_text=True).findings:
-        done.append(f"look at them: {_counted(findings, 'finding')} of `fieldscribe audit` in the new text alone")
+        done.append(f"look at them: {counted(findings, 'finding')} of `fieldscribe audit` in the new text alone")
     return done
 
 
@@ -221,7 +222,3 @@ def _manual_of(subject: Analysis, place: Path) -> tuple[Path, Document]:
             raise StopError(f"`{place}` holds no manual of this device", hint)
         return place / present[0], known[present[0]]
     return place, known.get(place.name, next(iter((*known.values(), *documents))))
-
-
-def _counted(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

@@ -14,7 +14,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.model import Device
 from fieldscribe.pipeline import find_devices, is_new, load_analysis
 from fieldscribe.report import as_data
-from fieldscribe.wording.frames import counted
+from fieldscribe.text import counted
 
 EXAMPLE = """examples:
   fieldscribe check

@@ -109,7 +109,7 @@ def _compiled(
     else:
         generation.write(lambda: print_waiting(arguments.out), memory, force=arguments.force)
         if arguments.depfile and not report.has_errors:
-            from fieldscribe.output.depfile import update_depfile
+            from fieldscribe.output.writing import update_depfile
 
             outputs = (arguments.out / path for path in sorted(generation.result.wanted))
             update_depfile(arguments.depfile, outputs, generation.inputs.digests)

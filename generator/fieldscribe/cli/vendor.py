@@ -22,7 +22,7 @@ from fieldscribe.cli.generate import print_waiting
 from fieldscribe.cli.terminal import FINDINGS, FINE
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.keys.forms import ID
-from fieldscribe.output.depfile import update_depfile
+from fieldscribe.output.writing import update_depfile
 from fieldscribe.report import visible
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.user_errors import UnclearError

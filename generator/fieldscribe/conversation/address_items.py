@@ -12,10 +12,10 @@ from fieldscribe.families import family
 from fieldscribe.families.decoded_frame import Element, Span, Word
 from fieldscribe.families.frame_results import Item
 from fieldscribe.model import Command, Place, Point
-from fieldscribe.text import line
+from fieldscribe.text import counted, line
 from fieldscribe.wording import address_text, fixed_text, title_text
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import counted, element_text, hex_words, span_text, word_text
+from fieldscribe.wording.frames import element_text, hex_words, span_text, word_text
 
 _MOST_WORDS = 16
 """How many words without a point are printed."""

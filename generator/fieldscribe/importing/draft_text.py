@@ -15,7 +15,7 @@ from typing import NamedTuple
 import fieldscribe.language.keys  # noqa: F401  # it reads the descriptions of the families, so it is loaded before them
 from fieldscribe.families import family
 from fieldscribe.language.load import as_yaml
-from fieldscribe.text import line
+from fieldscribe.text import counted, line
 
 _GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "ae", "Ö": "oe", "Ü": "ue", "ß": "ss", "%": " percent "})
 _SYMBOLS = {"°": " deg ", "µ": "u", "φ": "phi", "ϕ": "phi", "Ω": "ohm", "+": " plus ", ">": " above ", "<": " below "}
@@ -167,7 +167,7 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
     """Return the comments at the top, the head of a device, and a document for each group."""
     points = [point for group in groups for point in group.points]
     questions = sum(len(point.questions) for point in points)
-    counts = f"{_counted(len(points), 'point')} from tables, with {_counted(questions, 'question')} at points"
+    counts = f"{counted(len(points), 'point')} from tables, with {counted(questions, 'question')} at points"
     top = [f"# A draft of {counts}: settle what `# ?` asks, then take it out."]
     if head.language != "en":
         top.append(comment(f"titles are in the manual's language ({head.language}): give English names and titles"))
@@ -175,10 +175,6 @@ def draft_lines(groups: Sequence[DraftGroup], head: Head) -> tuple[list[Line], l
         top.append(comment("no types are printed: a point is u16 unless it says otherwise"))
     body = [line for group in groups for line in (Line("---"), *_group_lines(group, head.language))]
     return [Line(text) for text in top], [Line(text) for text in _head_lines(head, groups)], body
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'s' * (count != 1)}"
 
 
 def _head_lines(head: Head, groups: Sequence[DraftGroup]) -> Iterator[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fieldscribe.output.contents import Contents, contents_of
-from fieldscribe.output.manifests import Manifests, Targets, carries_head, made_of, manifest_text
+from fieldscribe.output.manifests import Manifests, Targets, made_of, manifest_text
 from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_of
 
 TargetFiles = dict[str, dict[str, Contents]]
@@ -38,24 +38,13 @@ class Plan:
     """Those that `force` would replace."""
     kept: list[str] = field(default_factory=list)
     """Files that are no longer generated but stay, because somebody edited them or they are not ours."""
-    further_keys: Mapping[str, object] = field(default_factory=dict)
-    """What the manifest holds beside the files."""
+    digests: dict[str, str] = field(default_factory=dict)
+    """The digests of all files that should be there, the manifest included."""
 
     def advice(self, path: str) -> str:
         """Return what to do about a refused file."""
         other = "replace it with `--force`" if path in self.forcible else "choose another folder or name"
         return f"move it away, or {other}; nothing of {self.device} was written"
-
-    @property
-    def digests(self) -> dict[str, str]:
-        """The digests of all files by path, the manifest included."""
-        digest_of_path = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
-        return {**digest_of_path, self.record: contents_of(self.manifest).digest}
-
-    @property
-    def manifest(self) -> bytes:
-        """The final manifest."""
-        return manifest_text(self.device, self.targets, self.further_keys).encode()
 
     @property
     def stale(self) -> list[str]:
@@ -74,13 +63,13 @@ def plan_of(
     }
     further_keys = manifests.further_keys(device)
     pending = manifest_text(device, _both(before, now), further_keys).encode()
-    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending, further_keys=further_keys)
+    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending)
     planner = _Planner(out, manifests, plan, force)
     for files in files_of_targets.values():
         for path, contents in files.items():
             planner.add(path, contents)
     planner.add_left_over(files_of_targets)
-    planner.add(plan.record, contents_of(plan.manifest))
+    planner.add(plan.record, contents_of(manifest_text(device, plan.targets, further_keys).encode()))
     return plan
 
 
@@ -100,6 +89,7 @@ class _Planner:
 
     def add(self, path: str, contents: Contents) -> None:
         """Plan a file that should be in the folder."""
+        self._plan.digests[path] = contents.digest
         try:
             place = inside(self._out, path)
             state = _same(place, contents)
@@ -135,7 +125,7 @@ class _Planner:
             if self._in_the_way(path, place) is not None:
                 return False
             named = self._manifests.layout.names(path, device)
-            return named or carries_head(device, read_regular(place, _MOST_BYTES).data)
+            return named or made_of(read_regular(place, _MOST_BYTES).data) == device
         except (UnsafePathError, OSError):
             return False
 

@@ -1,13 +1,22 @@
-"""Carries out a plan: replaces each file atomically; at every moment a manifest records which files are ours."""
+"""Carries out a plan, and writes the dependency file for make and ninja: the outputs depend on inputs and compiler.
+
+Each file is replaced atomically, and at every moment a manifest records which files are ours. Make and ninja compare
+times. An output whose contents did not change would stay older than a changed input, and would be built again each
+time; so outputs older than an input are touched. Each input has an empty rule, so that a build goes on after an input
+was removed.
+"""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from errno import EINVAL
 from pathlib import Path
+from time import time_ns
 from typing import TYPE_CHECKING
 
-from fieldscribe.safe_files import State, inside, state_of
+from fieldscribe.resources import compiler_files
+from fieldscribe.safe_files import State, UnfitFileError, inside, kind_of, state_of
 
 if TYPE_CHECKING:
     from fieldscribe.output.manifests import Manifests
@@ -17,6 +26,9 @@ _NEW = ".fieldscribe-new"
 _FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL
 for _name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
     _FLAGS |= getattr(os, _name, 0)
+
+_BREAK = " \\\n  "
+"""Between the inputs of a rule."""
 
 
 class Result:
@@ -73,3 +85,43 @@ def replace(place: Path, pieces: Iterable[bytes], temporary: str = _NEW, *, mode
         new.unlink(missing_ok=True)
         raise
     return state_of(os.lstat(place))
+
+
+def update_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Write the file, and touch outputs that are older than an input. Raises OSError.
+
+    Outputs keep the paths that the user gave, because a build knows them by these.
+    """
+    made = list(outputs)
+    sources = [*inputs, *map(Path, compiler_files())]
+    needed = [Path(os.path.abspath(source)) for source in sources]  # a build may run in another folder
+    write_depfile(place, made, needed)
+    newest = max(path.stat().st_mtime_ns for path in needed)
+    for path in made:
+        if path.stat().st_mtime_ns < newest:
+            now = max(newest, time_ns())  # an input may be from the future
+            os.utime(path, ns=(now, now))
+
+
+def write_depfile(place: Path, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Write the file atomically. Raises OSError."""
+    names = list(dict.fromkeys(map(_escaped, inputs)))
+    rules = [f"{' '.join(map(_escaped, outputs))}: {_BREAK.join(names)}", *(f"{name}:" for name in names)]
+    _put(Path(os.path.realpath(place)), ("\n".join(rules) + "\n").encode("utf-8", "surrogateescape"))
+
+
+def _escaped(path: Path) -> str:
+    """Return the path with blanks, `#` and `$` escaped. Raises UnfitFileError for control characters."""
+    text = str(path)
+    if any(ord(char) < 0x20 or char == "\x7f" for char in text):
+        raise UnfitFileError(EINVAL, f"make cannot name the path {text!a}: rename it")
+    return text.replace("\\", "/").replace("$", "$$").replace("#", "\\#").replace(" ", "\\ ")
+
+
+def _put(place: Path, data: bytes) -> None:
+    if place.is_char_device():
+        place.write_bytes(data)  # a device such as /dev/null cannot be replaced
+        return
+    if place.exists() and (kind := kind_of(place.stat())) is not None:
+        raise UnfitFileError(EINVAL, kind, str(place))
+    replace(place, (data,), f".{place.name}.new")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
     from fieldscribe.targets.identifiers import Names
 
     class Target(Protocol):

@@ -10,8 +10,7 @@ from tempfile import TemporaryDirectory
 
 from fieldscribe.code_view import for_code
 from fieldscribe.model import Device
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
+from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import target
 from fieldscribe.targets.docs import csv_files, markdown_files, xlsx_files
 from fieldscribe.targets.docs.scope import scope_of

@@ -39,11 +39,6 @@ def hex_words(words: Sequence[int]) -> str:
     return " ".join(f"{word:04X}h" for word in words)
 
 
-def counted(number: int, what: str) -> str:
-    """Return a number with its noun: `1 word`, `2 words`."""
-    return f"{number} {what}{'' if number == 1 else 's'}"
-
-
 def too_short(what: str, least: int, here: int) -> str:
     """Return that there are fewer bytes than every frame has."""
     return f"{what} has at least {least} bytes, here {'is' if here == 1 else 'are'} {here}"

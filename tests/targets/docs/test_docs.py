@@ -24,7 +24,7 @@ from fieldscribe.model import (
     Source,
     Special,
 )
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets.docs import bus, outputs
 from fieldscribe.targets.docs.cells import anchor, link, narrow, target
 from support.models import HERTZ, NUMBER, changed, entry, linear, point, sample_device, titles, value_of

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets.docs import outputs
 from support.described import shipped
 from support.places import ROOT

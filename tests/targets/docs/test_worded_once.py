@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.model import Device, Place
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets.docs import outputs
 from support.described import DEVICES, made, shipped
 from support.models import point, sample_device

@@ -12,7 +12,7 @@ import pytest
 from conformance import running
 from conformance.runtime import CHECKS
 from fieldscribe.model import Device
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets import vectors
 from support.c_device import rare_device
 from support.described import kitchen_sink, made

@@ -12,8 +12,7 @@ from pathlib import Path
 
 import pytest
 from fieldscribe.model import Device, Flag
-from fieldscribe.render import render
-from fieldscribe.resources import templates_dir
+from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import PointDoc, left_out

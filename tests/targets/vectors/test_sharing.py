@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from fieldscribe.code_view import for_code
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
-from fieldscribe.render import render
+from fieldscribe.resources import render
 from fieldscribe.targets.vectors import outputs
 from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled

@@ -8,10 +8,11 @@ from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod
 from fieldscribe.families.modbus import SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
 from fieldscribe.model import Device, Point
+from fieldscribe.text import counted
 from fieldscribe.user_errors import RefusedError
 from fieldscribe.wording import label
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import counted, spaced, units_text
+from fieldscribe.wording.frames import spaced, units_text
 
 
 def frames_for(device: Device, point: Point, raw: int, settings: Settings, options: Options) -> BuiltFrames:

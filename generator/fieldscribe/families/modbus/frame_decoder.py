@@ -22,7 +22,8 @@ from fieldscribe.families.modbus.frames import (
 )
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
-from fieldscribe.wording.frames import counted, hex_words, no_answer_text, spaced
+from fieldscribe.text import counted
+from fieldscribe.wording.frames import hex_words, no_answer_text, spaced
 
 
 class ModbusFrameDecoder:

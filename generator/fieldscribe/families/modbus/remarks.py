@@ -9,11 +9,10 @@ from fieldscribe.families.modbus import BROADCAST, FAMILY, FUNCTIONS, READS, pro
 from fieldscribe.families.modbus.exchange import Request
 from fieldscribe.families.modbus.frames import Flaw, Unwrapped
 from fieldscribe.model import Device
-from fieldscribe.text import line
+from fieldscribe.text import counted, line
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import (
     check_text,
-    counted,
     numbered,
     spaced,
     span_text,

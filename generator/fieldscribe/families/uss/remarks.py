@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from fieldscribe.families.uss.parts import EEPROM_TASKS, TASK_WIDTHS, VARIABLE, Link, Part
 from fieldscribe.families.uss.telegrams import LEAST_BYTES, START, Unwrapped, check_byte
 from fieldscribe.model import Code, Device
-from fieldscribe.text import line
-from fieldscribe.wording.frames import check_text, counted, numbered, strange_unit, too_short
+from fieldscribe.text import counted, line
+from fieldscribe.wording.frames import check_text, numbered, strange_unit, too_short
 
 NO_REQUEST = "read as a request, for there was none before it; --direction response reads it as a response"
 PARTS = "the words of the parameter part alone are read with --framing pkw, process data with --framing pzd"

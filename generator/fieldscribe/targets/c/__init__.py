@@ -14,7 +14,7 @@ from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.c.scope import scope_of
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 NEEDS_FAMILY = True

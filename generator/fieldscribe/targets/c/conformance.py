@@ -7,8 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from fieldscribe.families import family
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point
-from fieldscribe.names import upper
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.declarations import shares_values
 from fieldscribe.targets.c.frames import Frames, frames_of
@@ -21,6 +20,7 @@ from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import special_defines
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import has_words
+from fieldscribe.text import upper
 
 
 def suite_context(device: Device, points: Sequence[GeneratedPoint], scope: HeaderScope) -> dict[str, object]:

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from fieldscribe import wording
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Flag, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import WIDTH, filled, folded
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import code_defines
 from fieldscribe.targets.c.views import Define, PointFields
-from fieldscribe.text import c_comment
+from fieldscribe.text import c_comment, upper
 
 
 class PointComment:

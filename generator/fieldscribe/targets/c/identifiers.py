@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import flag_defines
 from fieldscribe.targets.c.frames import frames_of, old_names_of
 from fieldscribe.targets.c.header import STATUSES, aliases_of, remark_defines, telegrams_of
@@ -17,6 +16,7 @@ from fieldscribe.targets.c.scope import HeaderScope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_defines
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Names, Owner
+from fieldscribe.text import upper
 
 _OWN = Owner("target", "what the header needs")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from fieldscribe.targets.placeholders import placeholders
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
 
 WIDTH = 120
 """No line is longer."""

@@ -11,7 +11,6 @@ from functools import partial
 from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.declarations import PointComment, range_words
 from fieldscribe.targets.c.limits import has_ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, signed
@@ -21,7 +20,7 @@ from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import encoded_limits
 from fieldscribe.targets.c.views import PointFields, PointView
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.text import c_comment, c_string
+from fieldscribe.text import c_comment, c_string, upper
 
 
 class LimitFields(NamedTuple):

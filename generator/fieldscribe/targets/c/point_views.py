@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Enum, Flag, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import Writer, value_type
 from fieldscribe.targets.c.declarations import defines
 from fieldscribe.targets.c.layout import INLINE, Function, filled, function
@@ -24,7 +23,7 @@ from fieldscribe.targets.c.word_functions import (
     text_functions,
     words_functions,
 )
-from fieldscribe.text import c_comment, c_string
+from fieldscribe.text import c_comment, c_string, upper
 
 
 def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Scaled | None) -> PointView:

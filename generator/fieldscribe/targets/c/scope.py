@@ -8,8 +8,8 @@ from zlib import crc32
 
 from fieldscribe.lowered import Lowered, lower, named_numbers
 from fieldscribe.model import Device, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
+from fieldscribe.text import upper
 
 _AND = "_and_"
 _LONGEST = 80

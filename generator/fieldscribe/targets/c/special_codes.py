@@ -6,13 +6,12 @@ from collections.abc import Iterable, Iterator
 
 from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Point, Special
-from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import INLINE, function
 from fieldscribe.targets.c.limits import bracketed, is_in
 from fieldscribe.targets.c.literals import hexadecimal, raw_type, signed
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import CodesView, Define, PointFields, SpecialView
-from fieldscribe.text import c_comment, c_string
+from fieldscribe.text import c_comment, c_string, upper
 
 FUNCTIONS = ("_is_special", "_special_name", "_is_no_value")
 """The ends of the functions' names, behind the name of the point or of the shared codes."""

@@ -9,7 +9,7 @@ from fieldscribe.model import Device
 from fieldscribe.targets.identifiers import Names
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
     from fieldscribe.targets.docs.scope import DocsScope
     from fieldscribe.targets.docs.tables import Table
 

@@ -15,7 +15,7 @@ from fieldscribe.targets.python.namespaces import device_name_taken, identifiers
 from fieldscribe.text import python_doc, python_string, toml_string
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from fieldscribe.conditions import absent
 from fieldscribe.model import Device, Point, Variant
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import PackageScope, attribute

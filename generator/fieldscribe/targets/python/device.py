@@ -5,11 +5,10 @@ from __future__ import annotations
 from operator import attrgetter
 
 from fieldscribe.model import Device, Point
-from fieldscribe.names import pascal
 from fieldscribe.targets.python.families import RUNTIME, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
 from fieldscribe.targets.python.layout import imported
-from fieldscribe.text import python_doc, python_string
+from fieldscribe.text import pascal, python_doc, python_string
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:

@@ -7,12 +7,11 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Flag, Point, Titles
-from fieldscribe.names import upper
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
 from fieldscribe.targets.python.layout import Node, call, docstring, laid_out
-from fieldscribe.text import python_doc
+from fieldscribe.text import python_doc, upper
 
 _WORD_DOC = ("", "Members are bits as they are on the wire; the names in small letters say what is true.")
 

@@ -9,8 +9,8 @@ from functools import cached_property
 
 from fieldscribe.lowered import Lowered, named_numbers
 from fieldscribe.model import Command, Device, Point, Shape
-from fieldscribe.names import pascal
 from fieldscribe.targets.python.layout import Node
+from fieldscribe.text import pascal
 
 _RESERVED = frozenset(
     {"False", "None", "True", "and", "as", "assert", "async", "await", "break", "case", "class", "continue"}

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from keyword import iskeyword
 
 from fieldscribe.model import Device, Point
-from fieldscribe.names import pascal, upper
 from fieldscribe.targets.identifiers import Names, Owner
 from fieldscribe.targets.python.device import imports_of
 from fieldscribe.targets.python.families import in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
+from fieldscribe.text import pascal, upper
 
 LIBRARIES = frozenset({"can", "pymodbus", "serial"})
 """What the transports of the runtime import where a project asks for them."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from fieldscribe.lowered import lower
 from fieldscribe.model import Command, Device, Point, Variant
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
 from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.identifiers import (

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 from fieldscribe.model import Device, Point, Version
-from fieldscribe.names import upper
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
@@ -17,7 +16,7 @@ from fieldscribe.targets.rust.point_facts import shared_views
 from fieldscribe.targets.rust.point_macros import point_texts
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.targets.rust.value_forms import argument_structs
-from fieldscribe.text import markdown, rust_code, rust_string, toml_string
+from fieldscribe.text import markdown, rust_code, rust_string, toml_string, upper
 
 
 def head(device: Device, comment: str) -> str:

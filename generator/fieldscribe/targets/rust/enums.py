@@ -16,7 +16,7 @@ from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
 
 _LONG = 90
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from fieldscribe.arithmetic.exact import float_of, pattern_of
 from fieldscribe.arithmetic.words import ends_of
 from fieldscribe.model import Shape
-from fieldscribe.names import pascal
+from fieldscribe.text import pascal
 
 RESERVED = frozenset(
     {"Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do"}

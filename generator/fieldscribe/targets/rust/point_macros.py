@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from fieldscribe.arithmetic.words import group_mask
 from fieldscribe.model import Point
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.documentation import PointDoc
 from fieldscribe.targets.rust.enums import old_names_text

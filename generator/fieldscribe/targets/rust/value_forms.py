@@ -9,7 +9,7 @@ from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits
 from fieldscribe.lowered import Lowered, Operand, Rule
 from fieldscribe.model import Limit, Linear, Point
-from fieldscribe.render import Render
+from fieldscribe.resources import Render
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
 from fieldscribe.targets.rust.layout import Lines, chained, fields_of, filled

@@ -12,7 +12,7 @@ from fieldscribe.model import Device
 from fieldscribe.targets.identifiers import Names
 
 if TYPE_CHECKING:
-    from fieldscribe.render import Render
+    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 NEEDS_FAMILY = False

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
-from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,
     Frame,
@@ -25,7 +24,7 @@ from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.identifiers import Named, Owner
-from fieldscribe.text import c_comment
+from fieldscribe.text import c_comment, upper
 
 NAMED_CODES: tuple[str, ...] = ()
 

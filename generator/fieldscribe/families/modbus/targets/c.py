@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from fieldscribe.families.modbus import SPACES, Profile, profile_of
 from fieldscribe.model import Block, Command, Device, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import (
     Descriptor,
     Frame,
@@ -25,7 +24,7 @@ from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import Define, PointView
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner
-from fieldscribe.text import c_comment
+from fieldscribe.text import c_comment, upper
 
 NAMED_CODES: tuple[str, ...] = ()
 

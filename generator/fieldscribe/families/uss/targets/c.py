@@ -8,7 +8,6 @@ from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
-from fieldscribe.names import upper
 from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies, shares
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -16,7 +15,7 @@ from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import places_of
 from fieldscribe.targets.identifiers import Named, Owner
-from fieldscribe.text import c_comment, c_string
+from fieldscribe.text import c_comment, c_string, upper
 
 NAMED_CODES = tuple(codes.kind for codes in FAMILY.codes)
 
