@@ -10,6 +10,7 @@ from __future__ import annotations
 import errno
 import os
 import signal
+import stat
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -44,8 +45,9 @@ for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"
 def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE) -> Iterator[None]:
     """Hold the lock of the folder; `waiting` is called once if another run holds it. Raises OSError."""
     created = not out.is_dir()
-    if created and out.exists():
-        raise NotADirectoryError(errno.ENOTDIR, "it is a file, not a folder", str(out))
+    with suppress(FileNotFoundError):  # other runs make and remove the folder
+        if not stat.S_ISDIR(os.stat(out).st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, "it is a file, not a folder", str(out))
     place = out / NAME
     handle = _acquire(place, waiting, patience)
     try:

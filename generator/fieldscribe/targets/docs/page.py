@@ -32,8 +32,9 @@ from fieldscribe.targets.docs.scope import DocsScope, numbers_head, place_text, 
 from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
+from fieldscribe.text import counted
 from fieldscribe.wording.exact import hex_text
-from fieldscribe.wording.frames import counted, spaced
+from fieldscribe.wording.frames import spaced
 
 _COMPUTED = "The address maps compute it where the manual does not print it."
 _NUMBERINGS = {
