@@ -395,7 +395,7 @@ def parameter_probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]
     if not point.writable:
         return
     if point.bits:
-        if point.readable and not subject.arguments and point.encodes_values:
+        if point.readable and not point.arguments and point.encodes_values:
             yield f"put({client}, value: {value}) -> bool", f"client.update::<{name}>(value).is_ok()"
         return
     yield f"put_raw({client}, raw: {raw}, {with_}) -> bool", f"client.write_raw_with::<{name}>(raw, with).is_ok()"
@@ -408,7 +408,7 @@ def parameter_probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]
 
 def is_counted(subject: CratePoint) -> bool:
     """Whether the point has counts."""
-    return subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
+    return subject.point.form not in WITHOUT_COUNTS and subject.point.decimals is not None
 
 
 def probes(subject: CratePoint, name: str) -> Iterator[tuple[str, str]]:

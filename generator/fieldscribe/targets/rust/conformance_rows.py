@@ -31,7 +31,7 @@ def rows_of(subject: CratePoint, enum: str, scope: CrateScope) -> Iterator[Row]:
     yield from _conversions(subject)
     yield from _flags(subject)
     if enum:
-        name = Spot("name", part=1 if subject.form == "digits" else 0)
+        name = Spot("name", part=1 if point.form == "digits" else 0)
         yield name, (_quoted(subject.item), enum, *bracketed(("enum", subject.carried)))
     alone = row_of(subject, ("(alone)",))
     for table, holds in (
@@ -68,15 +68,15 @@ def _conversions(subject: CratePoint) -> Iterator[Row]:
 def _conversion_spots(subject: CratePoint) -> tuple[list[Spot], list[Spot], list[Spot]]:
     """Return where a point is decoded, encoded and checked."""
     point = subject.point
-    if subject.form == "scaled":
+    if point.form == "scaled":
         counted = point.decimals is not None
         encodes = [Spot("encode")] * point.encodes_values + [Spot("encode_count")] * counted
         return [Spot("decode")] + [Spot("decode_count")] * counted, encodes, [Spot("check")]
-    if subject.form == "float":
+    if point.form == "float":
         return [Spot("decode", 1)], [Spot("encode", 1)], [Spot("check", 4)]
-    if subject.form == "text":
+    if point.form == "text":
         return [Spot("text_decode")], [Spot("text_encode")], []
-    if subject.form == "digits":
+    if point.form == "digits":
         coded = "_coded" if point.specials else ""
         return [Spot(f"digits{coded}")], [Spot(f"digits_encode{coded}")], [Spot("check", 5)]
     mixed = subject.carried != subject.raw
@@ -95,7 +95,7 @@ def _layout(subject: CratePoint) -> Tokens:
 def _flags(subject: CratePoint) -> Iterator[Row]:
     item = subject.item
     for flag in subject.point.flags:
-        if subject.form == "flags":
+        if subject.point.form == "flags":
             calls = bracketed(("flag", subject.raw, getter_name(flag.name), f"with_{flag.name}"))
             yield Spot("flag"), (_quoted(f"{item} {flag.name}"), subject.name, *calls)
         for entry in flag.values if flag.width > 1 else ():
@@ -113,7 +113,7 @@ def _exchanges(subject: CratePoint, scope: CrateScope) -> Iterator[Row]:
 def _ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
     """Yield the ways to read and write a point: by requests if it has an address, and further ones of its family."""
     point = subject.point
-    text = "_text" if subject.form == "text" else ""
+    text = "_text" if point.form == "text" else ""
     if point.telegram is None and point.readable:
         yield "read", f"read{text}", ()
     if point.telegram is None and point.writable:
@@ -128,18 +128,18 @@ def change_of(subject: CratePoint, change: str, update: str) -> tuple[str, Needs
         return update, ()
     if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
-    text = subject.form == "text"
+    text = point.form == "text"
     return f"{change}{'_text' if text else ''}", () if text else (of_scale(subject), of_all(subject))
 
 
 def of_scale(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """Return the struct of the raw numbers that the scale needs, with its fields."""
-    return subject.factors_struct, subject.factors
+    return subject.factors_struct, subject.point.scale_arguments
 
 
 def of_all(subject: CratePoint) -> tuple[str, tuple[str, ...]]:
     """Return the struct of all raw numbers that writing needs, with its fields."""
-    return subject.name, subject.arguments
+    return subject.name, subject.point.arguments
 
 
 def row_of(subject: CratePoint, how: Tokens) -> Tokens:

@@ -12,7 +12,7 @@ from fieldscribe.targets.rust.enums import enum_texts, word_texts
 from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space
 from fieldscribe.targets.rust.layout import Item, Lines, binding, filled
 from fieldscribe.targets.rust.literals import float_literal, integer, value_name
-from fieldscribe.targets.rust.point_facts import shared_views
+from fieldscribe.targets.rust.point_facts import shared_codes
 from fieldscribe.targets.rust.point_macros import point_texts
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.targets.rust.value_forms import argument_structs
@@ -45,7 +45,7 @@ def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> 
 
 def device_context(device: Device, scope: CrateScope, render: Render) -> dict[str, object]:
     """Return the context of the templates for the crate's sources."""
-    words = [subject for subject in scope.subjects if subject.form == "flags"]
+    words = [subject for subject in scope.subjects if subject.point.form == "flags"]
     first_word = min(words, key=lambda subject: subject.point.rank).name if words else ""
     structs = tuple(argument_structs(scope, render))
     version = Version.of(device.version)
@@ -57,7 +57,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "table": tuple(subject.name for subject in scope.subjects),
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
-        "codes": tuple(shared_views(scope)),
+        "codes": tuple(shared_codes(scope)),
         "first_word": first_word,
         "structs": structs,
         "example": example.lines,
@@ -140,7 +140,7 @@ def _first(candidates: Iterable[CratePoint], test: Callable[[CratePoint], bool])
 
 
 def _is_read(subject: CratePoint) -> bool:
-    return subject.point.readable and not subject.factors
+    return subject.point.readable and not subject.point.scale_arguments
 
 
 def _is_plain(subject: CratePoint) -> bool:
@@ -152,21 +152,21 @@ def _is_coded(subject: CratePoint) -> bool:
 
 
 def _is_quantity(subject: CratePoint) -> bool:
-    return subject.form == "scaled" and _is_plain(subject)
+    return subject.point.form == "scaled" and _is_plain(subject)
 
 
 def _is_set(subject: CratePoint) -> bool:
-    return _takes_a_value(subject) and not subject.arguments
+    return _takes_a_value(subject) and not subject.point.arguments
 
 
 def _is_needy(subject: CratePoint) -> bool:
-    return _takes_a_value(subject) and bool(subject.arguments) and subject.point.readable
+    return _takes_a_value(subject) and bool(subject.point.arguments) and subject.point.readable
 
 
 def _takes_a_value(subject: CratePoint) -> bool:
     point = subject.point
     encodes = point.writable and point.encodes_values and not point.bits and not point.specials
-    return encodes and subject.form == "scaled"
+    return encodes and point.form == "scaled"
 
 
 def _writes(candidates: list[CratePoint]) -> Snippet:
@@ -175,7 +175,7 @@ def _writes(candidates: list[CratePoint]) -> Snippet:
     lines = () if plain is None else (_write(plain),)
     if needy is None:
         return Snippet(lines)
-    fields = ", ".join(f"{value_name(name)}: 1" for name in needy.arguments)
+    fields = ", ".join(f"{value_name(name)}: 1" for name in needy.point.arguments)
     with_others = (
         "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.",
         f"let with = with::{needy.name} {{ {fields} }};",
@@ -191,7 +191,7 @@ def _write(subject: CratePoint) -> str:
 def _inside(subject: CratePoint) -> str:
     """Return a modest value that the point takes, a tenth of the way up: people run first programs on real machines."""
     low, high = subject.point.outer
-    rule = subject.rule
+    rule = subject.point.fixed_scale
     if rule is None:
         return "1.0"
     least = max(low, 0) if high > 0 else low

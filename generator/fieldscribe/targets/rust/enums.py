@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.model import Device, Entry, Enum, Flag
@@ -18,66 +18,14 @@ from fieldscribe.text import rust_string
 if TYPE_CHECKING:
     from fieldscribe.resources import Render
 
+View = dict[str, Any]
+"""What a template places for an entry or a flag, by the names that it uses there."""
+
 _LONG = 90
+"""A function with more arms, one for each name, is too long for clippy."""
 
 UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
-
-
-class EntryView(NamedTuple):
-    """A variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
-
-    doc: str
-    name: str
-    literal: str
-    named: tuple[str, ...]
-    numbered: tuple[str, ...]
-
-
-class EnumItem(NamedTuple):
-    """An enum; `unknown` is the variant that carries a number without a name."""
-
-    doc: str
-    name: str
-    raw: str
-    entries: tuple[EntryView, ...]
-    unknown: str
-
-
-class FlagView(NamedTuple):
-    """A flag: the constant of its mask, its getter and setter, its named numbers (doc, constant).
-
-    `single` says that it is one bit, `inverted` that this bit is 0 while the flag is true. `meaning` is what its name
-    alone does not say.
-    """
-
-    name: str
-    doc: str
-    meaning: str
-    single: bool
-    inverted: bool
-    mask: str
-    constant: tuple[str, ...]
-    getter: str
-    read: tuple[str, ...]
-    setter: tuple[str, ...]
-    changed: tuple[str, ...]
-    values: tuple[tuple[str, tuple[str, ...]], ...]
-
-
-class FlagsView(NamedTuple):
-    """A word whose bits have names; the bits are held in the unsigned type of the raw number's width.
-
-    `false` is the word in which no flag is true, `printed` the lines that print the word.
-    """
-
-    doc: str
-    name: str
-    raw: str
-    bits: str
-    false: str
-    flags: tuple[FlagView, ...]
-    printed: tuple[str, ...]
 
 
 def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
@@ -85,9 +33,12 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, 
     templates, texts, long = TextTemplates(), list[str](), list[bool]()
 
     def lay_out(enum: Enum, raw: str, words: tuple[str, str]) -> str:
-        view = _enum(enum, raw, *placeholders(words))
-        long.append(_is_long(view))
-        return render("rust/enum.rs.j2", {"enum": view})
+        name, doc = placeholders(words)
+        entries = tuple(_entry(entry, name) for entry in enum.entries)
+        long.append(max(sum(len(entry[arms]) for entry in entries) for arms in ("named", "numbered")) > _LONG)
+        variants = {entry["name"] for entry in entries}
+        unknown = next(candidate for candidate in UNKNOWN if candidate not in variants)
+        return render("rust/enum.rs.j2", {"doc": doc, "name": name, "raw": raw, "entries": entries, "unknown": unknown})
 
     for enum in device.enums:
         raw = scope.enums.get(enum.name)
@@ -106,13 +57,6 @@ def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
         lines = binding(0, Item(f"pub type {type_name(old)}"), name)
         texts.append(render("rust/old_name.rs.j2", {"name": name, "lines": lines}))
     return "".join(texts)
-
-
-def _is_long(enum: EnumItem) -> bool:
-    """Return True if a function with an arm for each name would be too long for clippy."""
-    return (
-        max(sum(len(entry.named) for entry in enum.entries), sum(len(entry.numbered) for entry in enum.entries)) > _LONG
-    )
 
 
 _OF_TRAITS = frozenset(
@@ -138,40 +82,44 @@ def word_texts(scope: CrateScope, render: Render) -> Iterator[str]:
     templates = TextTemplates()
 
     def lay_out(subject: CratePoint, words: tuple[str, str]) -> str:
-        return render("rust/word.rs.j2", {"word": _word(subject, *placeholders(words))})
+        return render("rust/word.rs.j2", _word(subject, *placeholders(words)))
 
     for subject in scope.subjects:
-        if subject.form == "flags":
+        if subject.point.form == "flags":
             words = (subject.name, sentence(subject.item))
             text = templates.fill((subject.key, len(subject.name)), words, partial(lay_out, subject, words))
             yield text + old_names_text(subject.name, subject.point.old_items, render)
 
 
-def _word(subject: CratePoint, name: str, doc: str) -> FlagsView:
+def _word(subject: CratePoint, name: str, doc: str) -> dict[str, object]:
+    """Return a word of flags for its template; the bits are held in the unsigned type of the raw number's width.
+
+    `all_false` is the word in which no flag is true, `printed` the lines that print the word.
+    """
     all_flags, width = subject.point.flags, subject.point.info.bits
     bits, flags = f"u{width}", tuple(_flag(flag, width) for flag in all_flags)
     low = sum(1 << flag.low for flag in all_flags if flag.width == 1 and not flag.active)
-    return FlagsView(
-        doc=doc,
-        name=name,
-        raw=subject.raw,
-        bits=bits,
-        false=mask(low, bits) if low else "0",
-        flags=flags,
-        printed=(*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
-    )
+    return {
+        "doc": doc,
+        "name": name,
+        "raw": subject.raw,
+        "bits": bits,
+        "all_false": mask(low, bits) if low else "0",
+        "flags": flags,
+        "printed": (*binding(4, Item("const NAME", "&'static str"), f'"{name}"'), *_table(all_flags, flags)),
+    }
 
 
-def _table(flags: tuple[Flag, ...], views: tuple[FlagView, ...]) -> tuple[str, ...]:
+def _table(flags: tuple[Flag, ...], views: tuple[View, ...]) -> tuple[str, ...]:
     """Return the constant that says how flags are printed, with the names of their numbers."""
     item = Item("const FLAGS", "&'static [runtime::Flag]")
     names, printed = list[str](), list[tuple[str, tuple[str, ...]]]()
     for place, (flag, view) in enumerate(zip(flags, views, strict=True)):
-        named = (f"NAMES_{place}",) if view.values else ()
+        named = (f"NAMES_{place}",) if view["numbers"] else ()
         if named:
             names += _names(named[0], flag)
-        made = "named" if named else "active_low" if view.inverted else "new"
-        printed.append((f"runtime::Flag::{made}", (view.name, view.mask, *named)))
+        made = "named" if named else "active_low" if view["inverted"] else "new"
+        printed.append((f"runtime::Flag::{made}", (view["name"], view["mask"], *named)))
     if not names:
         return calls(4, item, printed)
     return f"{item} = {{", *(f"    {line}" for line in (*names, *called(8, printed))), "};"
@@ -183,43 +131,43 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
-def _enum(enum: Enum, raw: str, name: str, doc: str) -> EnumItem:
-    entries = tuple(_entry(entry, name) for entry in enum.entries)
-    taken = {entry.name for entry in entries}
-    unknown = next(candidate for candidate in UNKNOWN if candidate not in taken)
-    return EnumItem(doc, name, raw, entries, unknown)
-
-
-def _entry(entry: Entry, enum: str) -> EntryView:
+def _entry(entry: Entry, enum: str) -> View:
+    """Return a variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
     name, literal = variant_name(entry.name), integer(entry.raw)
     named = arm(12, f"Self::{name}", f"Some({rust_string(entry.name)})")
-    return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
+    numbered = arm(12, f"{enum}::{name}", literal)
+    return {"doc": sentence(entry.name), "name": name, "literal": literal, "named": named, "numbered": numbered}
 
 
-def _flag(flag: Flag, width: int) -> FlagView:
+def _flag(flag: Flag, width: int) -> View:
+    """Return a flag: the constant of its mask, its getter and setter, its named `numbers` (doc, constant).
+
+    `single` says that it is one bit, `inverted` that this bit is 0 while the flag is true. `meaning` is what its name
+    alone does not say.
+    """
     raw, single, constant = f"u{width}", flag.width == 1, constant_name(flag)
     bits = mask_of(flag.width, flag.low)
     masked = "self.0" if bits == mask_of(width) else f"self.0 & Self::{constant}"
-    values = []
+    numbers = []
     for value in () if single else flag.values:
         item = Item(f"pub const {flag.name.upper()}_{value.name.upper()}", raw)
-        values.append((sentence(value.name), binding(4, item, integer(value.raw))))
-    return FlagView(
-        name=rust_string(flag.name),
-        doc=sentence(flag.name),
-        meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
-        single=single,
-        inverted=single and not flag.active,
-        mask=mask(bits, raw),
-        constant=binding(4, Item(f"pub const {constant}", raw), mask(bits, raw)),
-        getter=getter_name(flag.name),
-        read=_read(flag, masked),
-        setter=signature(
+        numbers.append((sentence(value.name), binding(4, item, integer(value.raw))))
+    return {
+        "name": rust_string(flag.name),
+        "doc": sentence(flag.name),
+        "meaning": ("" if flag.active else "True while the bit is 0.") if single else "A number.",
+        "single": single,
+        "inverted": single and not flag.active,
+        "mask": mask(bits, raw),
+        "constant": binding(4, Item(f"pub const {constant}", raw), mask(bits, raw)),
+        "getter": getter_name(flag.name),
+        "read": _read(flag, masked),
+        "setter": signature(
             4, f"pub const fn with_{flag.name}", ("self", "state: bool" if single else f"number: {raw}"), "Self"
         ),
-        changed=_changed(flag, constant, whole=bits == mask_of(width)),
-        values=tuple(values),
-    )
+        "changed": _changed(flag, constant, whole=bits == mask_of(width)),
+        "numbers": tuple(numbers),
+    }
 
 
 def _read(flag: Flag, masked: str) -> tuple[str, ...]:

@@ -63,13 +63,13 @@ def _of_point(subject: CratePoint) -> Iterator[Names]:
     for old, item in zip(point.was, point.old_items, strict=True):
         old_name = Owner("old name", old, owner)
         yield Names("Rust, module `points`", old_name, (type_name(item),))
-        if subject.arguments:
+        if point.arguments:
             yield Names("Rust, module `with`", old_name, (type_name(item),))
         if subject.factors_name:
             yield Names("Rust, module `with`", old_name, (type_name(f"{item}_factors"),))
     if point.references or point.specials:
         yield from _constants(subject, owner)
-    if subject.arguments:
+    if point.arguments:
         yield Names("Rust, module `with`", owner, (subject.name,))
     if subject.factors_name:
         yield Names("Rust, module `with`", Owner("struct", subject.factors_name, owner), (subject.factors_name,))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from fieldscribe.model import Bound, Limit, Point, Special
 from fieldscribe.targets.rust import literals
@@ -23,7 +22,7 @@ def read_lines(subject: CratePoint) -> tuple[str, ...]:
     """Return the facts of reading."""
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
-    facts += [f"with {subject.factors_type};"] if subject.factors else []
+    facts += [f"with {subject.factors_type};"] if subject.point.scale_arguments else []
     return _block("read", [(fact,) for fact in facts])
 
 
@@ -31,7 +30,7 @@ def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
     """Return the facts of writing."""
     count = count_type(subject)
     facts = [f"count {count};"] if count else []
-    facts += [f"with {subject.with_type};"] if subject.arguments else []
+    facts += [f"with with::{subject.name};"] if subject.point.arguments else []
     facts += ["closed true;"] if subject.enum is not None and subject.enum.closed else []
     tail = () if subject.point.encodes_values else ("values none;",)
     allowed = _allowed(subject, scope)
@@ -53,13 +52,13 @@ def _allowed(subject: CratePoint, scope: CrateScope) -> Iterator[Lines]:
     point = subject.point
     if point.limit_arguments:
         yield tuple(_limits(point, scope))
-    elif subject.form == "float":
+    elif point.form == "float":
         yield from ((ranges,) for ranges in _float_ranges(point))
-    elif subject.form == "text" and point.text is not None and point.text.encoding == "ascii":
+    elif point.form == "text" and point.text is not None and point.text.encoding == "ascii":
         yield ("check runtime::form::text::ascii::<Self>;",)
-    elif subject.form == "digits" and point.digits is not None:
+    elif point.form == "digits" and point.digits is not None:
         yield (f"check runtime::form::digits::check::<Self, {point.digits.count}>;",)
-    elif subject.form != "text" and len(ranges := point.allowed.fixed) > 1:
+    elif point.form != "text" and len(ranges := point.allowed.fixed) > 1:
         yield filled("in [", " | ", [interval(*limits) for limits in ranges], "];")
 
 
@@ -100,24 +99,16 @@ def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
         yield f"function {many};"
 
 
-class SharedView(NamedTuple):
-    """Codes that several points share: a type with a constant for each code and a table of all."""
-
-    name: str
-    of: str
-    constants: tuple[Constant, ...]
-    table: tuple[str, ...]
-
-
-def shared_views(scope: CrateScope) -> Iterator[SharedView]:
-    """Yield the shared codes, in the order of their first point."""
+def shared_codes(scope: CrateScope) -> Iterator[dict[str, object]]:
+    """Yield the codes that points share, by first point: a type with a constant for each code and a table of all."""
     first: dict[str, CratePoint] = {}
     for subject in scope.subjects:
         if subject.point.shared_codes:
             first.setdefault(subject.point.shared_codes, subject)
     for of, subject in first.items():
         item = Item("pub const CODES", f"&'static [runtime::Code<{subject.raw}>]")
-        yield SharedView(literals.type_name(of), of, tuple(code_constants(subject)), _table(subject, item))
+        constants, table = tuple(code_constants(subject)), _table(subject, item)
+        yield {"name": literals.type_name(of), "of": of, "constants": constants, "table": table}
 
 
 def code_lines(subject: CratePoint) -> Iterator[str]:

@@ -47,14 +47,6 @@ class MacroFields(NamedTuple):
     references: str
 
 
-class LimitLiterals(NamedTuple):
-    """The limits of a point for its doc comment, and their ends in code."""
-
-    text: str
-    low: str
-    high: str
-
-
 def point_texts(scope: CrateScope, render: Render) -> tuple[str, bool]:
     """Return the texts of all points, and whether one of them names items of the runtime."""
     templates = _PointTemplates(scope, render)
@@ -69,7 +61,7 @@ class _PointTemplates:
         self._scope, self._render = scope, render
         self._traits = in_rust(scope.family).traits
         self._templates = TextTemplates()
-        self._limits: dict[tuple[int, int], LimitLiterals] = {}
+        self._limits: dict[tuple[int, int], tuple[str, str, str]] = {}
         self._docs: dict[int, PointDoc] = {}
         self.names_runtime = False
 
@@ -86,20 +78,20 @@ class _PointTemplates:
         enum = subject.enum
         doc = self._docs.get(key) or self._docs.setdefault(key, PointDoc(point, self._scope.lowered))
         limited = key, id(point.allowed)
-        limits = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(subject))
+        span, low, high = self._limits.get(limited) or self._limits.setdefault(limited, _limits_of(subject))
         addresses, code = point.place.addresses, point.code or ""
         address = addresses[0] if len(addresses) == 1 else min(addresses)
         literal = code and rust_string(code)
         return MacroFields(
-            doc.of(item, code and rust_code(code), address, limits.text),
+            doc.of(item, code and rust_code(code), address, span),
             item,
             name,
             "" if enum is None else type_name(enum.name),
             literal,
             literal if code != name and _ALIAS.fullmatch(code) else "",
             f"0x{address:04X}",
-            limits.low,
-            limits.high,
+            low,
+            high,
             "" if len(addresses) == 1 else _addresses(addresses),
             _references(point.place.references),
         )
@@ -120,7 +112,7 @@ def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Itera
         yield fields.references
     if point.unit.symbol:
         yield f"unit {rust_string(point.unit.symbol)};"
-    if subject.form == "scaled" and point.decimals:
+    if point.form == "scaled" and point.decimals:
         yield f"decimals {point.decimals};"
     if point.display is not None:
         yield f"display {point.display};"
@@ -138,7 +130,7 @@ def _names_runtime(subject: CratePoint) -> bool:
     """Return True if the facts name items of the runtime: the type of a text, the check of digits, or rules."""
     point = subject.point
     checked = point.digits is not None or bool(point.limit_arguments)
-    return point.text is not None or bool(subject.factors) or (point.writable and checked)
+    return point.text is not None or bool(point.scale_arguments) or (point.writable and checked)
 
 
 def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
@@ -161,13 +153,13 @@ def _whereabouts(point: Point, fields: MacroFields) -> Iterator[str]:
         yield f"fixed {mask(point.fixed.mask, width)} {mask(point.fixed.bits, width)};"
 
 
-def _limits_of(subject: CratePoint) -> LimitLiterals:
-    """Return the limits of a point; more than one range is not written by its ends."""
+def _limits_of(subject: CratePoint) -> tuple[str, str, str]:
+    """Return the limits of a point for its doc comment, and their ends in code; several ranges have no ends."""
     point, raw = subject.point, subject.raw
     ends, span = point.outer, raw_range_text(point)
-    unwritten = subject.form in _UNLIMITED or ends == type_range(raw)
+    unwritten = point.form in _UNLIMITED or ends == type_range(raw)
     low, high = ("", "") if unwritten else (raw_literal(ends[0], raw), raw_literal(ends[1], raw))
-    return LimitLiterals(span and rust_code(span), low, high)
+    return span and rust_code(span), low, high
 
 
 def _addresses(addresses: tuple[int, ...]) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from fieldscribe.lowered import Lowered, lower, named_numbers
-from fieldscribe.model import Device, Enum, Linear, Message, Point, Shape, Telegram
+from fieldscribe.model import Device, Enum, Message, Point, Shape, Telegram
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 
@@ -27,17 +27,7 @@ class CratePoint(NamedTuple):
 
     def renamed(self, item: str, name: str) -> CratePoint:
         """Return the point with placeholders for its names; one with a computed scale keeps them, for its structs."""
-        return self if self.factors else self._replace(item=item, name=name)
-
-    @property
-    def form(self) -> str:
-        """What a user sees, as the model says."""
-        return self.point.shape.form
-
-    @property
-    def rule(self) -> Linear | None:
-        """The rule of a scale that depends on no other point."""
-        return self.point.shape.fixed_scale
+        return self if self.point.scale_arguments else self._replace(item=item, name=name)
 
     @property
     def enum(self) -> Enum | None:
@@ -45,24 +35,10 @@ class CratePoint(NamedTuple):
         return named_numbers(self.point.shape)
 
     @property
-    def factors(self) -> tuple[str, ...]:
-        """The points whose raw numbers the scale needs."""
-        return self.point.shape.scale_arguments
-
-    @property
-    def arguments(self) -> tuple[str, ...]:
-        """The points whose raw numbers writing needs."""
-        return self.point.arguments
-
-    @property
-    def with_type(self) -> str:
-        """The struct of all raw numbers that writing needs."""
-        return f"with::{self.name}" if self.arguments else "()"
-
-    @property
     def factors_name(self) -> str:
         """The name of the scale's struct if it differs from that for writing, else empty."""
-        return f"{self.name.rstrip('_')}Factors" if self.factors and self.factors != self.arguments else ""
+        needs = self.point.scale_arguments
+        return f"{self.name.rstrip('_')}Factors" if needs and needs != self.point.arguments else ""
 
     @property
     def factors_struct(self) -> str:
@@ -72,7 +48,7 @@ class CratePoint(NamedTuple):
     @property
     def factors_type(self) -> str:
         """The type of the struct of all raw numbers that the scale needs."""
-        return f"with::{self.factors_struct}" if self.factors else "()"
+        return f"with::{self.factors_struct}" if self.point.scale_arguments else "()"
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,17 +74,15 @@ def scope_of(device: Device) -> CrateScope:
     messages = {message.name: message for message in device.messages}
     lowered, types = lower(device), {key: _types_of(shape, enums) for key, shape in shapes.items()}
     keys = lowered.template_keys
-    named = [(point, point.item) for point in generated]
+    subjects = [
+        CratePoint(point, item := point.item, type_name(item), *types[id(point.shape)], keys[id(point)])
+        for point in generated
+    ]
     return CrateScope(
         lowered,
         enums,
         frozenset(code.number for code in device.bus.functions),
-        tuple(
-            [
-                CratePoint(point, item, type_name(item), *types[id(point.shape)], keys[id(point)])
-                for point, item in named
-            ]
-        ),
+        tuple(subjects),
         device.family,
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
     )

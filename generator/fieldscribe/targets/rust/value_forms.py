@@ -24,7 +24,7 @@ _COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
 def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, ...]:
     """Return the fact about the result of decoding."""
     kind = "reading" if subject.point.specials else "value"
-    if subject.form == "scaled" and subject.rule is None:
+    if subject.point.form == "scaled" and subject.point.fixed_scale is None:
         return _ruled(subject, scope, kind)
     form, facts = _form(subject)
     kind += "_or_error" if form == "wide" else ""
@@ -33,7 +33,7 @@ def form_lines(subject: CratePoint, enum: str, scope: CrateScope) -> tuple[str, 
 
 def _value_type(subject: CratePoint, enum: str) -> str:
     """Return the type of a value that is no special code."""
-    if subject.form in ("scaled", "float"):
+    if subject.point.form in ("scaled", "float"):
         return "f64"
     if subject.point.text is not None:
         return f"runtime::Text<{subject.point.text.characters}>"
@@ -41,35 +41,35 @@ def _value_type(subject: CratePoint, enum: str) -> str:
         return f"[enums::{enum}; {subject.point.digits.count}]"
     if enum:
         return f"enums::{enum}"
-    return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
+    return f"flags::{subject.name}" if subject.point.form == "flags" else subject.raw
 
 
 def count_type(subject: CratePoint) -> str:
     """Return the integer that holds the counts of a point; empty if it has none."""
     point = subject.point
-    if subject.form in ("float", "text", "digits"):
+    if point.form in ("float", "text", "digits"):
         return ""
-    if subject.form != "scaled":
+    if point.form != "scaled":
         return _COUNTS.get(subject.raw, "i32")
     if point.decimals is None:
         return ""
-    return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
+    return "i64" if point.fixed_scale is None else f"i{min(64, _width(point.fixed_scale, point.decimals, subject.raw))}"
 
 
 def _form(subject: CratePoint) -> tuple[str, str]:
     """Return the form of a point whose scale, if any, depends on no other point, with the facts of the form."""
     point = subject.point
-    if subject.rule is not None:
-        numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
+    if point.fixed_scale is not None:
+        numbers = [point.fixed_scale.ratio, *([point.fixed_scale.offset] if point.fixed_scale.offset else ())]
         facts = ", ".join(f"{integer(number.numerator)}, {integer(number.denominator)}" for number in numbers)
-        wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
+        wide = point.decimals is not None and _width(point.fixed_scale, point.decimals, subject.raw) > 64
         return "wide" if wide else "scaled", facts
-    if subject.form == "digits" and subject.enum is not None:
+    if point.form == "digits" and subject.enum is not None:
         numbers_of = sorted({entry.raw for entry in subject.enum.entries if 0 <= entry.raw <= 0xFFFF})
         return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
     if subject.enum is not None:
         return "named", subject.carried
-    return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
+    return {"float": "floating", "text": "text", "flags": "flags"}.get(point.form, "plain"), ""
 
 
 def _ruled(subject: CratePoint, scope: CrateScope, kind: str) -> tuple[str, ...]:
@@ -193,7 +193,7 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
 
     `part` is the struct of those that the scale needs, if writing needs more. `old_names` is the text of old names.
     """
-    needy = [subject for subject in scope.subjects if subject.arguments]
+    needy = [subject for subject in scope.subjects if subject.point.arguments]
     links = _links(scope) if needy else {}
     for subject in needy:
         old_items, part = subject.point.old_items, subject.factors_name
@@ -201,16 +201,16 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
             yield {
                 "doc": f"Raw numbers that the scale of `{subject.item}` needs.",
                 "name": part,
-                "fields": _fields(subject.factors, scope, links),
+                "fields": _fields(subject.point.scale_arguments, scope, links),
                 "part": "",
                 "old_names": old_names_text(part, [f"{old}_factors" for old in old_items], render),
             }
         yield {
             "doc": f"Raw numbers that `{subject.item}` needs.",
             "name": subject.name,
-            "fields": _fields(subject.arguments, scope, links),
+            "fields": _fields(subject.point.arguments, scope, links),
             "part": part,
-            "part_literal": fields_of(8, "Self", tuple(map(value_name, subject.factors))),
+            "part_literal": fields_of(8, "Self", tuple(map(value_name, subject.point.scale_arguments))),
             "old_names": old_names_text(subject.name, old_items, render),
         }
 

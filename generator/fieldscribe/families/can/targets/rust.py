@@ -116,7 +116,7 @@ def _telegram(telegram: Telegram, message: Message) -> dict[str, object]:
 def tables_of_points(scope: CrateScope) -> Iterator[Table]:
     """Yield the table of points that come in frames of a telegram."""
     received = [
-        subject for subject in scope.subjects if subject.form != "text" and _received(subject, scope) is not None
+        subject for subject in scope.subjects if subject.point.form != "text" and _received(subject, scope) is not None
     ]
     if received:
         yield Table(
@@ -127,17 +127,19 @@ def tables_of_points(scope: CrateScope) -> Iterator[Table]:
 def telegram_of(scope: CrateScope) -> tuple[str, Snippet]:
     """Return an example for the documentation: a telegram with a point that needs no other, and lines that read it."""
     come = {subject.item: subject for subject in scope.subjects if _received(subject, scope) is not None}
-    plain = [subject for subject in come.values() if not subject.factors and not subject.point.specials]
+    needs = {item: subject.point.scale_arguments for item, subject in come.items()}
+    plain = [subject for item, subject in come.items() if not needs[item] and not subject.point.specials]
     if not plain:
         return "", Snippet()
-    scaled = [subject for subject in plain if subject.form == "scaled"]
+    scaled = [subject for subject in plain if subject.point.form == "scaled"]
     first = min(scaled or plain, key=lambda subject: subject.point.rank)
     lines = [f"let value = client.receive::<p::{first.name}>()?; // waits for its next frame"]
     lines.append('println!("it is {value:?}");')
     names = ["Receiver", "telegrams"]
-    needy = (subject for subject in come.values() if subject.factors and subject.point.telegram == first.point.telegram)
-    for subject in (subject for subject in needy if all(name in come for name in subject.factors)):
-        fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in subject.factors)
+    needy = (item for item in come if needs[item] and come[item].point.telegram == first.point.telegram)
+    for subject in (come[item] for item in needy if come.keys() >= {*needs[item]}):
+        factors = needs[subject.item]
+        fields = ", ".join(f"{value_name(name)}: heard.raw::<p::{come[name].name}>()?" for name in factors)
         lines += ["let heard = client.listener(); // what came so far"]
         lines += [f"let with = with::{subject.factors_struct} {{ {fields} }};"]
         names.append("with")

@@ -78,7 +78,7 @@ def ways(subject: CratePoint, scope: CrateScope) -> Iterator[Way]:
         if point.writable and point.keeps != "no":
             yield "store", *change_of(subject, "store", "store_update")
         return
-    if subject.form == "text" or point.bits:
+    if point.form == "text" or point.bits:
         return
     direction = scope.telegrams[point.telegram][0].direction
     if direction == "response" and point.readable:
