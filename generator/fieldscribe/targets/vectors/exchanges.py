@@ -9,7 +9,7 @@ from fieldscribe.model import Code, Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.integers import with_fixed, words_of
 from fieldscribe.targets.vectors.lines import Lines, script_text
-from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits32, bits64, code_of, outer_bounds
+from fieldscribe.targets.vectors.oracle import Oracle, admit, as_raw, bits_of, code_of, outer_bounds
 from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings, ascending
 
 Script = list[tuple[bytes, bytes]]
@@ -194,4 +194,4 @@ def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -
 def _typical_pattern(encoding: PointEncoding) -> int:
     low, high = encoding.allowed.units[0] if encoding.allowed.units else (0, 100)
     value = float(low) + (float(high) - float(low)) / 3
-    return bits64(value) if encoding.shape.width == 64 else bits32(value) or 0
+    return bits_of(value, encoding.shape.width)

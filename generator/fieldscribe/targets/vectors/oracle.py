@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import isfinite
 
-from fieldscribe.model import Allowed, Bound, Factor, Limit, Linear, Point, Shape, Special
+from fieldscribe.model import Allowed, Bound, Factor, Linear, Point, Shape, Special
 
 INFINITY = math.inf
 EXACT = 1 << 53
@@ -38,9 +38,14 @@ def as_raw(shape: Shape, pattern: int) -> int:
     return pattern - (1 << shape.width) if shape.info.signed and pattern >> (shape.width - 1) else pattern
 
 
-def bits64(value: float) -> int:
-    """Return the bits of a binary64 as a number."""
-    return int.from_bytes(struct.pack(">d", value), "big")
+def bits_of(value: float, width: int) -> int:
+    """Return the pattern of the binary32 or binary64 nearest to a value, ties to even; infinity if it is too large."""
+    form = ">f" if width == 32 else ">d"
+    try:
+        data = struct.pack(form, value)
+    except OverflowError:
+        data = struct.pack(form, math.copysign(INFINITY, value))
+    return int.from_bytes(data, "big")
 
 
 def float_of_bits(bits: int, width: int) -> float:
@@ -48,25 +53,6 @@ def float_of_bits(bits: int, width: int) -> float:
     form, size = (">f", 4) if width == 32 else (">d", 8)
     number: float = struct.unpack(form, bits.to_bytes(size, "big"))[0]
     return math.nan if math.isnan(number) else number
-
-
-def bits32(value: float) -> int | None:
-    """Return the pattern of the binary32 nearest to a finite binary64, ties to even; None if that is infinite."""
-    sign = 0x8000_0000 if math.copysign(1.0, value) < 0 else 0
-    over, under = abs(value).as_integer_ratio()
-    if over == 0:
-        return sign
-    exponent = max(math.frexp(abs(value))[1] - 24, -149)  # of the last place
-    if exponent >= 0:
-        under <<= exponent
-    else:
-        over <<= -exponent
-    places, rest = divmod(over, under)
-    if 2 * rest > under or (2 * rest == under and places & 1):
-        places += 1
-    # The 24th bit of a normal number adds one to the exponent field, as does a carry out of the fraction.
-    pattern = places if exponent == -149 else places + ((exponent + 149) << 23)
-    return None if pattern >= 0x7F80_0000 else sign | pattern
 
 
 Settings = Mapping[str, int]
@@ -134,19 +120,13 @@ class Ratio:
         return abs(self.numerator(raw)) <= EXACT and self.denominator <= EXACT
 
 
-@lru_cache(maxsize=4096)
-def fixed_ratio(rule: Linear) -> Ratio:
-    """Return the ratio of a rule that has no factors."""
-    return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
-
-
 def _number(factor: Factor, numbers: Numbers) -> Fraction | int:
     """The number of a factor, before its power is applied."""
     return factor.slope * numbers[factor.point] + factor.intercept
 
 
-def _product(rule: Linear, numbers: Numbers) -> tuple[int, int]:
-    """The rule's ratio times its factors, as numerator and denominator; the denominator may be 0 or negative."""
+def _applied(rule: Linear, numbers: Numbers) -> Ratio:
+    """The rule with the numbers of its factors; the denominator may be 0 or negative."""
     over, under = rule.ratio.numerator, rule.ratio.denominator
     for factor in rule.factors:
         number = _number(factor, numbers)
@@ -155,15 +135,13 @@ def _product(rule: Linear, numbers: Numbers) -> tuple[int, int]:
         else:
             power, size, part = factor.power, number.numerator, number.denominator
         over, under = (over * size, under * part) if power >= 0 else (over * part, under * size)
-    return over, under
+    return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
 
 
-def _limit_number(limit: Limit, numbers: Numbers) -> int:
-    """The raw number of a limit, for settings in which it does not divide by zero."""
-    over, under = _product(limit.rule, numbers)
-    offset = limit.rule.offset
-    over, under = over * offset.denominator + offset.numerator * under, under * offset.denominator
-    return half_away(over, under) if under > 0 else half_away(-over, -under)
+@lru_cache(maxsize=4096)
+def fixed_ratio(rule: Linear) -> Ratio:
+    """Return the ratio of a rule that has no factors."""
+    return _applied(rule, {})
 
 
 class Oracle:
@@ -195,8 +173,7 @@ class Oracle:
             return "zero_factor"
         if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
-        over, under = _product(rule, numbers)
-        return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
+        return _applied(rule, numbers)
 
     def _is_code(self, name: str, raw: int) -> bool:
         """Whether a point holds a special code, so that rules cannot compute with it."""
@@ -251,7 +228,7 @@ class Oracle:
             return "zero_factor"
         if any(factor.ten_to and not self.exponent_fits(factor, settings) for factor in factors):
             return "overflow"
-        number = _limit_number(bound, numbers)
+        number = _applied(bound.rule, numbers).raw_of_count(1, 0)
         return max(bound.least, number) if lower else min(bound.greatest, number)
 
 

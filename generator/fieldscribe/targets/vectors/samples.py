@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import gcd
+from math import gcd, inf, nan
 
 from fieldscribe.model import Allowed, Bound, Enum, Factor, Interval, Limit, Point, Shape
-from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, bits_of, outer_bounds
 
 MANY = 3
 """The number of intervals of a list that are tried for every point."""
@@ -108,29 +108,13 @@ def _form(bound: Bound) -> Hashable:
 
 Limits = Sequence[tuple[int, int]]
 
-_FIFTY = 0x4248_0000
-_FACTORS_32 = (
-    0x4248_0000,
-    0x4270_0000,
-    0x3F80_0000,
-    0x3DCC_CCCD,
-    0xC2C8_0000,
-    0x4422_8AC1,
-    0x0000_0000,
-    0x8000_0000,
-    0x7F80_0000,
-    0x7FC0_0000,
-)
-"""Binary32 patterns for a factor: 50, 60, 1, 0.1, -100, 650.16..., both zeros, infinity, NaN."""
+_FACTORS = (50.0, 60.0, 1.0, 0.1, -100.0, 650.168, 0.0, -0.0, inf, nan)
+"""Numbers for a floating-point factor, the typical one first."""
 
 
 def edges(limits: Limits) -> dict[int, None]:
     """Return each limit and the number beyond it, so that every hole of a list is tried."""
-    raws: dict[int, None] = {}
-    for low, high in limits:
-        for raw in (low, high, low - 1, high + 1):
-            raws[raw] = None
-    return raws
+    return dict.fromkeys(raw for low, high in limits for raw in (low, high, low - 1, high + 1))
 
 
 def limits_to_try(limits: Limits) -> Limits:
@@ -142,22 +126,17 @@ def raws_to_decode(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
     """Return raw numbers to decode: limits; if `deep`, also special codes, the ends of the type and around the sign."""
     if not deep:
         return _held(shape, (limits[0][0], limits[-1][1]))
-    raws = {raw: None for interval in limits for raw in interval}
-    raws.update(dict.fromkeys(codes(shape)))
-    raws.update({shape.least: None, shape.greatest: None})
-    if shape.least < 0:
-        raws.update({-1: None, 0: None})
-    return _held(shape, raws)
+    sign = (-1, 0) if shape.least < 0 else ()
+    ends = (raw for interval in limits for raw in interval)
+    return _held(shape, dict.fromkeys((*ends, *codes(shape), shape.least, shape.greatest, *sign)))
 
 
 def raws_to_check(shape: Shape, limits: Limits, *, deep: bool) -> list[int]:
     """Return raw numbers to check: limits and one beyond; if `deep`, also special codes and the ends of the type."""
-    raws = edges(limits)
-    if not deep:
-        return _held(shape, {**edges(limits_to_try(limits)), **{raw: None for interval in limits for raw in interval}})
-    raws.update(dict.fromkeys(codes(shape)))
-    raws.update({shape.least: None, shape.greatest: None})
-    return _held(shape, raws)
+    if deep:
+        return _held(shape, dict.fromkeys((*edges(limits), *codes(shape), shape.least, shape.greatest)))
+    ends = (raw for interval in limits for raw in interval)
+    return _held(shape, dict.fromkeys((*edges(limits_to_try(limits)), *ends)))
 
 
 def codes(shape: Shape) -> list[int]:
@@ -247,7 +226,7 @@ def _typical(oracle: Oracle, encoding: PointEncoding, name: str) -> int:
         if case.point == name and case.raw is not None:
             return case.raw
     if (source := oracle.points.get(name)) is not None and source.shape.info.floating:
-        return _FIFTY
+        return bits_of(_FACTORS[0], 32)
     low, high = _bounds(oracle, name)
     middle = low + (high - low) // 3
     return middle or min(high, 1)
@@ -266,7 +245,8 @@ def _choices(oracle: Oracle, encoding: PointEncoding, name: str) -> list[int]:
     source = oracle.points.get(name)
     lifting += [] if source is None else [special.low for special in source.shape.specials[:4]]
     if source is not None and source.shape.info.floating:
-        return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.shape.greatest]
+        patterns = (bits_of(number, 32) for number in _FACTORS)
+        return [raw for raw in dict.fromkeys((*patterns, *lifting)) if raw <= source.shape.greatest]
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in encoding.shape.scale or () if case.point == name and case.raw is not None]
     raws = [*cases, max(cases) + 1] if cases else [low, high]

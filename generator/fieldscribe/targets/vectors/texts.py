@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import isfinite
+from math import inf, isfinite, nan
 
 from fieldscribe.model import Digits, Shape
 from fieldscribe.targets.vectors import samples
@@ -12,8 +12,7 @@ from fieldscribe.targets.vectors.oracle import (
     INT64,
     Oracle,
     Ratio,
-    bits32,
-    bits64,
+    bits_of,
     code_of,
     float_of_bits,
     half_away,
@@ -101,9 +100,6 @@ def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
 _NEAR = range(-400, 401)
 """Where halves of the last decimal are looked for."""
 
-_NO_NUMBERS = {32: (0x7F80_0000, 0xFF80_0000, 0x7FC0_0000), 64: (0x7FF0 << 48, 0xFFF0 << 48, 0x7FF8 << 48)}
-"""Patterns of infinities and of what is no number."""
-
 
 def displayed(lines: Lines, oracle: Oracle, encoding: PointEncoding, *, deep: bool) -> None:
     """Add the texts of the values of a point that says how many decimals people see."""
@@ -157,15 +153,11 @@ def _of_number(shape: Shape, ratio: Ratio | str, raw: int) -> tuple[str, str]:
     return ("overflow", "") if shape.scale_arguments and beyond else ("ok", _decimal(count, shape.display or 0))
 
 
-def _patterns(shape: Shape) -> Iterator[int]:
-    """Yield patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
+def _patterns(shape: Shape) -> list[int]:
+    """Return patterns of numbers: halves of the last decimal, what rounds to zero, the largest, and what is none."""
     half = 0.5 ** ((shape.display or 0) + 1)
     numbers = (0.0, -0.0, 1.0, 0.1, half, -half, 3 * half, half / 2, -half / 2, 1.5e9, -12345678.0, 3e38)
-    for number in numbers:
-        pattern = bits64(number) if shape.width == 64 else bits32(number)
-        if pattern is not None:
-            yield pattern
-    yield from _NO_NUMBERS[shape.width]
+    return [bits_of(number, shape.width) for number in (*numbers, inf, -inf, nan)]
 
 
 def _of_float(shape: Shape, raw: int) -> tuple[str, str]:
