@@ -10,9 +10,9 @@ from fieldscribe.code_view import for_code
 from fieldscribe.model import Device, Digits, Enum, Fixed, Flag, Interner, Place, Shape, Special, Text
 from fieldscribe.resources import render
 from fieldscribe.targets.vectors import outputs
+from fieldscribe.targets.vectors.collection import SharedVectors
 from fieldscribe.targets.vectors.samples import PointEncodings
 from fieldscribe.targets.vectors.scaled import Scaled
-from fieldscribe.targets.vectors.shared_vectors import SharedVectors
 from support.described import DEVICES, made, shipped
 from support.models import HERTZ, VOLT, allowed, entry, point, sample_device, scaled, titles, value_of
 from support.places import ROOT

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 from fieldscribe.families import family
 from fieldscribe.model import Entry, Enum, Flag, Limit, Special
-from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.vector_kinds import KINDS, table
+from fieldscribe.targets.vectors.lines import Lines, Row
+from fieldscribe.targets.vectors.vector_kinds import KINDS
 from support.models import (
     allowed,
     linear,
@@ -29,8 +29,10 @@ def test_one_vector_per_line_with_counts_before() -> None:
     assert text.startswith("vectors\t2\tsample_drive\t1.2.0\t0123456789abcdef")
     assert text.endswith("\n")
     kinds = Counter(vector["kind"] for vector in VECTORS)
-    known = KINDS | table(family(SAMPLE.family).part("targets.vectors").KINDS)
-    assert counts_of(text) == {kind: kinds[kind] for kind in kinds if "python" in (known[kind].only or "python")}
+    known = KINDS | family(SAMPLE.family).part("targets.vectors").KINDS
+    assert counts_of(text) == {
+        kind: kinds[kind] for kind in kinds if "python" in (Row(kind, known[kind]).only or "python")
+    }
     lines = Counter(line.split("\t")[0] for line in text.splitlines())
     assert {kind: lines[kind] for kind in kinds} == kinds
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from operator import attrgetter
 from types import MappingProxyType
 
@@ -10,10 +10,13 @@ from fieldscribe.conditions import Condition
 from fieldscribe.families import family
 from fieldscribe.model import Bus, Device, Point, item_of
 from fieldscribe.targets.vectors.exchanges import Exchanges, Wire
+from fieldscribe.targets.vectors.floats import floats
+from fieldscribe.targets.vectors.integers import bits, fixed, flags, names, specials, whole, words
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import Oracle, outer_bounds
-from fieldscribe.targets.vectors.samples import PointEncodings
-from fieldscribe.targets.vectors.shared_vectors import SharedVectors
+from fieldscribe.targets.vectors.samples import PointEncoding, PointEncodings
+from fieldscribe.targets.vectors.scaled import Scaled
+from fieldscribe.targets.vectors.texts import digits, displayed, text
 from fieldscribe.text import line
 
 
@@ -35,6 +38,56 @@ class OfFamily:
         return ()
 
 
+class SharedVectors:
+    """The shared vectors of one device, in two parts: those that depend on limits, and the others."""
+
+    def __init__(self, lines: Lines, oracle: Oracle, encodings: PointEncodings) -> None:
+        self._lines, self._oracle, self._encodings = lines, oracle, encodings
+        self._scaled = Scaled(oracle)
+        self._within_limits: dict[PointEncoding, Lines] = {}
+        self._beside_limits: dict[Hashable, Lines] = {}
+
+    def within_limits(self, encoding: PointEncoding) -> Lines:
+        """Return conversions, checks and names; they are deep for the first point that is computed in this way."""
+        part = self._within_limits.get(encoding)
+        if part is None:
+            deep = self._encodings.is_new(encoding)
+            part = self._lines.part()
+            self._convert(part, encoding, deep=deep)
+            if not deep:
+                self._within_limits[encoding] = part
+        return part
+
+    def _convert(self, lines: Lines, encoding: PointEncoding, *, deep: bool) -> None:
+        shape, oracle = encoding.shape, self._oracle
+        if shape.form == "scaled":
+            self._scaled.add(lines, encoding, deep=deep)
+        elif shape.form == "float":
+            floats(lines, encoding, deep=deep)
+        elif shape.form == "text":
+            text(lines, shape)
+        elif shape.form == "digits":
+            digits(lines, shape)
+        else:
+            whole(lines, oracle, encoding, deep=deep)
+        if shape.display is not None:
+            displayed(lines, oracle, encoding, deep=deep)
+        names(lines, shape, deep=deep)
+
+    def beside_limits(self, encoding: PointEncoding) -> Lines:
+        """Return what no limits decide about: special codes, flags, groups of bits, words."""
+        key = id(encoding.shape), encoding.bits, encoding.order
+        part = self._beside_limits.get(key)
+        if part is None:
+            part = self._beside_limits[key] = self._lines.part()
+            specials(part, encoding.shape)
+            flags(part, encoding.shape)
+            fixed(part, encoding.shape)
+            bits(part, encoding)
+            words(part, encoding)
+        return part
+
+
 def collect(device: Device) -> Lines:
     """Return all vectors of a device: its points by address, then its frames and blocks.
 
@@ -49,7 +102,7 @@ def collect(device: Device) -> Lines:
     exchanges = [Exchanges(lines, oracle, encodings, points, wire) for wire in part.wires(device)]
     usual, others = exchanges[:1], exchanges[1:]
     for exchange in usual:
-        exchange.open()
+        exchange.wire.opens(lines)
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
     lines.add_limits(first_unit=device.bus.units[0], last_unit=device.bus.units[1])
@@ -64,7 +117,7 @@ def collect(device: Device) -> Lines:
         for exchange in usual:
             exchange.of(point, encoding)
     for exchange in others:
-        exchange.open()
+        exchange.wire.opens(lines)
         exchange.of_each_space()
     for point in device.points:
         if point.raw_only and point.address is not None:

@@ -56,10 +56,6 @@ class Exchanges:
         """The kinds and spaces that have vectors with bad answers already."""
         self._typical: dict[PointEncoding, _Typical | None] = {}
 
-    def open(self) -> None:
-        """Set the unit and the line for all exchanges."""
-        self.wire.opens(self.lines)
-
     def of_each_space(self) -> None:
         """Add exchanges for the first readable and the first writable point of each space."""
         for point in self.points.values():

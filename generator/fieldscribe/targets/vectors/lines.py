@@ -9,7 +9,7 @@ from struct import Struct
 from types import MappingProxyType
 from typing import Any
 
-from fieldscribe.targets.vectors.vector_kinds import KINDS, SETS, Kind, table
+from fieldscribe.targets.vectors.vector_kinds import KINDS, SETS
 
 FORMAT = 2
 ABSENT = "-"
@@ -71,48 +71,41 @@ _FORMS: dict[str, tuple[tuple[type, ...], Callable[[Any], str]]] = {
 
 
 class Row:
-    """Writes the lines of one kind or set, and checks each value against its field."""
+    """Writes the lines of one kind or set, and checks each value against its field.
 
-    def __init__(self, name: str, kind: Kind) -> None:
-        self.name, self.kind = name, kind
+    `only` are the languages that have this in code and not only in comments; empty for all.
+    """
+
+    def __init__(self, name: str, row: str) -> None:
+        forms = dict([part.split(":") for part in row.split()])
+        self.name, self.only = name, forms.pop("only", "")
+        self.fields = {key: form.removesuffix("?") for key, form in forms.items()}
+        self._needed = [(place, key) for place, key in enumerate(forms) if not forms[key].endswith("?")]
         self._writers: dict[tuple[type, ...], Sequence[Callable[[Any], str]]] = {}
 
     def line(self, values: Sequence[object]) -> str:
         """Return the line of one vector; fields without a value are absent, and left out at the end."""
         types = tuple(map(type, values))
         if types not in self._writers:
-            self._writers[types] = self._writers_of(types)
-        words = [*map(call, self._writers[types], values)]
-        return "\t".join((self.name, *(self._without_empty(words) if "" in words else words)))
-
-    def _writers_of(self, types: tuple[type, ...]) -> Sequence[Callable[[Any], str]]:
-        """Return what writes values of these types. Raises ValueError or TypeError if the fields do not take them."""
-        if len(types) > len(self.kind.fields):
-            raise ValueError(f"{self.name} has no more than {len(self.kind.fields)} fields")
-        writers: list[Callable[[Any], str]] = []
-        for (key, form), given in zip(self.kind.fields, types, strict=False):
-            taken, write = _FORMS[form]
-            if given not in taken and given is not type(None):
-                raise TypeError(
-                    f"{self.name}: {key} takes {' or '.join(each.__name__ for each in taken)}, no {given.__name__}"
-                )
-            writers.append(write if given in taken else lambda _: ABSENT)
-        end = max((place for place, given in enumerate(types, 1) if given is not type(None)), default=0)
-        self._look_for_needed([given is not type(None) for given in types])
-        return writers[:end]
-
-    def _without_empty(self, words: list[str]) -> list[str]:
-        """Return the words with empty ones absent; an empty list has no notation."""
-        words = [word or ABSENT for word in words]
+            self._writers[types] = [*self._writers_of(types)]
+        words = [written or ABSENT for written in map(call, self._writers[types], values)]
         while words and words[-1] == ABSENT:
             words.pop()
-        self._look_for_needed([word != ABSENT for word in words])
-        return words
-
-    def _look_for_needed(self, present: Sequence[bool]) -> None:
-        for place, (key, _) in enumerate(self.kind.fields):
-            if key not in self.kind.optional and not (place < len(present) and present[place]):
+        for place, key in self._needed:
+            if place >= len(words) or words[place] == ABSENT:
                 raise ValueError(f"{self.name} lacks {key}")
+        return "\t".join((self.name, *words))
+
+    def _writers_of(self, types: tuple[type, ...]) -> Iterator[Callable[[Any], str]]:
+        """Yield what writes values of these types. Raises ValueError or TypeError if the fields do not take them."""
+        if len(types) > len(self.fields):
+            raise ValueError(f"{self.name} has no more than {len(self.fields)} fields")
+        for (key, form), given in zip(self.fields.items(), types, strict=False):
+            taken, write = _FORMS[form]
+            if given not in taken and given is not type(None):
+                names = " or ".join(each.__name__ for each in taken)
+                raise TypeError(f"{self.name}: {key} takes {names}, no {given.__name__}")
+            yield write if given in taken else lambda _: ABSENT
 
 
 _ROWS = {name: Row(name, kind) for name, kind in KINDS.items()}
@@ -124,7 +117,7 @@ class Lines:
     """Collects vectors in order, and counts them; `kinds` are those that only the device's family has."""
 
     def __init__(self, kinds: Mapping[str, str] = MappingProxyType({})) -> None:
-        self._rows = _ROWS | {name: Row(name, kind) for name, kind in table(kinds).items()}
+        self._rows = _ROWS | {name: Row(name, kind) for name, kind in kinds.items()}
         self._numbers: defaultdict[str, int] = defaultdict(int)
         self._in_force: dict[str, str] = {}
         self._wanted: dict[str, str] = {}
@@ -208,8 +201,10 @@ class Lines:
                 counts[kind] += number * times
         yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
         for name, row in _SETS.items():
-            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.kind.fields)))
+            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in row.fields.items())))
         for name, row in self._rows.items():
             if number := counts[name]:
-                only = (f"only:{row.kind.only}",) if row.kind.only else ()
-                yield "\t".join(("kind", name, str(number), *only, *(f"{key}:{form}" for key, form in row.kind.fields)))
+                only = (f"only:{row.only}",) if row.only else ()
+                yield "\t".join(
+                    ("kind", name, str(number), *only, *(f"{key}:{form}" for key, form in row.fields.items()))
+                )

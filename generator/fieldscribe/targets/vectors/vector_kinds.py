@@ -4,112 +4,80 @@ A file has lines of fields, separated by tabs. Its head names the device, then e
 fields and their forms, so that no runner needs a list of its own. A set is what the vectors below it share until it is
 set anew; it ends the sets that come after it in the table. An absent field is a hyphen, or left out at the end of a
 line. A runner compares every field with something, except notes.
+
+A row of the tables here has the fields of a line in order, each with its form; one that may be absent ends in a
+question mark. `only` names the languages that have this in code and not only in comments; without it, all have it.
 """
-
-from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """The fields of a line in order, each with its form."""
-
-    fields: tuple[tuple[str, str], ...]
-    optional: frozenset[str]
-    """Fields that may be absent; in the table they end in a question mark."""
-    only: str = ""
-    """The languages that have this in code and not only in comments; empty for all."""
-
-
-def _kind(row: str) -> Kind:
-    pairs = [part.partition(":")[::2] for part in row.split()]
-    only = next((form for name, form in pairs if name == "only"), "")
-    pairs = [pair for pair in pairs if pair[0] != "only"]
-    optional = frozenset(name for name, form in pairs if form.endswith("?"))
-    return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional, only)
-
-
-def table(rows: Mapping[str, str]) -> dict[str, Kind]:
-    """Return kinds by name, from the fields of their lines."""
-    return {name: _kind(row) for name, row in rows.items()}
-
 
 _REQUEST = "framing:word unit:int transaction:int function:int address:int count:int values:ints?"
 
 _EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
 
-SETS = table(
-    {
-        "unit": "unit:int framing:word?",
-        "link": "pkw:int pzd:int single_first:int?",
-        "point": "point:word",
-        "with": "with:pairs?",
-        "request": _REQUEST,
-        "message": "message:word",
-        "telegram": "telegram:word unit:int",
-        "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
-    }
-)
+SETS = {
+    "unit": "unit:int framing:word?",
+    "link": "pkw:int pzd:int single_first:int?",
+    "point": "point:word",
+    "with": "with:pairs?",
+    "request": _REQUEST,
+    "message": "message:word",
+    "telegram": "telegram:word unit:int",
+    "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
+}
 """What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
 
-KINDS = table(
-    {
-        # conversions between raw number, value (binary64) and count, and whether a raw number may be written
-        "decode": "raw:int status:word value:real? special:word?",
-        "encode": "value:real status:word raw:int?",
-        "decode_count": "raw:int status:word count:int? special:word?",
-        "encode_count": "count:int status:word raw:int?",
-        "check": "raw:int status:word",
-        # names of numbers, special codes, flags, and the numbers of flags of several bits
-        "name": "raw:int name:text?",
-        "special": "special:text low:int high:int",
-        "special_name": "raw:int name:text? no_value:int?",
-        "flag": "flag:text raw:int number:int truth:int?",
-        "flag_name": "flag:text raw:int name:text",
-        # bit groups out of their words and into them, words of a number, texts and digits
-        "bits": "word:int raw:int replaced:int result:int",
-        "words": "raw:int words:ints",
-        "text_decode": "words:ints text:bytes?",
-        "text_encode": "text:bytes? status:word words:ints?",
-        "digits": "raw:int status:word digits:ints? special:word?",
-        "digits_encode": "digits:ints status:word raw:int?",
-        # facts of a point apart from its conversions
-        "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
-        "references:pairs?",
-        "place": "addresses:ints index:int? telegram:word?",
-        "write_address": "only:c.rust address:int",
-        "fixed": "mask:int bits:int",
-        # whole exchanges with a point: requests, answers and result; also for writing permanently
-        "read": _EXCHANGE,
-        "write": _EXCHANGE,
-        "store": _EXCHANGE,
-        # facts that only Python has in code: in C and Rust they are comments, which no program can check
-        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
-        "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
-        # old names of a point
-        "alias": "only:c.python old:word new:word",
-        # the values of an axis of variants, and what is only documented
-        "variant": "only:python axis:word choices:names",
-        "left_out": "only:python names:names codes:names",
-        # the number of decimals that people see, and the texts of values
-        "display": "decimals:int",
-        "told": "only:python.rust raw:int status:word text:text?",
-        # the symbol of a point's unit
-        "symbol": "only:rust symbol:text",
-        # the addresses of points that are only documented
-        "documented": "name:word space:word address:int words:int index:int?",
-        # the reads of a group's words; not in Rust, which reads points one by one
-        "group": "only:c.python group:word addresses:ints",
-        # the contents of tables of constants: functions or tasks in order, limits, lengths of tables
-        "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
-        "limit": "only:c what:word number:int",
-        "size": "only:c what:word of:text? number:int",
-        # named numbers of the protocol, and commands
-        "code": "what:word number:int name:text",
-        "constant": "only:c.rust what:word number:int name:text",
-        "command": "command:word value:int script:script status:word",
-    }
-)
+KINDS = {
+    # conversions between raw number, value (binary64) and count, and whether a raw number may be written
+    "decode": "raw:int status:word value:real? special:word?",
+    "encode": "value:real status:word raw:int?",
+    "decode_count": "raw:int status:word count:int? special:word?",
+    "encode_count": "count:int status:word raw:int?",
+    "check": "raw:int status:word",
+    # names of numbers, special codes, flags, and the numbers of flags of several bits
+    "name": "raw:int name:text?",
+    "special": "special:text low:int high:int",
+    "special_name": "raw:int name:text? no_value:int?",
+    "flag": "flag:text raw:int number:int truth:int?",
+    "flag_name": "flag:text raw:int name:text",
+    # bit groups out of their words and into them, words of a number, texts and digits
+    "bits": "word:int raw:int replaced:int result:int",
+    "words": "raw:int words:ints",
+    "text_decode": "words:ints text:bytes?",
+    "text_encode": "text:bytes? status:word words:ints?",
+    "digits": "raw:int status:word digits:ints? special:word?",
+    "digits_encode": "digits:ints status:word raw:int?",
+    # facts of a point apart from its conversions
+    "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? references:pairs?",
+    "place": "addresses:ints index:int? telegram:word?",
+    "write_address": "only:c.rust address:int",
+    "fixed": "mask:int bits:int",
+    # whole exchanges with a point: requests, answers and result; also for writing permanently
+    "read": _EXCHANGE,
+    "write": _EXCHANGE,
+    "store": _EXCHANGE,
+    # facts that only Python has in code: in C and Rust they are comments, which no program can check
+    "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+    "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
+    # old names of a point
+    "alias": "only:c.python old:word new:word",
+    # the values of an axis of variants, and what is only documented
+    "variant": "only:python axis:word choices:names",
+    "left_out": "only:python names:names codes:names",
+    # the number of decimals that people see, and the texts of values
+    "display": "decimals:int",
+    "told": "only:python.rust raw:int status:word text:text?",
+    # the symbol of a point's unit
+    "symbol": "only:rust symbol:text",
+    # the addresses of points that are only documented
+    "documented": "name:word space:word address:int words:int index:int?",
+    # the reads of a group's words; not in Rust, which reads points one by one
+    "group": "only:c.python group:word addresses:ints",
+    # the contents of tables of constants: functions or tasks in order, limits, lengths of tables
+    "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
+    "limit": "only:c what:word number:int",
+    "size": "only:c what:word of:text? number:int",
+    # named numbers of the protocol, and commands
+    "code": "what:word number:int name:text",
+    "constant": "only:c.rust what:word number:int name:text",
+    "command": "command:word value:int script:script status:word",
+}
 """The kinds of vectors of all families: the fields of their lines. The sets in force apply to every line."""
