@@ -211,36 +211,27 @@ class _Received:
         ):  # fmt: skip
             self._answer([self._frame(*position) for position in order])
 
-    def _answer(self, frames: list[CanFrame]) -> None:
-        """Add one vector: what the point is when these frames came."""
-        receiver = Receiver(self.telegram, self.message, self.unit)
-        taken = [int(receiver.take(frame)) for frame in frames]
-        status, words = receiver.words(self.point.addresses)
-        pattern = 0
-        for word in words:
-            pattern = pattern << 16 | word
-        if self.point.bits is not None:
-            pattern >>= self.point.bits[1]
-        raw = as_raw(self.point.shape, pattern) if status == "ok" else None
-        self._set()
-        self.lines.add("can_telegram", _pairs(frames), taken, status, raw)
-
-    def _set(self) -> None:
-        self.lines.set("point", self.point.item)
-        self.lines.set("telegram", self.telegram.name, self.unit)
-
     def text(self) -> None:
         """Add a text before any frame, before the last one, and complete."""
         slots = dict.fromkeys(position // self.message.words for position in self.point.addresses)
         frames = [self._frame(slot, 0x2143 + slot) for slot in slots]
         for count in dict.fromkeys((0, len(frames) - 1, len(frames))):
-            receiver = Receiver(self.telegram, self.message, self.unit)
-            taken = [int(receiver.take(frame)) for frame in frames[:count]]
-            pieces = [receiver.words((position,)) for position in self.point.addresses]
-            status = next((status for status, _ in pieces if status != "ok"), "ok")
-            words = [word for _, words in pieces for word in words] if status == "ok" else None
-            self._set()
-            self.lines.add("can_text", _pairs(frames[:count]), taken, status, words)
+            self._answer(frames[:count])
+
+    def _answer(self, frames: list[CanFrame]) -> None:
+        """Add one vector: what the point is when these frames came. Each word of a text may come from another frame."""
+        receiver = Receiver(self.telegram, self.message, self.unit)
+        taken = [int(receiver.take(frame)) for frame in frames]
+        addresses, is_text = self.point.addresses, self.point.form == "text"
+        parts = [receiver.words(part) for part in ([(at,) for at in addresses] if is_text else [addresses])]
+        status = next((status for status, _ in parts if status != "ok"), "ok")
+        words = [word for _, words in parts for word in words]
+        pattern = int.from_bytes(b"".join(word.to_bytes(2, "big") for word in words), "big")
+        number = as_raw(self.point.shape, pattern >> (self.point.bits[1] if self.point.bits else 0))
+        self.lines.set("point", self.point.item)
+        self.lines.set("telegram", self.telegram.name, self.unit)
+        answer = None if status != "ok" else words if is_text else number
+        self.lines.add("can_text" if is_text else "can_telegram", _pairs(frames), taken, status, answer)
 
 
 def limits(lines: Lines, bus: Bus) -> None:
