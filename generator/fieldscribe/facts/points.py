@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from operator import itemgetter
 
 from fieldscribe import wording
@@ -32,6 +33,15 @@ from fieldscribe.model import TYPES
 
 _RAW_NUMBER = View("raw", WIRE, itemgetter("raw"))
 
+_by_raw = partial(Parts, same_by=("raw",), added=BEHAVIOUR)
+"""Meanings of raw numbers: the number tells which are the same, and a new one changes behaviour."""
+
+
+def _always_null(key: str, doc: str) -> Fact:
+    """A key of the exported model that no description fills."""
+    return Fact(key, doc, TEXT_OR_NULL, value=lambda _point, _: None, derived="it is always empty")
+
+
 NAME = Fact("name", "Its name.", STRING)
 
 TITLE = Fact("title", "What it means, for people.", TITLES, DOCS, for_people=True)
@@ -50,10 +60,7 @@ SOURCE = Fact(
 
 ERRATA = Fact("errata", "The errata that touch it.", TEXTS, derived="the errata name it")
 
-FLAG_VALUE: FactTable = (
-    NAME,
-    TITLE,
-)
+FLAG_VALUE: FactTable = (NAME, TITLE)
 
 ENTRY: FactTable = (
     *FLAG_VALUE,
@@ -71,11 +78,7 @@ FLAG: FactTable = (
         by_number(ref("flag_value")),
         table=FLAG_VALUE,
         value=values.flag_values,
-        views=(
-            Parts(
-                "value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,), same_by=("raw",), added=BEHAVIOUR
-            ),
-        ),
+        views=(_by_raw("value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,)),),
     ),
 )
 
@@ -95,7 +98,6 @@ SPECIAL: FactTable = (
         "shared",
         "Whether the point gets it from a type, a group or a format.",
         BOOLEAN,
-        value=lambda special, _: special.shared,
         published=False,
     ),
 )
@@ -118,13 +120,7 @@ _REFERENCES = (
 
 POINT: FactTable = (
     Fact("name", "English snake_case; unique but for variants.", STRING),
-    Fact(
-        "code",
-        "The manual's own short name.",
-        TEXT_OR_NULL,
-        WIRE,
-        column="the code that the manual prints",
-    ),
+    Fact("code", "The manual's own short name.", TEXT_OR_NULL, WIRE, column="the code that the manual prints"),
     Fact(
         "group",
         "The group in which the manual presents it.",
@@ -171,13 +167,7 @@ POINT: FactTable = (
         value=values.repeat,
         derived="it is a part of the name",
     ),
-    Fact(
-        "format",
-        "The named format it follows.",
-        TEXT_OR_NULL,
-        value=lambda _point, _: None,
-        derived="it is always empty",
-    ),
+    _always_null("format", "The named format it follows."),
     Fact(
         "space",
         "The space in which its addresses count: `coil`, `holding`, ...",
@@ -342,17 +332,7 @@ POINT: FactTable = (
         list_of(ref("special")),
         attribute="specials",
         table=SPECIAL,
-        views=(
-            Parts(
-                "special",
-                "code",
-                itemgetter("special"),
-                SPECIAL,
-                same_by=("raw",),
-                added=BEHAVIOUR,
-                yaml=("special", "code"),
-            ),
-        ),
+        views=(_by_raw("special", "code", itemgetter("special"), SPECIAL, yaml=("special", "code")),),
         rows=texts.special_rows,
     ),
     Fact(
@@ -449,19 +429,7 @@ POINT: FactTable = (
         shared="shape",
         table=ENTRY,
         value=lambda point, _: None if point.enum is None else values.entries_of(point.enum),
-        views=(
-            Parts(
-                "enum",
-                "entry",
-                values.entry_parts,
-                ENTRY,
-                (_RAW_NUMBER,),
-                same_by=("raw",),
-                added=BEHAVIOUR,
-                whole=API,
-                yaml=("enum",),
-            ),
-        ),
+        views=(_by_raw("enum", "entry", values.entry_parts, ENTRY, (_RAW_NUMBER,), whole=API, yaml=("enum",)),),
         rows=texts.enum_rows,
     ),
     Fact(
@@ -575,13 +543,7 @@ POINT: FactTable = (
         label="Changes with",
         remark="read it again after writing {}",
     ),
-    Fact(
-        "together",
-        "What must be read or written in one telegram.",
-        TEXT_OR_NULL,
-        value=lambda _point, _: None,
-        derived="it is always empty",
-    ),
+    _always_null("together", "What must be read or written in one telegram."),
     Fact(
         "was",
         "Former names, which stay alive as deprecated aliases.",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
@@ -54,9 +55,10 @@ def xlsx_files(scope: DocsScope) -> Iterable[tuple[str, bytes]]:
 def tables_of(scope: DocsScope) -> tuple[Table, Table, Table]:
     """Return the tables of the points, their meanings, and the errata."""
     from fieldscribe.targets.docs.sheet import points_table
-    from fieldscribe.targets.docs.tables import errata_table, meanings_table
+    from fieldscribe.targets.docs.tables import ERRATA, MEANINGS, Table, erratum_rows, meaning_rows
 
-    return points_table(scope), meanings_table(scope.device), errata_table(scope.device)
+    meanings = Table("meanings", MEANINGS, partial(meaning_rows, scope.device))
+    return points_table(scope), meanings, Table("errata", ERRATA, partial(erratum_rows, scope.device))
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:

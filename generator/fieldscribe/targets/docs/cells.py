@@ -41,19 +41,12 @@ def by_rows(heads: Sequence[str], rows: Sequence[Sequence[str]], always: Contain
     Columns where nothing stands are left out, but for those that are there always: where most rows say nothing, the
     first that does would change the lines of all others. For the same reason nothing is padded.
     """
-    kept = (
-        [
-            (head, cells)
-            for head, cells in zip(heads, zip(*rows, strict=True), strict=True)
-            if head in always or any(cells)
-        ]
-        if rows
-        else []
-    )
+    columns = zip(heads, *rows, strict=True) if rows else ()
+    kept = [column for column in columns if column[0] in always or any(column[1:])]
     if not kept:
         return ""
-    heads_kept, columns = zip(*kept, strict=True)
-    lines = [" | ".join(row) for row in (heads_kept, ("---",) * len(kept), *zip(*columns, strict=True))]
+    kept_heads, *kept_rows = zip(*kept, strict=True)
+    lines = [" | ".join(row) for row in (kept_heads, ("---",) * len(kept), *kept_rows)]
     return "| " + " |\n| ".join(lines) + " |\n"
 
 

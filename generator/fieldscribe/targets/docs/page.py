@@ -92,7 +92,8 @@ def page_of(scope: DocsScope) -> PageView:
         facts=by_rows(("Fact", "Value"), _facts(device)),
         documents=_documents(device),
         numberings=tuple(
-            f"{cell(key.capitalize())}: {_numbering(key)}." + (f" {_COMPUTED}" if key in computed else "")
+            f"{cell(key.capitalize())}: {_NUMBERINGS.get(key, 'as the manual prints it')}."
+            + (f" {_COMPUTED}" if key in computed else "")
             for key in numberings
         ),
         shares_words=any(wording.shares_word(point) for point in distinct),
@@ -106,10 +107,6 @@ def page_of(scope: DocsScope) -> PageView:
         errata=_errata(device),
         missing=_missing(device),
     )
-
-
-def _numbering(key: str) -> str:
-    return _NUMBERINGS.get(key, "as the manual prints it")
 
 
 def _facts(device: Device) -> list[tuple[str, str]]:

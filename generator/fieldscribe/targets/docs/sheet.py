@@ -15,7 +15,7 @@ from fieldscribe.model import Command, Point
 from fieldscribe.targets.docs import sheet_cells
 from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.sheet_cells import Sheet
-from fieldscribe.targets.docs.tables import Column, Table, original, source_cells
+from fieldscribe.targets.docs.tables import Column, Table, codes_of, original, source_cells
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ _CELLS = (
     _Cells("default_raw", lambda point, _: (str(point.default_raw),), needs="default_raw"),
     _Cells("enum", sheet_cells.enum, "terms"),
     _Cells("flags", lambda point, sheet: (sheet.encode(point.item),), needs="shape.flags"),
-    _Cells("codes", sheet_cells.codes, needs="shape.specials"),
+    _Cells("codes", lambda point, sheet: (sheet.encode(codes_of(point)),), needs="shape.specials"),
     _Cells("keeps", sheet_cells.keeps, "terms"),
     _Cells("remarks", lambda point, sheet: (sheet.remarks(point),)),
     _Cells("note", lambda point, sheet: (sheet.encode(wording.title_text(point.note)),), needs="note"),

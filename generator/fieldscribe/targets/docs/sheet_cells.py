@@ -12,7 +12,7 @@ from fieldscribe.facts.table import Fact
 from fieldscribe.model import Point
 from fieldscribe.targets.docs.bus import numbers_of
 from fieldscribe.targets.docs.scope import DocsScope, Remarks
-from fieldscribe.targets.docs.tables import codes_of, decimal, enum_of
+from fieldscribe.targets.docs.tables import decimal, enum_of
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 
 if TYPE_CHECKING:
@@ -168,11 +168,6 @@ def enum(point: Point, sheet: Sheet) -> tuple[str]:
     """Return the name of the enum."""
     enum = enum_of(point)
     return ("" if enum is None else sheet.encode(enum.name),)
-
-
-def codes(point: Point, sheet: Sheet) -> tuple[str]:
-    """Return what the special codes are called in the meanings."""
-    return (sheet.encode(codes_of(point)),)
 
 
 def keeps(point: Point, sheet: Sheet) -> tuple[str]:

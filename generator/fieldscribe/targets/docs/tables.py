@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
@@ -87,11 +86,6 @@ _NAMELESS = ("zero", "one")
 """The names of the numbers of a flag if the manual has only texts for them."""
 
 
-def meanings_table(device: Device) -> Table:
-    """Return the table of the meanings of numbers, in the order of the points."""
-    return Table("meanings", MEANINGS, partial(_meaning_rows, device))
-
-
 def enum_of(point: Point) -> Enum | None:
     """Return the names of the point's numbers, or of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
@@ -103,7 +97,8 @@ def codes_of(point: Point) -> str:
     return f"codes of {shared}" if shared else point.item if point.specials else ""
 
 
-def _meaning_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
+def meaning_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of the meanings of numbers, in the order of the points."""
     listed: set[tuple[str, str]] = set()
     for point in device.points:
         if (enum := enum_of(point)) is not None and ("enum", enum.name) not in listed:
@@ -169,12 +164,8 @@ def items_of(device: Device) -> Mapping[str, list[str]]:
     return items
 
 
-def errata_table(device: Device) -> Table:
-    """Return the table of errata."""
-    return Table("errata", ERRATA, partial(_erratum_rows, device))
-
-
-def _erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
+def erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of the errata."""
     items = items_of(device)
     for erratum in device.errata:
         points = "; ".join(item for name in erratum.points for item in items.get(name, ()))

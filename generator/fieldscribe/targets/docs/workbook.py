@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import datetime
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
@@ -24,24 +24,17 @@ _ESCAPE = re.compile(r"(?<=_)(?=x[0-9A-Fa-f]{1,4}_)")
 _MOST = 1 << 53
 """Workbooks store floating point; greater whole numbers are written as text to stay exact."""
 _NARROW, _WIDE = 6, 48
-_HEAD = {"bold": True, "bottom": 1}
-_TOP = {"valign": "top"}
+_FORMATS: Mapping[str, Mapping[str, object]] = {
+    "head": {"bold": True, "bottom": 1},
+    "plain": {},
+    "short": {"valign": "top"},
+    "long": {"valign": "top", "text_wrap": True},
+}
+"""The formats of cells; `long` is for columns with texts that are wider than the column."""
 _STAYS = {"points": 2}
 """How many columns on the left stay visible when a sheet is scrolled."""
 _WHEN = datetime(2000, 1, 1)  # the format wants a date, and the bytes may not depend on today
 _COLUMNS = (Column("sheet", ""), Column("column", ""), Column("says", ""))
-
-
-class _Formats:
-    """The formats of cells; a text wider than its column is wrapped."""
-
-    def __init__(self, book: Any) -> None:
-        self.head, self.plain = book.add_format(_HEAD), book.add_format()
-        self._short, self._long = book.add_format(_TOP), book.add_format({**_TOP, "text_wrap": True})
-
-    def column(self, width: int) -> object:
-        """Return the format of a column with a longest text of that length."""
-        return self._long if width > _WIDE else self._short
 
 
 def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
@@ -59,7 +52,7 @@ def workbook_of(device: Device, tables: Iterable[Table]) -> bytes:
             "created": _WHEN,
         }
     )
-    formats = _Formats(book)
+    formats = {name: book.add_format(properties) for name, properties in _FORMATS.items()}
     sheets = tuple(tables)
     for table in (*sheets, Table("columns", _COLUMNS, lambda encode: _explained(sheets, encode))):
         _write(book.add_worksheet(table.name), table, formats)
@@ -73,10 +66,10 @@ def _explained(tables: Iterable[Table], encode: Encode) -> Iterator[tuple[str, .
             yield table.name, column.name, encode(column.meaning.replace("`", ""))
 
 
-def _write(sheet: Any, table: Table, formats: _Formats) -> None:
+def _write(sheet: Any, table: Table, formats: Mapping[str, object]) -> None:
     widths = [len(column.name) + 2 for column in table.columns]
     for place, column in enumerate(table.columns):
-        sheet.write_string(0, place, column.name, formats.head)
+        sheet.write_string(0, place, column.name, formats["head"])
     last = 0
     for last, row in enumerate(table.rows(line), 1):
         for place, text in enumerate(row):
@@ -85,9 +78,10 @@ def _write(sheet: Any, table: Table, formats: _Formats) -> None:
                 if table.columns[place].is_number and _fits(text):
                     sheet.write_number(last, place, float(text))
                 else:
-                    _write_text(sheet, (last, place), text, formats.plain)
+                    _write_text(sheet, (last, place), text, formats["plain"])
     for place, width in enumerate(widths):
-        sheet.set_column(place, place, min(max(width, _NARROW), _WIDE) + 1, formats.column(width))
+        column_format = formats["long" if width > _WIDE else "short"]
+        sheet.set_column(place, place, min(max(width, _NARROW), _WIDE) + 1, column_format)
     sheet.freeze_panes(1, _STAYS.get(table.name, 1))
     sheet.autofilter(0, 0, last, len(widths) - 1)
     _print_wide(sheet)
