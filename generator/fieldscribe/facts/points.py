@@ -218,7 +218,7 @@ POINT: FactTable = (
             View("order of words", WIRE, values.word_order_view, yaml=("words",)),
         ),
         label="Words",
-        text=texts.words_text,
+        text=lambda point, _: wording.words_text(point) if len(point.addresses) > 1 else "",
     ),
     Fact(
         "references",
@@ -242,7 +242,7 @@ POINT: FactTable = (
         value=lambda point, _: None if point.write_place is None else values.place(point.write_place),
         views=(View("write address", WIRE, values.written_view, yaml=("write_at",)),),
         label="Written at",
-        text=texts.write_place_text,
+        text=lambda point, _: wording.write_place_text(point) if point.addresses else "",
         remark="written at {}",
     ),
     Fact(
@@ -381,7 +381,7 @@ POINT: FactTable = (
         API,
         follows=("scale", "type"),
         label="Widths",
-        text=texts.widths_text,
+        text=lambda point, _: "; ".join(wording.width_texts(point)),
         remark="{}",
     ),
     Fact(
@@ -498,7 +498,7 @@ POINT: FactTable = (
             ),
         ),
         label="Kept",
-        text=texts.keeps_text,
+        text=lambda point, context: wording.keeps_text(context.device, point),
     ),
     Fact(
         "conditions",
@@ -519,7 +519,7 @@ POINT: FactTable = (
         value=lambda point, _: None if point.when is None else values.condition(point.when),
         refers="point",
         label="Exists when",
-        text=texts.condition_text,
+        text=lambda point, context: wording.condition_text(point.when, context.points),
         remark="exists when {}",
     ),
     Fact("since", "The firmware that brought it.", TEXT_OR_NULL, BEHAVIOUR, label="Since", remark="since {}"),
@@ -554,9 +554,11 @@ POINT: FactTable = (
     ),
     Fact("reserved", "Whether the maker reserves it.", BOOLEAN, API, remark="reserved"),
     TITLE,
-    replace(NOTE, label="Note", text=texts.note_text, remark="{}"),
+    replace(
+        NOTE, label="Note", text=lambda point, _: wording.title_text(point.note) if point.note else "", remark="{}"
+    ),
     replace(ERRATA, column="where the manual is wrong, unclear or silent: ids of errata"),
-    replace(SOURCE, label="Source", text=texts.source_text),
+    replace(SOURCE, label="Source", text=lambda point, context: texts.place_in_manual(point.source, context.device)),
     Fact(
         "generated",
         "False for what is only documented.",
@@ -571,7 +573,7 @@ POINT: FactTable = (
         DOCS,
         follows=("generated", "access", "type", "reserved", "address"),
         label="Not generated",
-        text=texts.reason_text,
+        text=lambda point, _: "" if point.generated else point.reason or "no reason given",
         remark="not generated: {}",
         column="why not",
     ),

@@ -103,44 +103,9 @@ def flag_rows(point: Point, _: Context) -> Iterator[Row]:
         yield f"Bit{'s' if flag.width > 1 else ''} {wording.flag_bits(flag, point)}", wording.flag_meaning(flag)
 
 
-def words_text(point: Point, _: Context) -> str:
-    """Return all words of a point of several."""
-    return wording.words_text(point) if len(point.addresses) > 1 else ""
-
-
-def write_place_text(point: Point, _: Context) -> str:
-    """Return where else the point is written."""
-    return wording.write_place_text(point) if point.addresses else ""
-
-
-def widths_text(point: Point, _: Context) -> str:
-    """Return what a scaled point lacks because its numbers are too wide."""
-    return "; ".join(wording.width_texts(point))
-
-
-def keeps_text(point: Point, context: Context) -> str:
-    """Return whether a written value is kept, and what that takes."""
-    return wording.keeps_text(context.device, point)
-
-
-def note_text(point: Point, _: Context) -> str:
-    """Return the note in all its languages."""
-    return wording.title_text(point.note) if point.note else ""
-
-
 def unit_text(point: Point, _: Context) -> str:
     """Return the unit with its name."""
     return f"{point.unit.symbol} ({point.unit.name})" if point.unit.symbol else ""
-
-
-def condition_text(point: Point, context: Context) -> str:
-    """Return the condition under which the point exists."""
-    return wording.condition_text(point.when, context.points)
-
-
-def source_text(point: Point, context: Context) -> str:
-    """Return where in which document the point stands."""
-    return place_in_manual(point.source, context.device)
 
 
 def place_in_manual(source: Source, device: Device) -> str:
@@ -150,8 +115,3 @@ def place_in_manual(source: Source, device: Device) -> str:
     parts.append(f"page {source.page}" if source.page else "")
     parts.append("" if source.line is None else f"line {source.line} of its text")
     return ", ".join(filter(None, parts))
-
-
-def reason_text(point: Point, _: Context) -> str:
-    """Return why no code is generated."""
-    return "" if point.generated else point.reason or "no reason given"

@@ -21,14 +21,13 @@ from fieldscribe.targets.docs.cells import (
     link,
     narrow_link,
     narrow_target,
-    number_cell,
     paragraph,
     source_cell,
     table,
     target,
 )
 from fieldscribe.targets.docs.points import GroupView, group_views
-from fieldscribe.targets.docs.scope import DocsScope, numbers_head, place_text, reference_heads
+from fieldscribe.targets.docs.scope import DocsScope, numbers_head, numbers_text, place_text, reference_heads
 from fieldscribe.targets.docs.sheet import wanted_text
 from fieldscribe.targets.docs.tables import items_of
 from fieldscribe.targets.docs.words import is_broken
@@ -267,13 +266,5 @@ def _of_command(command: Command, numbers: Mapping[str, int]) -> _Place:
 
 def _table(places: Sequence[_Place]) -> str:
     keys = tuple(dict.fromkeys(key for place in places for key in place.numbers))
-    rows = [
-        (
-            place.wire,
-            place.element,
-            " / ".join([number_cell(place.numbers.get(key, "-")) for key in keys]) if place.numbers else "",
-            *place.others,
-        )
-        for place in places
-    ]
+    rows = [(place.wire, place.element, numbers_text(place.numbers, keys), *place.others) for place in places]
     return by_rows(("Wire address", "Index", numbers_head(keys), "Type", "R/W", "Code", "Name"), rows)

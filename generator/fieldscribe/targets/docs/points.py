@@ -154,7 +154,7 @@ class _Rows:
             cells.space if with_space else "",
             place_text(point),
             "" if point.index is None else str(point.index),
-            numbers_text(point, references),
+            numbers_text(point.place.references, references),
             cells.type,
             cells.access,
             _with_default(point, limits[0]),

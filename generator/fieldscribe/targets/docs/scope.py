@@ -67,12 +67,9 @@ def numbers_head(keys: Sequence[str]) -> str:
     return cell(" / ".join(key.capitalize() for key in keys))
 
 
-def numbers_text(point: Point, keys: Sequence[str]) -> str:
-    """Return the numbers of a point in these numberings: `4115 / 404115`, with a dash for one that it lacks."""
-    references = point.place.references
-    if not references:
-        return ""
-    return " / ".join([number_cell(references.get(key, "-")) for key in keys])
+def numbers_text(numbers: Mapping[str, int | str], keys: Sequence[str]) -> str:
+    """Return numbers in the order of these numberings: `4115 / 404115`, with a dash for one that is missing."""
+    return " / ".join([number_cell(numbers.get(key, "-")) for key in keys]) if numbers else ""
 
 
 class Remarks:
