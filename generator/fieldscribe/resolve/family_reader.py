@@ -15,13 +15,9 @@ class FamilyReader:
 
     def bus(self, scope: Scope, node: Map, functions: tuple[Code, ...]) -> FamilyFacts | None:
         """Return what only the family knows of the bus; report what its protocol cannot do."""
-        del scope, node, functions
-        return None
 
     def frame(self, scope: Scope, node: Map, framing: str) -> FamilyFacts | None:
         """Return what only the family knows of a worked example."""
-        del scope, node, framing
-        return None
 
     def refuses(self, scope: Scope, bus: Bus, node: Map) -> bool:
         """Report a worked example that cannot be one of this bus, and return True for it."""
@@ -49,8 +45,6 @@ class FamilyReader:
         self, bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]
     ) -> tuple[Block, ...] | None:
         """Return the reads that bring all points of a group; None if the family plans none."""
-        del bus, points, variants
-        return None
 
 
 def reader_of(scope: Scope) -> FamilyReader:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import lru_cache
+from itertools import product
 from typing import NamedTuple
 
 from fieldscribe.language.numbers import LONGEST
@@ -14,7 +14,7 @@ from fieldscribe.language.numbers import LONGEST
 _DECIMAL = re.compile(r"(?<![0-9A-Za-z_.,'])[0-9]+\.[0-9]+(?![0-9A-Za-z_]|\.[0-9])")
 _FEWEST_DIGITS = 5
 _NUMERATORS = range(1, 17)
-_EXPONENTS_OF_TWO = range(8, 33)
+_POWERS_OF_TWO = tuple(2**two for two in range(8, 33))
 _EXPONENTS_OF_TEN = range(-4, 6)
 _THIRDS = (3, 6, 9, 12, 15, 18, 30, 36, 60, 90)
 _REPEATING = re.compile(r"([0-9])\1\1[0-9]?\Z")
@@ -72,44 +72,21 @@ def _replaced(text: str, decimal: re.Match[str], exact: str) -> str:
 
 def _almost(typed: str) -> str | None:
     """Return the fraction that a decimal almost equals, as text; None if there is none, or if the decimal is exact."""
-    whole, _, decimals = typed.partition(".")
-    number = Fraction(int(whole + decimals), 10 ** len(decimals))
-    half = Fraction(1, 2 * 10 ** len(decimals))
-    return _nearest(number, half, *_binary()) or (
-        _nearest(number, half, *_repeating()) if _REPEATING.search(typed) else None
-    )
+    number, half = Fraction(typed), Fraction(1, 2 * 10 ** len(typed.partition(".")[2]))
+    powers = sorted(_near(number, half, _POWERS_OF_TWO))
+    if powers and all(fraction != number for fraction, *_ in powers):
+        return f"{powers[0][2]} / {powers[0][3]}"
+    thirds = _near(number, half, _THIRDS) if _REPEATING.search(typed) else ()
+    least = min((fraction for fraction, *_ in thirds if fraction.denominator % 3 == 0), default=None)
+    return None if least is None else f"{least.numerator} / {least.denominator}"
 
 
-def _nearest(number: Fraction, half: Fraction, fractions: list[Fraction], texts: list[str]) -> str | None:
-    """Return the first of the fractions within `half`; None if there is none, or if the number is one of them."""
-    first = at = bisect_left(fractions, number - half)
-    while at < len(fractions) and fractions[at] <= number + half:
-        if fractions[at] == number:
-            return None
-        at += 1
-    return texts[first] if first < at else None
-
-
-@cache
-def _binary() -> tuple[list[Fraction], list[str]]:
-    """Return all n / 2^k * 10^m in ascending order, and the simplest text of each."""
-    return _table([2**two for two in _EXPONENTS_OF_TWO])
-
-
-@cache
-def _repeating() -> tuple[list[Fraction], list[str]]:
-    """Return fractions with repeating decimals in ascending order, and the text of each."""
-    fractions, _ = _table(list(_THIRDS))
-    kept = [fraction for fraction in fractions if fraction.denominator % 3 == 0]
-    return kept, [f"{fraction.numerator} / {fraction.denominator}" for fraction in kept]
-
-
-def _table(bottoms: list[int]) -> tuple[list[Fraction], list[str]]:
-    texts: dict[Fraction, str] = {}
-    for numerator in _NUMERATORS:
-        for divisor in bottoms:
-            for ten in _EXPONENTS_OF_TEN:
-                top, bottom = numerator * 10 ** max(ten, 0), divisor * 10 ** max(-ten, 0)
-                texts.setdefault(Fraction(top, bottom), f"{top} / {bottom}")
-    ordered = sorted(texts)
-    return ordered, [texts[fraction] for fraction in ordered]
+def _near(number: Fraction, half: Fraction, divisors: Iterable[int]) -> Iterator[tuple[Fraction, int, int, int]]:
+    """Yield each numerator / divisor * 10^m within `half` of a number, with its numerator and as top / bottom."""
+    size = float(number)
+    for divisor, ten in product(divisors, _EXPONENTS_OF_TEN):
+        numerator = round(size * divisor / 10.0**ten)
+        if numerator in _NUMERATORS:
+            top, bottom = numerator * 10 ** max(ten, 0), divisor * 10 ** max(-ten, 0)
+            if abs(Fraction(top, bottom) - number) <= half:
+                yield Fraction(top, bottom), numerator, top, bottom

@@ -30,8 +30,8 @@ VARIABLES = ("value", "raw")
 class Parser:
     """The tokens of a text and a position among them, with a method for each rule of the grammar."""
 
-    def __init__(self, text: str, column0: int = 0) -> None:
-        self._tokens = tokens(text, column0)
+    def __init__(self, text: str) -> None:
+        self._tokens = tokens(text)
         self._at = 0
         self._operations = 0
 
@@ -192,9 +192,9 @@ _CACHED = 16384
 
 
 @lru_cache(maxsize=_CACHED)
-def parse_expression(text: str, column0: int = 0) -> Expression:
-    """Parse an expression of + - * /, 10 ** n and parentheses; columns count from `column0`. Raises FormulaError."""
-    parser = Parser(text, column0)
+def parse_expression(text: str) -> Expression:
+    """Parse an expression of + - * /, 10 ** n and parentheses. Raises FormulaError."""
+    parser = Parser(text)
     expression = parser.expression()
     parser.finish()
     return expression

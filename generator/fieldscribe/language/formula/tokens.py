@@ -69,17 +69,8 @@ class Token(NamedTuple):
         return "the end" if self.kind == "end" else f"`{shortened(self.text + ('.' + self.part if self.part else ''))}`"
 
 
-def tokens(text: str, column0: int = 0) -> list[Token]:
-    """Return all tokens, the last one of kind `end`; columns count from `column0`. Raises FormulaError."""
-    if not column0:
-        return _tokens(text)
-    try:
-        return [token._replace(column=token.column + column0) for token in _tokens(text)]
-    except FormulaError as error:
-        raise FormulaError(error.message, error.column + column0, error.hint) from None
-
-
-def _tokens(text: str) -> list[Token]:
+def tokens(text: str) -> list[Token]:
+    """Return all tokens, the last one of kind `end`. Raises FormulaError."""
     if len(text) > LONGEST:
         raise FormulaError(f"a formula has at most {LONGEST} characters", LONGEST, "split it")
     tokens: list[Token] = []
