@@ -159,11 +159,9 @@ def _checked(files: Files, report: Report) -> Analysis:
     """Resolve and check a device; if there are errors, it must not be compiled."""
     from fieldscribe.checks import run_checks
     from fieldscribe.resolve.analysis import Analysis
-    from fieldscribe.resolve.bus import bus_of
-    from fieldscribe.resolve.commands import commands_of
+    from fieldscribe.resolve.bus import bus_of, commands_of, reader_of
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
-    from fieldscribe.resolve.family_reader import reader_of
     from fieldscribe.resolve.frames import frames_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Code
-from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.bus import FamilyReader
 from fieldscribe.resolve.scope import Scope
 
 from toy_family import BellBus

@@ -33,26 +33,8 @@ def json_schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """Return the schema as text with a line for each key, so that a diff shows what changed."""
-    schema = json_schema()
-    definitions = ",\n".join(
-        f"  {_dumped(name)}: {_lines(definition)}" for name, definition in schema.pop("definitions").items()
-    )
-    head = ",\n".join(f" {_dumped(word)}: {_dumped(value)}" for word, value in schema.items())
-    return f'{{\n{head},\n "definitions": {{\n{definitions}\n }}\n}}\n'
-
-
-def _lines(definition: dict[str, Any]) -> str:
-    """Return a definition on one line; if it has keys, with a line for each of them."""
-    if "properties" not in definition:
-        return _dumped(definition)
-    keys = ",\n".join(f"    {_dumped(key)}: {_dumped(schema)}" for key, schema in definition["properties"].items())
-    around = _dumped({**definition, "properties": {}})
-    return around.replace('"properties": {}', f'"properties": {{\n{keys}\n   }}', 1)
-
-
-def _dumped(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False)
+    """Return the schema as text, in lines, so that a diff shows what changed."""
+    return json.dumps(json_schema(), ensure_ascii=False, indent=1) + "\n"
 
 
 class _Definitions:

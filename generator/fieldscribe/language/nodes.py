@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.source import SourceFile
-
-if TYPE_CHECKING:
-    from fieldscribe.language.positions import Place
+from fieldscribe.language.source import Place, SourceFile
 
 
 class Map(dict[str, Any]):

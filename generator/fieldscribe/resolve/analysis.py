@@ -15,8 +15,8 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import About, Block, Bus, Command, Device, Enum, Frame, Group, Message, Point
 from fieldscribe.resolve.addresses import Places
+from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import LocatedErratum, PrintedFact, fact_text, same
-from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.frames import LocatedFrame
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.resolve.ranges import Ranges

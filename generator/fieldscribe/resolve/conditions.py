@@ -11,11 +11,11 @@ from fieldscribe.language.formula.conditions import Comparison, Constant, parse_
 from fieldscribe.language.formula.normal import Affine
 from fieldscribe.language.formula.suggestions import suggest_condition
 from fieldscribe.language.formula.syntax import FormulaError
-from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scales import Scales
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import FactError, Written, formula_finding
+from fieldscribe.resolve.word_contents import enum_of
 
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """The test of raw numbers for a test of values, if raw numbers fall while the value rises."""

@@ -12,8 +12,8 @@ from fieldscribe.families import families
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import is_whole_number
 from fieldscribe.model import Bus, Frame, Named, Point
+from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.errata import PrintedFact
-from fieldscribe.resolve.family_reader import reader_of
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.symbols import SymbolTable
 from fieldscribe.resolve.values import FactError, number, whole

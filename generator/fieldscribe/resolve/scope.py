@@ -23,27 +23,13 @@ _SOURCE = tuple(keys_of(SOURCE))
 PLAIN = Unit("", "number", "number")
 """The unit of a number that has none."""
 
-SECTIONS = {
-    "command": "commands",
-    "document": "documents",
+_SECTIONS = {
+    **dict.fromkeys(("exception", "function", "response"), "bus"),
+    **dict.fromkeys(("flag", "member"), "points"),
     "entry": "enum",
-    "exception": "bus",
-    "enum": "enums",
-    "flag": "points",
-    "format": "formats",
-    "frame": "frames",
-    "function": "bus",
-    "member": "points",
-    "message": "messages",
-    "point": "points",
-    "record": "records",
-    "response": "bus",
     "space": "space",
-    "telegram": "telegrams",
-    "unit": "units",
-    "variant": "variants",
 }
-"""The kinds of things that a word can name, each with the key under which it is declared."""
+"""The key under which a kind of thing is declared, if it is not the plural of the kind, as `formats` is."""
 
 
 @dataclass(slots=True)
@@ -128,8 +114,8 @@ class Scope:
         return not self.complete or any(marks & file.file.lost for file in self.files)
 
     def unknown(self, what: str, word: str, span: Span, known: Collection[str], hint: str | None = None) -> None:
-        """Report a word that names nothing; `what` is a key of `SECTIONS`, `known` are the existing names."""
-        section = SECTIONS[what]
+        """Report a word that names nothing; `what` is its kind, `known` are the existing names."""
+        section = _SECTIONS.get(what, f"{what}s")
         if self.report.full or self.is_lost(word, section):
             return
         if hint is None:

@@ -15,7 +15,6 @@ from fieldscribe.model import Allowed, Enum, Interner, ScaleCase, Shape
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.encodings import Encoding
-from fieldscribe.resolve.enums import enum_of
 from fieldscribe.resolve.integer_path import asks_limits, paths_of, shows
 from fieldscribe.resolve.memo import Memo, hashable
 from fieldscribe.resolve.point_facts import PointFacts
@@ -23,7 +22,7 @@ from fieldscribe.resolve.ranges import Ranges
 from fieldscribe.resolve.scope import Scope, humanised
 from fieldscribe.resolve.special_codes import quantities
 from fieldscribe.resolve.values import FactError
-from fieldscribe.resolve.word_contents import allowed_digits, digits_of, fixed_of, flags_of, text_of
+from fieldscribe.resolve.word_contents import allowed_digits, digits_of, enum_of, fixed_of, flags_of, text_of
 
 _WHOLE = re.compile(r"(-?[0-9]{1,9})\.\.(-?[0-9]{1,9})")
 """An interval of whole numbers in its usual form; the parser of formulas reads all others."""

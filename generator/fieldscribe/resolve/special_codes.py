@@ -12,10 +12,10 @@ from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.suggestions import suggest_interval
 from fieldscribe.model import TYPES, Allowed, Interval, Special
-from fieldscribe.resolve.enums import entry_titles, name_of
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer
+from fieldscribe.resolve.word_contents import entry_titles, name_of
 
 _PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
 """Marks a number that is not decimal: manuals print such codes as the pattern of bits."""

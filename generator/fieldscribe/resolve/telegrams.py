@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Message, Telegram
-from fieldscribe.resolve.family_reader import reader_of
+from fieldscribe.resolve.bus import reader_of
 from fieldscribe.resolve.point_facts import PointFacts
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 

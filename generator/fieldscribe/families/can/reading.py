@@ -14,7 +14,7 @@ from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import Bus, Code, Message, Role
-from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.bus import FamilyReader
 from fieldscribe.resolve.scope import Scope, humanised, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer
 from fieldscribe.text import shortened

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from fieldscribe.families.modbus import BROADCAST, FUNCTIONS, SPACES, ModbusBus, profile_of
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Block, Bus, Code, Point, Variant
-from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.bus import FamilyReader
 from fieldscribe.resolve.scope import Scope
 
 

@@ -9,8 +9,7 @@ from fieldscribe.families.uss import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.parts import VARIABLE
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Bus, Code, Telegram, Variant
-from fieldscribe.resolve.bus import codes_under, ends_of
-from fieldscribe.resolve.family_reader import FamilyReader
+from fieldscribe.resolve.bus import FamilyReader, codes_under, ends_of
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer, interval
 

@@ -12,6 +12,9 @@ from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
+_FORMS = {"enum": "Named", "float": "Floating"}
+"""The classes of the runtime for forms of points that are not named after the form."""
+
 NUMBERED = frozenset({"parameter", "telegram"})
 """Spaces whose addresses are written in decimal."""
 
@@ -54,7 +57,7 @@ def _code_number(raw: int, special: Special) -> str:
 
 def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
     """Return the form of values that are no special codes."""
-    kind = scope.runtime(_FORMS[point.form])
+    kind = scope.runtime(_FORMS.get(point.form, point.form.capitalize()))
     if point.form == "bit":
         return f"{kind}()"
     if point.text is not None:
@@ -74,19 +77,6 @@ def _plain_form(point: Point, named: str, scope: PackageScope) -> Node:
         pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
         arguments.append(Group("units=(", pairs))
     return call(kind, arguments)
-
-
-_FORMS = {
-    "bit": "Bit",
-    "text": "Text",
-    "integer": "Integer",
-    "float": "Floating",
-    "scaled": "Scaled",
-    "flags": "Flags",
-    "enum": "Named",
-    "digits": "Digits",
-}
-"""The classes of the runtime for the forms of points."""
 
 
 def _scaled(point: Point, scope: PackageScope) -> Iterator[Node]:
