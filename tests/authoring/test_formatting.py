@@ -14,7 +14,7 @@ from fieldscribe.authoring import formatting
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.canonical import canonical
-from fieldscribe.language.json_schema import schema_text
+from fieldscribe.language.key_tables import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import comments, pieces, unbroken
 from fieldscribe.language.source import SourceFile

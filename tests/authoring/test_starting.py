@@ -15,7 +15,7 @@ from fieldscribe.authoring.starting import startable
 from fieldscribe.cli import main
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.canonical import canonical
-from fieldscribe.language.json_schema import schema_text
+from fieldscribe.language.key_tables import schema_text
 from support.described import loaded
 
 GIVEN = ("--vendor", "Example", "--model", "HP 12", "--title", "Heat pump")

@@ -15,10 +15,9 @@ import pytest
 from fieldscribe.cli import main
 from fieldscribe.diagnostics import Report
 from fieldscribe.families.modbus.frames import crc16
-from fieldscribe.language.json_schema import json_schema, schema_text
+from fieldscribe.language.key_tables import json_schema, keys_markdown, schema_text
 from fieldscribe.language.keys import TABLE, keys_of
 from fieldscribe.language.keys.places import DEVICE, PART
-from fieldscribe.language.keys_page import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
 from fieldscribe.language.shape import check_shape

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from struct import unpack_from
 
-from fieldscribe.model import Point
+from fieldscribe.model import Point, Special
 
 
 def ends_of(width: int, *, signed: bool) -> tuple[int, int]:
@@ -86,3 +86,12 @@ def with_fixed(point: Point, raw: int) -> int:
         return raw
     pattern = (raw & ~point.fixed.mask | point.fixed.bits) & mask_of(point.width)
     return number_of(pattern, point.width, signed=point.info.signed)
+
+
+def ends_without(codes: Iterable[Special], low: int, high: int) -> tuple[int, int]:
+    """Return the ends of an interval of raw numbers without the special codes at them."""
+    for code in sorted(codes, key=lambda code: code.low):
+        low = code.high + 1 if code.low <= low <= code.high else low
+    for code in sorted(codes, key=lambda code: -code.high):
+        high = code.low - 1 if code.low <= high <= code.high else high
+    return low, high

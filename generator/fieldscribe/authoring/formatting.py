@@ -13,7 +13,7 @@ from fieldscribe.authoring.starting import is_schema
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.canonical import canonical
 from fieldscribe.language.files import parts_of
-from fieldscribe.language.json_schema import schema_text
+from fieldscribe.language.key_tables import schema_text
 from fieldscribe.language.load import load
 from fieldscribe.language.pieces import OddError, comments, unbroken
 from fieldscribe.language.source import MOST_BYTES, SourceFile, decoded

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from fieldscribe.diagnostics import Diagnostic, Report
 from fieldscribe.families import FAMILIES, family
-from fieldscribe.language.json_schema import SCHEMA_ID, schema_text
+from fieldscribe.language.key_tables import SCHEMA_ID, schema_text
 from fieldscribe.language.keys import keys_of
 from fieldscribe.language.keys.places import DEVICE
 from fieldscribe.language.load import as_yaml

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.language.numbers import is_whole_number, parse_integer
 from fieldscribe.model import Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
@@ -65,12 +65,6 @@ def _entries(analysis: Analysis, resolved: ResolvedPoint) -> None:
 
 def _place(resolved: ResolvedPoint, number: int) -> Span:
     node = resolved.facts.get("enum")
-    key = next((key for key in node if _is(key, number)), None) if isinstance(node, Map) else None
+    keys = filter(is_whole_number, node) if isinstance(node, Map) else ()
+    key = next((key for key in keys if parse_integer(key) == number), None)
     return resolved.facts.span("enum") if key is None else node.key_span(key)
-
-
-def _is(key: str, number: int) -> bool:
-    try:
-        return parse_integer(key) == number
-    except NumberError:
-        return False

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from fieldscribe.language.formula.normal import evaluate
-from fieldscribe.language.formula.parser import parse_expression
-from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.addresses import RULE_KNOWS
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.telegrams import SPACE
-from fieldscribe.resolve.values import formula_finding
+from fieldscribe.resolve.values import FactError, formula_value
 
 _KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
 
@@ -35,9 +33,7 @@ def check(analysis: Analysis) -> None:
 
 def _check_rule(analysis: Analysis, group: Map) -> None:
     try:
-        evaluate(parse_expression(group["addressing"]), _KNOWN)
-    except FormulaError as error:
-        if "is not known" in error.message:
-            error.hint = "a rule knows number, index, set, sets and indices"
-        if "division by zero" not in error.message:  # it was evaluated with ones; the real numbers may be fine
-            formula_finding(error, group.span("addressing"), analysis.report)
+        formula_value(group["addressing"], _KNOWN, group.span("addressing"), RULE_KNOWS)
+    except FactError as error:
+        if "division by zero" not in error.args[1]:  # it was evaluated with ones; the real numbers may be fine
+            error.report(analysis.report)

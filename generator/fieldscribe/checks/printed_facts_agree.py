@@ -12,7 +12,7 @@ from fieldscribe.arithmetic.words import number_of
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.syntax import FormulaError
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.language.numbers import NumberError, parse_number, plain_number
+from fieldscribe.language.numbers import plain_number
 from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.analysis import Analysis
@@ -127,12 +127,7 @@ def _number(analysis: Analysis, resolved: ResolvedPoint, key: str, printed: Map,
             analysis.report.error("unknown-key", message, printed.key_span(key), hint)
         return
     for printed_number, span in _each(printed[key], printed.span(key)):
-        try:
-            number = parse_number(str(printed_number))
-        except NumberError as error:
-            analysis.report.error("bad-number", error.message, span, error.hint)
-            continue
-        if number != right:
+        if number(printed_number, span, analysis.report) not in (None, right):
             fact = f"{key.replace('_', ' ')} {printed_number}"
             message = f"{fact} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
             analysis.report_printed(PrintedFact(point.name, key, printed_number, right, span, message))
@@ -185,14 +180,9 @@ def _same_range(taken: Allowed, printed: Allowed) -> bool:
 
 def _resolution(analysis: Analysis, resolved: ResolvedPoint, value: Any, span: Span) -> None:
     point = resolved.point
-    number, _, unit = str(value).strip().partition(" ")
-    step = _step(point)
-    try:
-        printed_step = parse_number(number)
-    except NumberError as error:
-        analysis.report.error("bad-number", error.message, span, error.hint)
-        return
-    if step is None:
+    text, _, unit = str(value).strip().partition(" ")
+    step, printed_step = _step(point), number(text, span, analysis.report)
+    if step is None or printed_step is None:
         return
     right = f"{number_text(step)} {point.unit.symbol}".strip()
     if printed_step != step or (unit.strip() and not same(unit, point.unit.symbol)):

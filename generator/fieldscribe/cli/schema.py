@@ -7,8 +7,7 @@ from argparse import ArgumentParser, Namespace
 
 from fieldscribe.cli.terminal import FINE
 from fieldscribe.export import schema_text as export_schema_text
-from fieldscribe.language.json_schema import schema_text
-from fieldscribe.language.keys_page import keys_markdown
+from fieldscribe.language.key_tables import keys_markdown, schema_text
 
 EXAMPLE = """examples:
   fieldscribe schema > schema.json

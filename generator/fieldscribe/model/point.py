@@ -179,6 +179,8 @@ class Point:
     changes_with = _Shared(lambda point: point.terms.changes_with)
     untyped = _Shared(lambda point: point.terms.untyped)
     limit_arguments = _Shared(lambda point: point.allowed.arguments)
+    addresses = _Shared(lambda point: point.place.addresses)
+    references = _Shared(lambda point: point.place.references)
 
     @property
     def raw_only(self) -> bool:
@@ -196,16 +198,6 @@ class Point:
         least, greatest = self.shape.least, self.shape.greatest
         low, high = self.allowed.outer or (least, greatest)
         return max(low, least), min(high, greatest)
-
-    @property
-    def addresses(self) -> tuple[int, ...]:
-        """Return the addresses where the point is read (or else written), the high part first; may be empty."""
-        return self.place.addresses
-
-    @property
-    def references(self) -> Mapping[str, int | str]:
-        """Return the numbers that the manual prints for people, by numbering."""
-        return self.place.references
 
     @property
     def address(self) -> int | None:

@@ -28,7 +28,7 @@ _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
 _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
 _VERBS = {"w": "written", "r": "read"}
 _LAST_INDEX = 255
-_RULE_KNOWS = "a rule knows number, index, set, sets and indices"
+RULE_KNOWS = "a rule knows number, index, set, sets and indices"
 _NO_ADDRESS = "add `at: …`, or `at: ~` if the manual prints none"
 _MOST_PARTED_WORDS = 2
 """The most words of a number that two frames carry: with more, old and new words could mix unnoticed."""
@@ -249,7 +249,7 @@ class Places:
         if id(facts.group) in self._wrong_rules:
             raise FactError
         self._wrong_rules.add(id(facts.group))
-        exact = formula_value(rule, values, span, _RULE_KNOWS)
+        exact = formula_value(rule, values, span, RULE_KNOWS)
         if exact.denominator != 1:
             message = f"the address of `{facts.name}` would be {number_text(exact)}, which is no whole number"
             hint = "correct the rule, or the number, set or index of the row"

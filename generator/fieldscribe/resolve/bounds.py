@@ -10,6 +10,7 @@ from typing import Any
 
 from fieldscribe.arithmetic.codec import MOST_EXPONENT
 from fieldscribe.arithmetic.exact import half_away
+from fieldscribe.arithmetic.words import ends_without
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula.normal import Affine, evaluate, limit_rule
 from fieldscribe.language.formula.parser import parse_range
@@ -133,13 +134,7 @@ class Bounds:
 
     def _without_codes(self, item: str) -> tuple[int, int]:
         """Return the hull of a point without the special codes at its ends."""
-        low, high = self.hull(item)
-        codes = self.encodings[self.scales.symbols.by_item(item)].specials
-        for code in sorted(codes, key=lambda code: code.low):
-            low = code.high + 1 if code.low <= low <= code.high else low
-        for code in sorted(codes, key=lambda code: -code.high):
-            high = code.low - 1 if code.low <= high <= code.high else high
-        return low, high
+        return ends_without(self.encodings[self.scales.symbols.by_item(item)].specials, *self.hull(item))
 
     def encoded(self, facts: PointFacts, limit: Linear, span: Span) -> Linear:
         """Return a limit in units as a limit in raw numbers. Raises FactError."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from math import prod
 
-from fieldscribe.arithmetic.words import INT64
+from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
 from fieldscribe.model import Digits, Interval, Limit, Point
 from fieldscribe.targets.c.layout import function
@@ -72,7 +72,7 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
         return either([_between(interval, point, scope) for interval in intervals])
     if len(intervals) == 1:
         low, high = point.allowed.fixed[0]
-        least, greatest = _bounds_without_codes(point)
+        least, greatest = ends_without(point.specials, *point.held)  # these are tested first
         return "FIELDSCRIBE_OK" if low <= least and high >= greatest else _checked(point, fields, low, high)
     table = ranges_table(point, scope)
     if table:
@@ -107,16 +107,6 @@ def has_ranges_table(point: Point) -> bool:
 def ranges_table(point: Point, scope: HeaderScope) -> str:
     """Return the name of the table of a point's ranges, shared by points with equal ranges; empty if it needs none."""
     return scope.by_content("ranges", repr(point.allowed.fixed)) if has_ranges_table(point) else ""
-
-
-def _bounds_without_codes(point: Point) -> tuple[int, int]:
-    """Return the least and greatest raw number without special codes at the ends, which are tested first."""
-    low, high = point.held
-    for code in sorted(point.specials, key=lambda code: code.low):
-        low = code.high + 1 if code.low <= low <= code.high else low
-    for code in sorted(point.specials, key=lambda code: -code.high):
-        high = code.low - 1 if code.low <= high <= code.high else high
-    return low, high
 
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:

@@ -9,7 +9,7 @@ from fieldscribe.conditions import absent
 from fieldscribe.model import Device, Point, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import MOST_FIELDS, TextTemplates, placeholders
-from fieldscribe.targets.python.families import in_python
+from fieldscribe.targets.python.device import in_python
 from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
 from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place

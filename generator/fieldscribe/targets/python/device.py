@@ -1,14 +1,81 @@
-"""The view of the device module: the two device classes and their variants."""
+"""The view of the device module, with its two device classes, and what the Python target asks of a bus family."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from operator import attrgetter
+from typing import NamedTuple
 
-from fieldscribe.model import Device, Point
-from fieldscribe.targets.python.families import RUNTIME, in_python
-from fieldscribe.targets.python.identifiers import Identifiers, attribute, parameter, sorted_imports
-from fieldscribe.targets.python.layout import imported
+from fieldscribe.families import family
+from fieldscribe.model import Device, Point, Telegram
+from fieldscribe.targets.python.identifiers import Identifiers, PackageScope, attribute, parameter, sorted_imports
+from fieldscribe.targets.python.layout import Node, call, imported
 from fieldscribe.text import pascal, python_doc, python_string
+
+RUNTIME = "fieldscribe_runtime"
+"""The package that all generated devices share."""
+
+_MAKERS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
+
+
+def usual_maker(point: Point) -> str:
+    """Return the function for the attribute of a point; only its access decides."""
+    return _MAKERS["".join(letter for letter in "rw" if letter in point.access)]
+
+
+class Line(NamedTuple):
+    """A transport of the runtime for examples: its module, and expressions that open it, for both kinds of devices."""
+
+    module: str
+    blocking: str
+    awaiting: str
+    first: tuple[str, ...] = ()
+    """Lines of import that the expressions need besides."""
+    settings: tuple[str, ...] = ()
+    """What the device is made with beside the line and the unit."""
+
+    def imports(self, wait: str) -> tuple[str, ...]:
+        """Return the classes that the expression names, in order."""
+        classes = [part.partition("(")[0] for part in (self.blocking, self.awaiting)]
+        if not wait:
+            return (classes[0],)
+        return (classes[1], classes[0]) if f"({classes[0]}(" in self.awaiting else (classes[1],)
+
+
+class PythonFamily(NamedTuple):
+    """What generated modules import for a family, and the facts about the bus of a device.
+
+    `module` of the runtime has the names in `exports`, the class `device` and its `transport`, and both with `Async`
+    before their names. `line` gives the transport that most people have, `maker` the function that makes a point's
+    attribute. `settings` are further parameters of a device's constructor (name, class). `blocks` plans reads of
+    groups.
+    """
+
+    module: str
+    exports: frozenset[str]
+    device: str
+    transport: str
+    profile: Callable[[Device, PackageScope], Node]
+    line: Callable[[Device], Line]
+    maker: Callable[[Point], str] = usual_maker
+    blocks: Callable[[Device, PackageScope], Node | None] = lambda _device, _scope: None
+    settings: tuple[tuple[str, str], ...] = ()
+
+
+def in_python(device: Device) -> PythonFamily:
+    """Return the part `targets.python` of the device's family."""
+    part: PythonFamily = family(device.family).part("targets.python").IN_PYTHON
+    return part
+
+
+def telegrams(named_telegrams: Iterable[Telegram], scope: PackageScope) -> tuple[Node, ...]:
+    """Return the telegrams of a device."""
+    nodes = []
+    for telegram in named_telegrams:
+        message = () if telegram.message is None else (python_string(telegram.message),)
+        facts = (python_string(telegram.name), python_string(telegram.direction), str(telegram.words), *message)
+        nodes.append(call(scope.runtime("Telegram"), facts))
+    return tuple(nodes)
 
 
 def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
@@ -16,8 +83,7 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
     point = _example(device)
     if point is None:
         return ()
-    family, name_of_point = in_python(device), attribute(point.item)
-    line = family.line(device)
+    name_of_point, line = attribute(point.item), in_python(device).line(device)
     settings = "".join([f", {setting}" for setting in line.settings])
     variants = "".join([f", {parameter(axis)}={python_string(values[0])}" for axis, values in device.variants.items()])
     inside = [f"drive = {name}(line, 1{settings}{variants})", f"print({wait}drive.{name_of_point}.read())"]
@@ -63,12 +129,12 @@ def _is_quantity(point: Point) -> bool:
 
 def device_context(device: Device, names: Identifiers) -> dict[str, object]:
     """Return the context of the device module: its classes with examples of their use, and the variants' axes."""
-    family = in_python(device)
+    bus = in_python(device)
     classes = ((names.device_class, "", ""), (names.async_class, "Async", "await "))
     return {
-        "module": family.module,
+        "module": bus.module,
         "imports": imports_of(device),
-        "settings": family.settings,
+        "settings": bus.settings,
         "axes": [
             {
                 "key": python_string(axis),
@@ -81,8 +147,8 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
         "classes": [
             {
                 "name": name,
-                "base": kind + family.device,
-                "transport": kind + family.transport,
+                "base": kind + bus.device,
+                "transport": kind + bus.transport,
                 "example": f"{wait}drive.point.read()",
                 "uses": uses(device, name, wait),
             }
@@ -93,8 +159,8 @@ def device_context(device: Device, names: Identifiers) -> dict[str, object]:
 
 def imports_of(device: Device) -> tuple[str, ...]:
     """Return the lines that import the base classes; and what the constructor names, which only variants need."""
-    family = in_python(device)
-    used = {family.device, f"Async{family.device}"}
+    bus = in_python(device)
+    used = {bus.device, f"Async{bus.device}"}
     if device.variants:
-        used |= {family.transport, f"Async{family.transport}", *(kind for _, kind in family.settings)}
-    return imported(family.module, sorted_imports(used))
+        used |= {bus.transport, f"Async{bus.transport}", *(kind for _, kind in bus.settings)}
+    return imported(bus.module, sorted_imports(used))

@@ -8,8 +8,7 @@ from keyword import iskeyword
 
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.identifiers import Names, Owner
-from fieldscribe.targets.python.device import imports_of
-from fieldscribe.targets.python.families import in_python
+from fieldscribe.targets.python.device import imports_of, in_python
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, command_attributes, parameter, word_attribute
 from fieldscribe.text import pascal, upper
 

@@ -9,7 +9,7 @@ from fieldscribe.lowered import lower
 from fieldscribe.model import Command, Device, Point, Variant
 from fieldscribe.resources import Render
 from fieldscribe.targets.python.attributes import BODY, Attributes, AttributeView, places
-from fieldscribe.targets.python.families import RUNTIME, PythonFamily, in_python
+from fieldscribe.targets.python.device import RUNTIME, PythonFamily, in_python
 from fieldscribe.targets.python.identifiers import (
     Identifiers,
     PackageScope,

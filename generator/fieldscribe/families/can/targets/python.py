@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families.can import identifier_bits
 from fieldscribe.model import Device, Message, Role
-from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily, telegrams
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily, telegrams
 from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
 from fieldscribe.model import Device
-from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily
 from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string

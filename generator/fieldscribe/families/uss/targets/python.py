@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.python.families import RUNTIME, Line, PythonFamily, telegrams, usual_maker
+from fieldscribe.targets.python.device import RUNTIME, Line, PythonFamily, telegrams, usual_maker
 from fieldscribe.targets.python.identifiers import PackageScope
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
