@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from fieldscribe.language.keys import facts_of
 from fieldscribe.language.keys.places import POINT
 from fieldscribe.resolve.analysis import Analysis
@@ -27,23 +29,14 @@ _RIVALS = (
 )
 
 
-class _Rivals:
-    """Finds keys of points that exclude each other; the result is kept, because many points have the same keys."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[str, ...], tuple[tuple[str, str, str], ...]] = {}
-
-    def among(self, facts: PointFacts) -> tuple[tuple[str, str, str], ...]:
-        """Return the pairs of keys that exclude each other and that the point both has."""
-        keys = tuple(facts.keys)
-        if keys not in self._known:
-            self._known[keys] = tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
-        return self._known[keys]
+@lru_cache(maxsize=4096)
+def _rivals_among(keys: tuple[str, ...]) -> tuple[tuple[str, str, str], ...]:
+    """Return the pairs of keys that exclude each other; many points have the same keys."""
+    return tuple(rivals for rivals in _RIVALS if set(keys).issuperset(rivals[:2]))
 
 
 def check(analysis: Analysis) -> None:
     """Report facts of one point that exclude each other."""
-    rivals = _Rivals()
     for resolved in analysis.resolved:
         facts, shape = resolved.facts, resolved.point.shape
         if shape.specials:
@@ -62,7 +55,7 @@ def check(analysis: Analysis) -> None:
         if facts.get("fixed") is not None and not shape.writable:
             message = f"`fixed` says what is written, and `{facts.name}` is only read"
             analysis.report.error("two-meanings", message, facts.span("fixed"), "leave it out, or correct `access`")
-        for first, second, hint in rivals.among(facts):
+        for first, second, hint in _rivals_among(tuple(facts.keys)):
             if first == "fixed" and resolved.point.bits is not None:
                 continue
             if facts.get(first) is not None and facts.get(second) is not None:

@@ -21,6 +21,7 @@ _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
 _DECIMAL = r"[-+]?[0-9]+(?:\.[0-9]+)?(?:E[-+]?[0-9]+)?"
 _CODE = r"-?[0-9]+|0x[0-9A-Fa-f]+|[0-9A-Fa-f]+h|[Hh]'[0-9A-Fa-f]+"
 _PLAIN = r"[^,\[\]{}]+"
+_LIST = rf"\[({_PLAIN}(?:, {_PLAIN}){{0,15}})\]"
 _WORD = r"[^\W\d][^,\[\]{}]*"
 _TO = r"(?:\.\.|-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
 _INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_TO}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
@@ -176,7 +177,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
     ("scale rule", rf"\{{.*?\b(?:factor|gain|slope|multiplier): ({_DECIMAL}).*\}}", _factor),
     ("scale rule", r"\{.*\}", "a scale is one formula, as in `{key}: value = raw * 0.1 - 40`"),
     ("enum flags", rf"\[({_WORD}(?:, {_WORD}){{0,7}})\]", _mapping(lambda index, name: f"{index}: {_snake(name)}")),
-    ("values", rf"\[({_PLAIN}(?:, {_PLAIN}){{0,7}})\]", _mapping(lambda _, name: f"{name}: {{}}")),
+    ("values", _LIST, _mapping(lambda _, name: f"{name}: {{}}")),
     ("enum flags values special", r"[^\[\]{}]*[-+]?[0-9]+\s*[=:]\s*[A-Za-z][^\[\]{}]*", _numbered_names),
     ("steps", _DECIMAL, r"write `steps: {0: \g<0>}`: from raw 0 on"),
     ("decimals", r"[-+]?[0-9]*\.([0-9]*?)0*", _decimals),
@@ -190,11 +191,7 @@ VALUES: tuple[tuple[str, str, Hint], ...] = (
         r"write `at: \1`, and `\2` beside it",
     ),
     ("at", r"\{((?:sets|indices|set|index): [^{}]+)\}", "write `at: \u2026`, and `\\1` beside it"),
-    (
-        "functions exceptions responses",
-        rf"\[({_PLAIN}(?:, {_PLAIN}){{0,15}})\]",
-        _mapping(lambda _, code: f"{code}: name_of_it"),
-    ),
+    ("functions exceptions responses", _LIST, _mapping(lambda _, code: f"{code}: name_of_it")),
     ("family", r"[^\[\]{}]+", _family),
     ("group", r"\{.*?\bname: (\w+).*\}", r"write `group: \1` and its other keys below, at the top"),
     ("access", "ro|read|readonly|read[-_ ]only|r/o|true", "{key}: r"),
@@ -238,6 +235,9 @@ A mapping or list is matched as YAML in braces or brackets. A hint that starts w
 
 _SCALE = "a scale is one formula: `scale: value = raw {} {}`"
 _WIDTH = "the `type` says how wide a number is (u16, u32, ...), `characters` how long a text is"
+_FUNCTION = "the `space` says what is read and written; function codes stand under `functions` of the `bus`"
+_NO_VALUE = "write `special: {7FFFh: {name: not_available, no_value: yes}}`"
+_SERIAL = "settings of the line stand together: `serial: {baud: 9600}`"
 _ORDER = "the order of words is `words: high first` or `words: low first`; the bytes of a word have one order"
 
 KEYS: Mapping[str, tuple[str, str]] = {
@@ -270,25 +270,13 @@ KEYS: Mapping[str, tuple[str, str]] = {
         ("poll polling interval scan_rate refresh update", "changes", ""),
         ("precision digits_after_point decimal_places", "decimals", ""),
         ("table register_type reg_type area object_type", "space", ""),
-        (
-            "function function_code fc read_function",
-            "space",
-            "the `space` says what is read and written; function codes stand under `functions` of the `bus`",
-        ),
+        ("function function_code fc read_function", "space", _FUNCTION),
         ("persistent persistence storage eeprom nonvolatile", "keeps", ""),
         ("alias aliases old_name former", "was", ""),
-        (
-            "no_value invalid nan missing na_value special_codes",
-            "special",
-            "write `special: {7FFFh: {name: not_available, no_value: yes}}`",
-        ),
+        ("no_value invalid nan missing na_value special_codes", "special", _NO_VALUE),
         ("inverted invert negated active_low low_active", "active", "write `active: 0`"),
         ("slave slave_id unit_id slave_address address_range node_id", "units", ""),
-        (
-            "baud baudrate parity stopbits stop_bits",
-            "serial",
-            "settings of the line stand together: `serial: {baud: 9600}`",
-        ),
+        ("baud baudrate parity stopbits stop_bits", "serial", _SERIAL),
         ("manufacturer maker brand", "vendor", ""),
         ("product device_model type_name", "model", ""),
         ("device_id", "device", ""),

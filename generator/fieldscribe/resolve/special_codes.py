@@ -37,11 +37,8 @@ class _Code(NamedTuple):
         return self.holder.key_span(self.key)
 
 
-class _Level(NamedTuple):
-    """The codes that one place declares; `label` is empty for the point itself."""
-
-    label: str
-    codes: Map
+_Level = tuple[str, Map]
+"""The codes that one place declares, behind its label, which is empty for the point itself."""
 
 
 @dataclass(slots=True)
@@ -66,19 +63,18 @@ class SpecialCodes:
         if not levels:
             return (), ""
         width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
-        key = (*(id(level.codes) for level in levels), kind, width)
+        key = (*(id(node) for _, node in levels), kind, width)
         if key not in self._specials:
             self._specials[key] = self._specials_of(levels, kind, width)
         return self._specials[key]
 
     def _specials_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
-        codes = self._merged([self.held(level.codes, kind, width) for level in levels])
-        shared = [level for level in levels if level.label]
-        inherited = self._merged([self.held(level.codes, kind, width) for level in shared])
+        codes = self._merged([self.held(node, kind, width) for _, node in levels])
+        inherited = self._merged([self.held(node, kind, width) for label, node in levels if label])
         places = {code.span for code in codes}
         all_kept = bool(inherited) and all(shared_code.span in places for shared_code in inherited)
-        labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
-        private = {id(level.codes) for level in levels if not level.label or not all_kept}
+        labels = dict.fromkeys(label for label, _ in reversed(levels) if label not in ("", kind))
+        private = {id(node) for label, node in levels if not label or not all_kept}
         specials = tuple(_special(code, shared=id(code.holder) not in private) for code in codes)
         return specials, "_".join((*labels, kind)) if all_kept else ""
 
@@ -207,16 +203,16 @@ def _levels(scope: Scope, facts: PointFacts, kind: str, bits: tuple[int, int] | 
     shared = scope.formats.get(str(facts.get("format"))) if facts.layer("format") is not None else None
     for layer in facts.layers:
         if layer.get("special"):
-            yield _Level(str(facts.get("format")) if layer is shared else "", layer["special"])
+            yield (str(facts.get("format")) if layer is shared else ""), layer["special"]
     unsettled = (facts.layer("type") is not None and facts.get("type") is None) or facts.get("untyped") is not None
     if bits is not None or kind == "bit" or unsettled or facts.failed & {"type", "bits"}:
         return
     for holder, label in ((facts.group, str(facts.group["group"])), (scope.header, kind)):
         of_type = holder.get("types", {}).get(kind, {}).get("special")
         if of_type:
-            yield _Level(label, of_type)
+            yield label, of_type
         if holder.get("special") and not TYPES[kind].floating:
-            yield _Level(label, holder["special"])
+            yield label, holder["special"]
 
 
 def quantities(scope: Scope, facts: PointFacts, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:

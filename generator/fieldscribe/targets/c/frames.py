@@ -130,12 +130,7 @@ def frames_of(device: Device) -> CFamily:
 
 def lies(point: Point) -> str:
     """Return the facts of a layout that conformance checks: whether the word is shared, and its constant bits."""
-    return f"{'true' if shares(point) else 'false'}, {constant_bits(point)}"
-
-
-def shares(point: Point) -> bool:
-    """Return True if the point has only some bits of its word, so that writing it needs to read the word first."""
-    return point.bits is not None
+    return f"{'false' if point.bits is None else 'true'}, {constant_bits(point)}"
 
 
 class Layouts:
@@ -150,11 +145,9 @@ class Layouts:
         kind, mask, low = wire_kind(point), _mask(point), point.bits[1] if point.bits is not None else 0
         order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
         name = f"{self.scope.prefix}_layout_{kind}{_tail(point, order, mask)}"
-        shared = "true" if shares(point) else "false"
-        value = (
-            f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
-            f"{hexadecimal(mask)}, {constant_bits(point)}"
-        )
+        shared = "false" if point.bits is None else "true"
+        shape = f"{len(high_first)}U, 0x{order}U, {shared}, {low}U"
+        value = f"FIELDSCRIBE_{kind.upper()}, {shape}, {hexadecimal(mask)}, {constant_bits(point)}"
         self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}")
         return f"&{name}"
 

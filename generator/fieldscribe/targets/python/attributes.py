@@ -48,11 +48,8 @@ _FREE = AttributeFields._fields.index("numbers")
 _SINGLE = AttributeFields._fields.index("addresses")
 
 
-class LimitTexts(NamedTuple):
-    """The limits of a point for its docstring, and their ends in code."""
-
-    text: str
-    ends: tuple[str, ...]
+LimitTexts = tuple[str, tuple[str, ...]]
+"""The limits of a point for its docstring, and their ends in code."""
 
 
 class AttributeView(NamedTuple):
@@ -114,7 +111,7 @@ class Attributes:
         names, shape, code = self._scope.names, point.shape, point.code
         return (
             attribute(point.name if point.variant is None else point.item),
-            _docstring(point.title["en"], limits.text, *remarks),
+            _docstring(point.title["en"], limits[0], *remarks),
             python_string(point.terms.group),
             python_string(code) if code else "",
             "" if point.default is None else number(point.default),
@@ -124,7 +121,7 @@ class Attributes:
                 python_string(printed) if isinstance(printed, str) else str(printed)
                 for printed in point.place.references.values()
             ],
-            *limits.ends,
+            *limits[1],
         )
 
     def _view(self, point: Point, fields: AttributeFields) -> AttributeView:
@@ -147,8 +144,8 @@ def _limits_of(point: Point, scope: PackageScope) -> LimitTexts:
     limits = point.allowed
     text = range_text(point, scope.lowered.points) if point.writable and point.form in _WITH_RANGE else ""
     if point.form == "float" or limits.moves or len(limits.intervals) * 2 > _MOST_ENDS or not is_limited(point):
-        return LimitTexts(text, ())
-    return LimitTexts(text, tuple([str(end) for interval in limits.fixed for end in interval]))
+        return text, ()
+    return text, tuple([str(end) for interval in limits.fixed for end in interval])
 
 
 def _docstring(title: str, limits: str, remarks: str, errata: list[str]) -> str:

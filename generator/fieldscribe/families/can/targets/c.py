@@ -17,7 +17,6 @@ from fieldscribe.targets.c.frames import (
     exceptions_of,
     frames_header,
     lies,
-    shares,
 )
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -170,14 +169,14 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, arrays: Sequence
     text = point.text is not None
     place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{view.fields.start}}}"
     parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
-    ways = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    ways = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     name = f"{view.function}_frame"
     what = f"{name}, " + (f"{view.function}, {view.macro}" if text else f"{wire_kind(point)}, {view.raw_type}")
     cases = []
     if read and read_answer:
         cases.append(f"READ{'_TEXT' if text else ''}({what})")
-    if write and write_answer and (cases or not shares(point)):
-        cases.append(f"WRITE{'_TEXT' if text else '_SHARED' if shares(point) else ''}({what})")
+    if write and write_answer and (cases or point.bits is None):
+        cases.append(f"WRITE{'_TEXT' if text else '' if point.bits is None else '_SHARED'}({what})")
     return _frame(point, view, ways, parts, cases)
 
 

@@ -16,7 +16,6 @@ from fieldscribe.targets.c.frames import (
     exceptions_of,
     frames_header,
     lies,
-    shares,
 )
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
@@ -117,7 +116,7 @@ def _frame(point: Point, view: PointView, profile: Profile, layouts: Layouts) ->
     parts += [
         f"{{{unsigned(number)}, {at}, {point.words}U}}" for number, at in ((read, address), (write, to)) if number
     ]
-    access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    access = f"{'r' if read else ''}{('w' if point.bits is None else 'u') if write else ''}"
     kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
     descriptor = Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame")
     return Frame((descriptor,), tuple(_cases(point, view, access)))

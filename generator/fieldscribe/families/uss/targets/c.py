@@ -8,7 +8,7 @@ from fieldscribe.families import Codes
 from fieldscribe.families.uss import FAMILY, of_bus
 from fieldscribe.families.uss.parts import READ_ELEMENT_TASK, READ_TASK, write_task
 from fieldscribe.model import Code, Device, Point
-from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies, shares
+from fieldscribe.targets.c.frames import Descriptor, Frame, Frames, FramesHeader, Layouts, frames_header, lies
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
@@ -89,7 +89,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     storing = [eeprom] if point.writable and point.keeps != "no" and eeprom in tasks else []
     if not (reading or writing or storing):
         return None
-    changes = "u" if shares(point) else "w"
+    changes = "w" if point.bits is None else "u"
     layout = layouts.of(point, range(width))
 
     def descriptor(tail: str, ways: list[tuple[int, str]]) -> Descriptor:
@@ -105,7 +105,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
     if reading:
         cases.append(f"READ({name}, {what})")
     for kind, tail in [*(("write", "_frame") for _ in writing), *(("store", "_eeprom_frame") for _ in storing)]:
-        if not shares(point):
+        if point.bits is None:
             cases.append(f'WRITE("{kind}", {view.function}{tail}, {what})')
         elif reading:
             cases.append(f'UPDATE("{kind}", {name}.read, {view.function}{tail}, {what})')
