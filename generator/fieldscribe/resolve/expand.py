@@ -121,7 +121,7 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
     spelt: dict[str, str] = {}
     known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
     for key, override in rows.items():
-        number = _decimal_key(key)
+        number = "/".join(str(parse_integer(part)) for part in key.split("/"))  # `1/2` for `01h/2`
         if overrides.setdefault(number, override) is not override:
             first = [(rows.key_span(spelt[number]), "first given here")]
             message = f"the element {key} is given twice"
@@ -148,11 +148,6 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[PointFacts]:
                 enum_name=name if any("enum" in override for override in overriding) else point["name"],
             ),
         )
-
-
-def _decimal_key(text: str) -> str:
-    """Return a key of `each` with decimal numbers: `1/2` for `01h/2`."""
-    return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
 def _variants(scope: Scope, facts: PointFacts) -> Iterable[PointFacts]:

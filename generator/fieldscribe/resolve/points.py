@@ -57,33 +57,12 @@ def resolve_points(
     return resolved, ranges, places
 
 
-class _Sources:
-    """Finds the sources of points. What formats and groups cite is read once."""
-
-    def __init__(self, scope: Scope) -> None:
-        self._scope = scope
-        self._shared: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
-
-    def of(self, facts: PointFacts) -> Source:
-        """Return the source of a point: usually that of its group, with the point's own line."""
-        nearest_layer, *others = facts.layers
-        key = (*map(id, others), id(facts.group))
-        known = self._shared.get(key)
-        if known is None:
-            citations = cited((*others, facts.group))
-            known = self._shared[key] = citations, source_from(self._scope, citations)
-        stated = nearest_layer.keys() & _CITING
-        if stated == {"line"}:
-            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
-        return source_from(self._scope, {**known[0], **cited((nearest_layer,))}) if stated else known[1]
-
-
 class _Points:
     """Puts points together from their identity and what they share with others."""
 
     def __init__(self, scope: Scope, scales: Scales, places: Places) -> None:
         self._scope, self._scales, self._places = scope, scales, places
-        self._sources = _Sources(scope)
+        self._sources: dict[tuple[int, ...], tuple[Mapping[str, object], Source]] = {}
         self._terms: Memo[Terms] = Memo(scope.report)
         self._defaults: Memo[tuple[Fraction | None, int | None]] = Memo(scope.report)
 
@@ -100,7 +79,7 @@ class _Points:
             None if code is None else str(code),
             facts.title,
             titles(get("note")),
-            self._sources.of(facts),
+            self._source(facts),
             place,
             write_place,
             shape,
@@ -114,6 +93,19 @@ class _Points:
             () if old_names is None else tuple(map(facts.called, old_names)),
             (),
         )
+
+    def _source(self, facts: PointFacts) -> Source:
+        """Return the source: usually that of the group, with the point's own line. What layers share is read once."""
+        nearest_layer, *others = facts.layers
+        key = (*map(id, others), id(facts.group))
+        known = self._sources.get(key)
+        if known is None:
+            citations = cited((*others, facts.group))
+            known = self._sources[key] = citations, source_from(self._scope, citations)
+        stated = nearest_layer.keys() & _CITING
+        if stated == {"line"}:
+            return Source(known[1].document, known[1].section, known[1].page, first_line(nearest_layer["line"]))
+        return source_from(self._scope, {**known[0], **cited((nearest_layer,))}) if stated else known[1]
 
     def _default(self, facts: PointFacts, kind: int, shape: Shape) -> tuple[Fraction | None, int | None]:
         """Return the factory setting in the unit and as raw number."""

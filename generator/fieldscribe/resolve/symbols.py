@@ -63,7 +63,7 @@ def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
     kept = []
     for facts in points:
         known = symbols.by_name.setdefault(facts.name, [])
-        first = _other(known, facts) if known else None
+        first = next((earlier for earlier in known if not _are_variants(earlier, facts)), None)
         if first is not None:
             related = [(first.span(), "first given here")]
             hint = "names are unique in a device; a point that differs by variant says so under `variants`"
@@ -77,11 +77,6 @@ def symbols_of(scope: Scope, points: list[PointFacts]) -> SymbolTable:
         kept.append(facts)
     points[:] = kept
     return symbols
-
-
-def _other(known: list[PointFacts], facts: PointFacts) -> PointFacts | None:
-    """Return the first point of the same name that is not a variant of this one."""
-    return next((earlier for earlier in known if not _are_variants(earlier, facts)), None)
 
 
 def _are_variants(facts: PointFacts, other: PointFacts) -> bool:

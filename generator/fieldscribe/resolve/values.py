@@ -73,30 +73,29 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     if suggestion is not None:
         report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {suggestion}")
         return None
-    low_text, dots, high_text = text.partition("..")
-    low = integer(low_text.strip(), span, report)
-    high = integer(high_text.strip(), span, report) if dots else low
-    if low is None or high is None:
-        return None
-    if low > high:
+    ends = _ends(text, span, report)
+    if ends is not None and ends[0] > ends[1]:
+        low_text, _, high_text = text.partition("..")
         message = f"`{text}` runs downwards"
         report.error("range-reversed", message, span, f"write {high_text.strip()}..{low_text.strip()}")
         return None
-    return low, high
+    return ends
 
 
 def bit_range(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """Return the highest and the lowest bit that `5..4` or a single number names; None after a finding."""
-    high_text, dots, low_text = text.partition("..")
-    high = integer(high_text.strip(), span, report)
-    low = integer(low_text.strip(), span, report) if dots else high
-    if high is None or low is None:
-        return None
-    if low > high:
-        hint = f"the higher bit stands first: {low}..{high}"
+    ends = _ends(text, span, report)
+    if ends is not None and ends[0] < ends[1]:
+        hint = f"the higher bit stands first: {ends[1]}..{ends[0]}"
         report.error("range-reversed", f"bits `{text}` run upwards", span, hint)
         return None
-    return high, low
+    return ends
+
+
+def _ends(text: str, span: Span, report: Report) -> tuple[int, int] | None:
+    """Return both numbers of `a..b`, or a single number twice; None after a finding."""
+    ends = [integer(end.strip(), span, report) for end in text.split("..", 1)]
+    return None if ends[0] is None or ends[-1] is None else (ends[0], ends[-1])
 
 
 def formula_value(text: str, names: Mapping[str, Fraction], span: Span, unknown: str = "") -> Fraction:

@@ -39,15 +39,13 @@ class PointComment:
         if point.default is not None or point.default_raw is not None:
             facts.append(f"default {c_comment(wording.default_text(point))}")
         text = f"/* {head}: {'; '.join([*facts, *self._rest])} */"
-        return text if len(text) <= WIDTH else _in_lines(text[3:-3])
+        if len(text) <= WIDTH:
+            return text
+        return folded("\n".join(("/*", *filled(text[3:-3].split(" "), " ", " * "), " */")))
 
 
 def _printed(reference: int | str) -> str:
     return c_comment(reference) if isinstance(reference, str) else str(reference)
-
-
-def _in_lines(text: str) -> str:
-    return folded("\n".join(("/*", *filled(text.split(" "), " ", " * "), " */")))
 
 
 def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
