@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
+from fieldscribe.resources import Render
 from fieldscribe.targets.c.frames import frames_of
 from fieldscribe.targets.c.header import header, header_context
 from fieldscribe.targets.c.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.c.layout import framed
 from fieldscribe.targets.c.point_templates import generated_points
 from fieldscribe.targets.c.scope import scope_of
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 NEEDS_FAMILY = True

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from fieldscribe.arithmetic.words import group_mask, mask_of
 from fieldscribe.families import family
 from fieldscribe.model import Device, Point
+from fieldscribe.resources import Render
 from fieldscribe.targets.c.layout import WIDTH, folded
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint, texts_of
@@ -16,9 +17,6 @@ from fieldscribe.targets.c.views import AliasView, PointView
 from fieldscribe.targets.c.word_functions import constant_bits
 from fieldscribe.targets.identifiers import Named, Owner
 from fieldscribe.text import c_comment, upper
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 
 class Descriptor(NamedTuple):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product
-from typing import TYPE_CHECKING
 
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point, Version
+from fieldscribe.resources import Render
 from fieldscribe.targets.c.declarations import defines, place_defines
 from fieldscribe.targets.c.layout import folded, framed
 from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, texts_of
@@ -17,9 +17,6 @@ from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.views import AliasView, Define, PointFields, PointView
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.text import c_comment, upper
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 _INCLUDE = re.compile(r'^#include "([^"\n]+)".*\n', re.MULTILINE)
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import placeholders
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 WIDTH = 120
 """No line is longer."""

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.model import Device
-from fieldscribe.resources import runtime_files
+from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
 from fieldscribe.targets.python.namespaces import device_name_taken, identifiers
 from fieldscribe.text import python_doc, python_string, toml_string
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
