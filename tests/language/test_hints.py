@@ -259,7 +259,11 @@ def test_an_address_may_be_computed(tmp_path: Path) -> None:
         ("group: main", "group: main\nword_order: low first", "the order of words is `words: high first` or"),
         ("---", "variants: {size: {title: Size, values: [a, 2]}}\n---", "write `values: {a: {}, 2: {}}`"),
         ("---", "variants: {size: {values: [a, b, c, d, e, f, g, h]}}\n---", "g: {}, h: {}}`"),
-        ("---", "variants: {size: {values: [a, b, c, d, e, f, g, h, i]}}\n---", "for example {200V: {title: 200 V"),
+        (
+            "---",
+            "variants: {size: {values: [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q]}}\n---",
+            "for example {200V: {title: 200 V",
+        ),
     ],
 )
 def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
