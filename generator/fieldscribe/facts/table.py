@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple, TypeAlias
 
-from fieldscribe.model import Device, Point, Shape, Terms
+from fieldscribe.model import Device, FamilyFacts, Point, Shape, Terms
 from fieldscribe.wording.rules import Points
 
 WIRE, API, BEHAVIOUR, COMPATIBLE, DOCS = "wire", "api", "behaviour", "compatible", "docs"
@@ -194,6 +194,19 @@ class Fact:
         if "null" in types if isinstance(types, list) else {"type": "null"} in self.schema.get("anyOf", ()):
             return None
         return _EMPTY.get(str(types), ...)
+
+
+def family_facts(kind: type[FamilyFacts], *facts: Fact) -> FactTable:
+    """Return facts of a bus or a frame, each given as a fact of `kind`; they are empty for all other families."""
+    others = kind()
+
+    def of_thing(fact: Fact) -> Fact:
+        def value(thing: Any, context: Context) -> Any:
+            return fact.get(thing.family_facts if isinstance(thing.family_facts, kind) else others, context)
+
+        return replace(fact, value=value)
+
+    return tuple(map(of_thing, facts))
 
 
 def _plain_text(value: Any, separator: str) -> str:

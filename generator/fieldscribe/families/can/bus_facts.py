@@ -3,32 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from fieldscribe.facts.schema import ADDRESS, INTEGER, null_or
-from fieldscribe.facts.table import DOCS, WIRE, Fact
-from fieldscribe.families.can import identifier_of, of_bus
+from fieldscribe.facts.table import DOCS, WIRE, Fact, family_facts
+from fieldscribe.families.can import CanBus, CanExample, of_bus
 from fieldscribe.model import Bus
 
-if TYPE_CHECKING:
-    from fieldscribe.facts.schema import Schema
-
-
-def _limit(key: str, doc: str, schema: Schema) -> Fact:
-    return Fact(key, doc, schema, WIRE, value=lambda bus, _: getattr(of_bus(bus), key))
-
-
-LIMITS = (
-    _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
-    _limit("identifier_bits", "CAN: how many bits the identifiers have.", null_or(INTEGER)),
+LIMITS = family_facts(
+    CanBus,
+    Fact("bitrate", "CAN and USS: bits a second.", null_or(INTEGER), WIRE),
+    Fact("identifier_bits", "CAN: how many bits the identifiers have.", null_or(INTEGER), WIRE),
 )
-"""The facts of a bus that only this family has; they are empty on a bus of another family."""
+"""The facts of a bus that only this family has."""
 
-FRAME = (
-    Fact(
-        "can_id", "The identifier of a CAN frame.", null_or(ADDRESS), DOCS, value=lambda frame, _: identifier_of(frame)
-    ),
-)
+_CAN_ID = Fact("can_id", "The identifier of a CAN frame.", null_or(ADDRESS), DOCS, attribute="identifier")
+FRAME = family_facts(CanExample, _CAN_ID)
 """The same for worked examples."""
 
 

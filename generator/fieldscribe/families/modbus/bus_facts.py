@@ -5,21 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from fieldscribe.facts.schema import STRING, null_or
-from fieldscribe.facts.table import WIRE, Fact
-from fieldscribe.families.modbus import BROADCAST, of_bus
+from fieldscribe.facts.table import WIRE, Fact, family_facts
+from fieldscribe.families.modbus import BROADCAST, ModbusBus, of_bus
 from fieldscribe.model import Bus, Code
 from fieldscribe.wording import address_text
 
-LIMITS = (
-    Fact(
-        "pad_coil_bytes",
-        "Modbus: to which number of bytes the data of written coils is padded.",
-        null_or(STRING),
-        WIRE,
-        value=lambda bus, _: of_bus(bus).pad_coil_bytes,
-    ),
-)
-"""The facts of a bus that only this family has; they are empty on a bus of another family."""
+_PADDING = "Modbus: to which number of bytes the data of written coils is padded."
+LIMITS = family_facts(ModbusBus, Fact("pad_coil_bytes", _PADDING, null_or(STRING), WIRE))
+"""The facts of a bus that only this family has."""
 
 _DIGITS = {"discrete": 1, "input": 3, "holding": 4}
 """The first digit of traditional references; that of coils is 0, which leaves the number as it is."""

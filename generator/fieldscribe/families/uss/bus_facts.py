@@ -3,46 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from fieldscribe.facts.schema import INTEGER, list_of, map_of, null_or
-from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact
-from fieldscribe.families.uss import of_bus, of_frame
+from fieldscribe.facts.table import BEHAVIOUR, DOCS, WIRE, Fact, family_facts
+from fieldscribe.families.uss import UssBus, UssFrame, of_bus
 from fieldscribe.families.uss.parts import READ_TASK, VARIABLE, write_task
 from fieldscribe.model import Bus, Point
 from fieldscribe.wording.exact import hex_text
 
-if TYPE_CHECKING:
-    from fieldscribe.facts.schema import Schema
-
-
-def _limit(key: str, doc: str, schema: Schema) -> Fact:
-    return Fact(key, doc, schema, WIRE, value=lambda bus, _: getattr(of_bus(bus), key))
-
-
-LIMITS = (
-    _limit("pkw", "USS: the lengths in words that the parameter part may have; 127 is variable.", list_of(INTEGER)),
-    _limit("pzd", "USS: the least and the most words of process data.", list_of(INTEGER, 2, 2)),
+LIMITS = family_facts(
+    UssBus,
+    Fact("pkw", "USS: the lengths in words that the parameter part may have; 127 is variable.", list_of(INTEGER), WIRE),
+    Fact("pzd", "USS: the least and the most words of process data.", list_of(INTEGER, 2, 2), WIRE),
     Fact(
         "variant_pzd",
         "USS: the most words of process data of variants that take fewer, by axis=value.",
         map_of(INTEGER),
         BEHAVIOUR,
-        value=lambda bus, _: {str(variant): most for variant, most in of_bus(bus).variant_pzd},
+        value=lambda bus, _: {str(variant): most for variant, most in bus.variant_pzd},
     ),
-    _limit("bitrate", "CAN and USS: bits a second.", null_or(INTEGER)),
+    Fact("bitrate", "CAN and USS: bits a second.", null_or(INTEGER), WIRE),
 )
-"""The facts of a bus that only this family has; they are empty on a bus of another family."""
+"""The facts of a bus that only this family has."""
 
-FRAME = (
-    Fact(
-        "pkw",
-        "The words of the parameter part of a USS telegram, as set for the link.",
-        null_or(INTEGER),
-        DOCS,
-        value=lambda frame, _: of_frame(frame).pkw,
-    ),
-)
+_PKW = "The words of the parameter part of a USS telegram, as set for the link."
+FRAME = family_facts(UssFrame, Fact("pkw", _PKW, null_or(INTEGER), DOCS))
 """The same for worked examples."""
 
 
