@@ -39,11 +39,11 @@ class Receiver:
 
     def take(self, frame: CanFrame) -> bool:
         """Keep the words of a frame; return False if it does not belong to the telegram."""
-        place = self._place(frame)
-        if place is None:
-            return False
-        self.keep(place, frame)
-        return True
+        place = carried(self.message, frame, "multiplexer")  # 0 without one
+        belongs = parse(self.message, self.unit, frame).status == "ok" and place < len(self._slots)
+        if belongs:
+            self.keep(place, frame)
+        return belongs
 
     def keep(self, place: int, frame: CanFrame) -> tuple[int, ...]:
         """Keep and return the words of a sound frame of the telegram, whose multiplexer is `place`."""
@@ -53,13 +53,6 @@ class Receiver:
         data = frame.data + b"\0"  # half a word that no byte of the message carries is 0
         slot.words, slot.at = words_in(bytes(self._own(data))), self._clock
         return slot.words
-
-    def _place(self, frame: CanFrame) -> int | None:
-        """Return the slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
-        if parse(self.message, self.unit, frame).status != "ok":
-            return None
-        place = carried(self.message, frame, "multiplexer")
-        return place if place < len(self._slots) else None
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
         """Return the words at these positions, the high one first: ("ok", words), or "missing" or "torn" without words.
