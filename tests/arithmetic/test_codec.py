@@ -12,7 +12,7 @@ from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import CodecError
 from fieldscribe.arithmetic.exact import half_away
 from fieldscribe.conversation.encoding import encode_point
-from fieldscribe.conversation.meanings import meaning_of
+from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.conversation.refusals import amount
 from fieldscribe.conversation.selection import choose_point, choose_variants
 from fieldscribe.conversation.typed_values import read_settings, read_value
@@ -48,7 +48,7 @@ def _encode(item: str, value: str, device: Device = DEVICE, **settings: int) -> 
 
 
 def _meaning(item: str, raw: int, **settings: int) -> str:
-    return meaning_of(DEVICE, _point(item), raw, settings).text
+    return Meanings(DEVICE, _point(item)).text(raw, settings)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from fieldscribe.cli import main
 from fieldscribe.conversation.explanation import explain_point
-from fieldscribe.conversation.meanings import meaning_of
+from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, rust
 from fieldscribe.wording import meaning_text
@@ -73,12 +73,12 @@ def test_rounding_is_to_nearest_with_halves_away_from_zero() -> None:
     ],
 )
 def test_decode_says_it(item: str, raw: int, settings: dict[str, int], text: str) -> None:
-    assert meaning_of(DEVICE, named(DEVICE, item), raw, settings).text == text
+    assert Meanings(DEVICE, named(DEVICE, item)).text(raw, settings) == text
 
 
 def test_the_exact_value_stays_beside_its_text() -> None:
     """What programs take out of `decode` is not rounded."""
-    assert meaning_of(DEVICE, named(DEVICE, "shown_eighths"), 1, {}).value == "0.125"
+    assert Meanings(DEVICE, named(DEVICE, "shown_eighths")).of(1, {}).value == "0.125"
 
 
 def test_a_plain_number_has_a_text_of_its_own() -> None:

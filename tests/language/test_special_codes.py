@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from fieldscribe.cli import main
-from fieldscribe.conversation.meanings import meaning_of
+from fieldscribe.conversation.meanings import Meanings
 from fieldscribe.model import Device, Special
 from fieldscribe.resources import render
 from fieldscribe.targets import c, docs, python, rust
@@ -121,7 +121,7 @@ def test_explain_and_decode_name_codes(capsys: Any) -> None:
         ("ages", 0xFFFF, "reserved (Reserved)"),
         ("gear", 14, "none (None), no value"),
     ):
-        meaning = meaning_of(device(), named(device(), item), raw, {})
+        meaning = Meanings(device(), named(device(), item)).of(raw, {})
         assert (meaning.text, meaning.value) == (text, None)
     _, said = run(capsys, "decode", CODES, "01 04 02 FF F4 F9 47", "--request", "01 04 00 00 00 01 31 CA")
     assert "transducer_fault" in said

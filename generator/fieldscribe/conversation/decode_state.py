@@ -119,9 +119,7 @@ class PointFormatter:
 
     def value(self, raw: int, settings: Settings) -> str:
         """Return the meaning of a raw number, and the number itself: `5 Hz (raw 500 = 01F4h)`."""
-        meaning = self._meanings.of(raw, settings)
-        text = meaning.flags.sentence(raw) if meaning.flags else meaning.text
-        return f"{text} ({self._raw_text(raw)})"
+        return f"{self._meanings.text(raw, settings)} ({self._raw_text(raw)})"
 
     def _item(self, raw: int, *values: int | Fraction | None) -> Item:
         settings = {name: value for name, value in zip(self.needs, values, strict=True) if value is not None}

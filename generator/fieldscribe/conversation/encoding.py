@@ -10,7 +10,7 @@ from typing import Any
 from fieldscribe import wording
 from fieldscribe.arithmetic import codec
 from fieldscribe.arithmetic.codec import Settings
-from fieldscribe.conversation.meanings import meaning_of, raw_text
+from fieldscribe.conversation.meanings import Meanings, raw_form
 from fieldscribe.conversation.refusals import amount_with_unit
 from fieldscribe.conversation.selection import absence
 from fieldscribe.conversation.typed_values import encode_typed, read_value
@@ -52,8 +52,7 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings, *
     typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)
     notes = () if typed.value is None else tuple(_rounding_notes(point, typed.value, raw, settings))
-    meaning = meaning_of(device, point, raw, settings)
-    text = line(f"{label(point)} = {meaning.text}: {raw_text(point, raw)}")
+    text = line(f"{label(point)} = {Meanings(device, point).text(raw, settings)}: {raw_form(point)(raw)}")
     width = 16 * point.words if point.text is not None else point.width
     return Encoded(point.item, point.code, raw, raw & ((1 << width) - 1), text, notes, point.words)
 

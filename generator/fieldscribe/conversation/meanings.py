@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache, partial
 
@@ -51,6 +51,11 @@ class Meanings:
             remark = ", no value" if special.no_value else ""
             return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
         return self._quantity(raw, settings) if self._of_names is None else self._of_names(raw)
+
+    def text(self, raw: int, settings: Settings) -> str:
+        """Return the meaning of a raw number as text, with the flags of a word in one sentence."""
+        meaning = self.of(raw, settings)
+        return meaning.text if meaning.flags is None else meaning.flags.sentence(raw)
 
     def lacks(self, settings: Settings) -> bool:
         """Return True if the scale needs points that are not among these settings."""
@@ -164,19 +169,8 @@ def _flag_text(flag: Flag, number: int) -> str:
     return f"{flag.name} (its bit is {number})" if flag.active == 0 else flag.name
 
 
-def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
-    """Return the meaning of one raw number, with its flags in the text."""
-    meaning = Meanings(device, point).of(raw, settings)
-    return meaning if meaning.flags is None else replace(meaning, text=meaning.flags.sentence(raw))
-
-
-def raw_text(point: Point, raw: int) -> str:
-    """Return a raw number in both notations: `raw 500 = 01F4h`."""
-    return raw_form(point)(raw)
-
-
 def raw_form(point: Point) -> Callable[[int], str]:
-    """Return the function that writes the raw numbers of a point in both notations."""
+    """Return the function that writes the raw numbers of a point in both notations: `raw 500 = 01F4h`."""
     if point.type == "bit":
         return "raw {}".format
     if point.text is not None:
