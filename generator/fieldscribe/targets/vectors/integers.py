@@ -68,14 +68,10 @@ def _checked(encoding: PointEncoding, raw: int, limits: samples.Limits) -> str:
 def _raws(encoding: PointEncoding, raws: list[int], *, deep: bool) -> dict[int, None]:
     """Return raw numbers, also with the constant bits set, numbers of the enum (if deep, all), and each flag alone."""
     shape = encoding.shape
-    raws_to_try = dict.fromkeys(raws)
-    if shape.fixed is not None:
-        raws_to_try.update({with_fixed(encoding, raw): None for raw in raws})
-    if shape.enum is not None:
-        raws_to_try.update({entry.raw: None for entry in (shape.enum.entries if deep else shape.enum.entries[-1:])})
-    for flag in shape.flags:
-        raws_to_try[as_raw(shape, (1 << flag.width) - 1 << flag.low)] = None
-    return raws_to_try
+    fixed = () if shape.fixed is None else (with_fixed(encoding, raw) for raw in raws)
+    entries = () if shape.enum is None else shape.enum.entries if deep else shape.enum.entries[-1:]
+    flags = (as_raw(shape, (1 << flag.width) - 1 << flag.low) for flag in shape.flags)
+    return dict.fromkeys((*raws, *fixed, *(entry.raw for entry in entries), *flags))
 
 
 def with_fixed(encoding: PointEncoding, raw: int) -> int:
@@ -93,15 +89,13 @@ def names(lines: Lines, shape: Shape, *, deep: bool) -> None:
         return
     least, greatest = (0, 9) if shape.digits is not None else (shape.least, shape.greatest)
     named = {entry.raw: entry.name for entry in enum.entries if least <= entry.raw <= greatest}
-    if not deep:
-        for raw in dict.fromkeys((*named,)[:: max(1, len(named) - 1)]):
-            lines.add("name", raw, named[raw])
-        return
-    for raw, name in named.items():
-        lines.add("name", raw, name)
-    unnamed = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
-    for raw in [raw for raw in unnamed if raw not in named and least <= raw <= greatest]:
-        lines.add("name", raw)
+    raws = [*named]
+    if deep:
+        others = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
+        raws += [raw for raw in others if raw not in named and least <= raw <= greatest]
+    else:
+        raws = raws[:: max(1, len(named) - 1)]
+    lines.add_all("name", [(raw, named.get(raw)) for raw in raws])
 
 
 def specials(lines: Lines, shape: Shape) -> None:

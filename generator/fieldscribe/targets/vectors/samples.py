@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd, inf, nan
 
-from fieldscribe.model import Allowed, Bound, Enum, Factor, Interval, Limit, Point, Shape
+from fieldscribe.model import Allowed, Bound, Factor, Interval, Limit, Point, Shape
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, bits_of, outer_bounds
 
 MANY = 3
@@ -87,12 +87,9 @@ def _facts(shape: Shape) -> Hashable:
     """Return the facts that decide how a point is computed, but for its limits: type, scale, special codes."""
     specials = tuple((special.low, special.high, special.writable, special.no_value) for special in shape.specials)
     kind = shape.type, shape.width, shape.access, shape.fixed, shape.encodes_values, shape.decimals, shape.most_raw
-    enum = _entries(shape.digits.enum if shape.digits is not None else shape.enum)
-    return (*kind, shape.display, shape.scale, specials, enum, bool(shape.flags))
-
-
-def _entries(enum: Enum | None) -> tuple[tuple[int, str], ...] | None:
-    return None if enum is None else tuple([(entry.raw, entry.name) for entry in enum.entries])
+    enum = shape.digits.enum if shape.digits is not None else shape.enum
+    entries = enum and tuple([(entry.raw, entry.name) for entry in enum.entries])
+    return (*kind, shape.display, shape.scale, specials, entries, bool(shape.flags))
 
 
 def _limits(intervals: tuple[Interval, ...]) -> Hashable:

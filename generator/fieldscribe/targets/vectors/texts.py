@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from math import inf, isfinite, nan
+from operator import mul
 
 from fieldscribe.model import Digits, Shape
 from fieldscribe.targets.vectors import samples
@@ -57,29 +58,18 @@ def digits(lines: Lines, shape: Shape) -> None:
         return
     allowed = {entry.raw for entry in layout.enum.entries}
     places = [10**place for place in reversed(range(layout.count))]
-    numbers = _numbers(layout, allowed)
-    raws = dict.fromkeys(
-        sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
-        for digits_of_number in numbers
-    )
-    raws = {
-        raw: None
-        for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF, *codes(shape))
-        if raw <= 0xFFFF
-    }
-    for raw in raws:
-        rest, digits_of_raw = raw, []
-        for place in places:
-            digit, rest = divmod(rest, place)
-            digits_of_raw.append(digit)
+    numbers = {number: sum(map(mul, number, places)) for number in _numbers(layout, allowed)}
+    top = 10**layout.count
+    raws = dict.fromkeys((*numbers.values(), 0, top - 1, top, 12345, 0x7FFF, 0xFFFF, *codes(shape)))
+    for raw in [raw for raw in raws if raw <= 0xFFFF]:
+        digits_of_raw = [raw // places[0], *(raw // place % 10 for place in places[1:])]
         code = code_of(shape, raw)
         if shape.readable:
             lines.add("digits", raw, *(("ok", digits_of_raw) if code is None else ("special", None, code.name)))
         if shape.writable:
             coded = None if code is None else "ok" if code.writable else "special"
             lines.add("check", raw, coded or ("ok" if allowed.issuperset(digits_of_raw) else "unknown_value"))
-    for digits_of_number in numbers if shape.writable else ():
-        raw = sum(digit * place for digit, place in zip(digits_of_number, places, strict=True))
+    for digits_of_number, raw in numbers.items() if shape.writable else ():
         good = allowed.issuperset(digits_of_number) and raw <= 0xFFFF
         status = "unknown_value" if not good else "ok" if code_of(shape, raw) is None else "special"
         lines.add("digits_encode", digits_of_number, status, raw if status == "ok" else None)
