@@ -147,20 +147,12 @@ def _is_plain(subject: CratePoint) -> bool:
     return _is_read(subject) and not subject.point.specials
 
 
-def _is_coded(subject: CratePoint) -> bool:
-    return _is_read(subject) and bool(subject.point.specials)
-
-
 def _is_quantity(subject: CratePoint) -> bool:
     return subject.point.form == "scaled" and _is_plain(subject)
 
 
 def _is_set(subject: CratePoint) -> bool:
     return _takes_a_value(subject) and not subject.point.arguments
-
-
-def _is_needy(subject: CratePoint) -> bool:
-    return _takes_a_value(subject) and bool(subject.point.arguments) and subject.point.readable
 
 
 def _takes_a_value(subject: CratePoint) -> bool:
@@ -171,7 +163,8 @@ def _takes_a_value(subject: CratePoint) -> bool:
 
 def _writes(candidates: list[CratePoint]) -> Snippet:
     """Return the lines that write a point that needs no other, and one that does."""
-    plain, needy = _first(candidates, _is_set), _first(candidates, _is_needy)
+    plain, takers = _first(candidates, _is_set), filter(_takes_a_value, candidates)
+    needy = next((subject for subject in takers if subject.point.arguments and subject.point.readable), None)
     lines = () if plain is None else (_write(plain),)
     if needy is None:
         return Snippet(lines)
@@ -202,7 +195,7 @@ def _inside(subject: CratePoint) -> str:
 
 def _special(candidates: list[CratePoint]) -> Snippet:
     """Return the lines that read a point that may hold a special code."""
-    coded = _first(candidates, _is_coded)
+    coded = next((subject for subject in filter(_is_read, candidates) if subject.point.specials), None)
     if coded is None:
         return Snippet()
     lines = (

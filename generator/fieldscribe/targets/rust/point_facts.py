@@ -18,24 +18,22 @@ _BLOCK_WIDTH = 112
 _WIDTH = 100
 
 
-def read_lines(subject: CratePoint) -> tuple[str, ...]:
+def read_lines(subject: CratePoint) -> Lines:
     """Return the facts of reading."""
     count = count_type(subject)
-    facts = [f"count {count};"] if count else []
-    facts += [f"with {subject.factors_type};"] if subject.point.scale_arguments else []
-    return _block("read", [(fact,) for fact in facts])
+    facts: list[Lines] = [(f"count {count};",)] if count else []
+    facts += [(f"with {subject.factors_type};",)] if subject.point.scale_arguments else []
+    return _block("read", facts)
 
 
-def write_lines(subject: CratePoint, scope: CrateScope) -> tuple[str, ...]:
+def write_lines(subject: CratePoint, scope: CrateScope) -> Lines:
     """Return the facts of writing."""
-    count = count_type(subject)
-    facts = [f"count {count};"] if count else []
-    facts += [f"with with::{subject.name};"] if subject.point.arguments else []
-    facts += ["closed true;"] if subject.enum is not None and subject.enum.closed else []
-    tail = () if subject.point.encodes_values else ("values none;",)
-    allowed = _allowed(subject, scope)
-    others = (*_write_place(subject.point, scope), *tail)
-    return _block("write", [*((fact,) for fact in facts), *allowed, *((fact,) for fact in others)])
+    point, count = subject.point, count_type(subject)
+    facts: list[Lines] = [(f"count {count};",)] if count else []
+    facts += [(f"with with::{subject.name};",)] if point.arguments else []
+    facts += [("closed true;",)] if subject.enum is not None and subject.enum.closed else []
+    facts += [*_allowed(subject, scope), *_write_place(point, scope)]
+    return _block("write", facts if point.encodes_values else [*facts, ("values none;",)])
 
 
 def _block(name: str, facts: list[Lines]) -> Lines:
@@ -91,12 +89,12 @@ def _float_ranges(point: Point) -> Iterator[str]:
         yield f"ranges [{pairs}];"
 
 
-def _write_place(point: Point, scope: CrateScope) -> Iterator[str]:
+def _write_place(point: Point, scope: CrateScope) -> Iterator[Lines]:
     """Yield the function and the address for writing, unless they are the usual ones."""
     single, many = _WRITES.get(point.space, (0, 0))
     usual = single if point.words == 1 else many
     if usual not in scope.functions and many in scope.functions:
-        yield f"function {many};"
+        yield (f"function {many};",)
 
 
 def shared_codes(scope: CrateScope) -> Iterator[dict[str, object]]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
+from itertools import groupby, takewhile
 
 from fieldscribe.arithmetic.exact import count_line
 from fieldscribe.arithmetic.words import fits
 from fieldscribe.lowered import Lowered, Operand, Rule
-from fieldscribe.model import Limit, Linear, Point
+from fieldscribe.model import Limit, Linear, Point, ScaleCase
 from fieldscribe.resources import Render
 from fieldscribe.targets.rust.documentation import wrapped
 from fieldscribe.targets.rust.enums import old_names_text
@@ -101,27 +102,20 @@ def _width(rule: Linear, decimals: int, raw: str) -> int:
 
 def rule_lines(point: Point, lowered: Lowered) -> Lines:
     """Return the lines that choose the case in force: in order, up to one that always holds."""
-    otherwise: Lines = ("Err(runtime::Error::NoCase(None))",)
-    cases: list[tuple[str, list[str], Lines]] = []
-    for case in point.scale or ():
-        result = rule_of(lowered.rule(case.rule))
-        if case.point is None:
-            otherwise = result
-            break
-        raw, code = f"runtime::Raw::to_i64({_raw_of(case.point)})", integer(case.raw or 0)
-        if cases and (cases[-1][0], cases[-1][2]) == (raw, result):
-            cases[-1][1].append(code)
-        else:
-            cases.append((raw, [code], result))
-    if not cases:
-        return chained(otherwise)
-    arms = (line for case in cases for line in _arm(*case))
-    return "match () {", *arms, f"    () => {'?'.join(otherwise)},", "}"
+    scale = point.scale or ()
+    always = next((case.rule for case in scale if case.point is None), None)
+    otherwise = ("Err(runtime::Error::NoCase(None))",) if always is None else rule_of(lowered.rule(always))
+    chosen = takewhile(lambda case: case.point is not None, scale)
+    groups = groupby(chosen, key=lambda case: (case.point or "", rule_of(lowered.rule(case.rule))))
+    arms = [line for (name, result), cases in groups for line in _arm(name, cases, result)]
+    return ("match () {", *arms, f"    () => {'?'.join(otherwise)},", "}") if arms else chained(otherwise)
 
 
-def _arm(raw: str, codes: list[str], result: Lines) -> Iterator[str]:
-    """Yield an arm for raw numbers that are one of these codes."""
-    yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
+def _arm(name: str, cases: Iterable[ScaleCase], result: Lines) -> Iterator[str]:
+    """Yield an arm for the raw numbers of cases with the same result."""
+    codes = [integer(case.raw or 0) for case in cases]
+    head = filled(f"() if matches!(runtime::Raw::to_i64({_raw_of(name)}), ", " | ", codes, ") => {")
+    yield from (f"    {line}" for line in head)
     yield from (f"        {line}" for line in chained(result))
     yield "    }"
 

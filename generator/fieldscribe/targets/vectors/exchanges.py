@@ -158,11 +158,6 @@ def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
         lines.add(kind, what, code.number, code.name)
 
 
-def writing_addresses(point: Point) -> tuple[int, ...]:
-    """Return the addresses where a point is written."""
-    return point.addresses if point.write_place is None else point.write_place.addresses
-
-
 def typical(oracle: Oracle, encoding: PointEncoding, settings: dict[str, int]) -> int | None:
     """Return a typical raw number to write: two thirds up the range, odd if possible; None if it has no limits."""
     shape = encoding.shape

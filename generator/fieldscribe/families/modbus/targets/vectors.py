@@ -9,7 +9,7 @@ from fieldscribe.families.modbus import FRAMINGS, FUNCTIONS, READS, SPACES, Prof
 from fieldscribe.families.modbus.exchange import Request, build, parse_reply, parse_request
 from fieldscribe.families.modbus.frames import Flaw, crc16, data_size, frame, pack_bits
 from fieldscribe.model import Bus, Device, Point
-from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped, writing_addresses
+from fieldscribe.targets.vectors.exchanges import Script, codes, single_bit_errors, with_flipped
 from fieldscribe.targets.vectors.lines import NO_BROADCAST, Lines
 
 KINDS = {
@@ -46,7 +46,7 @@ class ModbusWire:
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """Return one request for all words, with the function for this count."""
         function = None if keep else self.profile.write_function(point.space, len(words))
-        return None if function is None else self.script(function, writing_addresses(point), words)
+        return None if function is None else self.script(function, point.written.addresses, words)
 
     def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
         """Return one request for consecutive addresses and its reply; None if the device does not allow it.
