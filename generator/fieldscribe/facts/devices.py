@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, partial
 from operator import itemgetter
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 from fieldscribe.facts.point_values import grown, items
 from fieldscribe.facts.points import ERRATA, NAME, NOTE, POINTS, SOURCE, TITLE
@@ -33,8 +33,7 @@ from fieldscribe.families import Family, families, family
 from fieldscribe.model import Bus, Code
 from fieldscribe.wording import without_lines
 
-if TYPE_CHECKING:
-    Listed = Callable[[Exported], Iterable[Exported]]
+Listed: TypeAlias = Callable[[Exported], Iterable[Exported]]
 
 FORMAT = 5
 """The version of the exported shape."""

@@ -8,14 +8,12 @@ from functools import cached_property
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple, TypeAlias
 
+from fieldscribe.facts.schema import Schema
 from fieldscribe.model import Device, FamilyFacts, Point, Shape, Terms
 from fieldscribe.wording.rules import Points
 
 WIRE, API, BEHAVIOUR, COMPATIBLE, DOCS = "wire", "api", "behaviour", "compatible", "docs"
 """The classes of differences: breaks on the wire, breaks code, changes behaviour, compatible, for people only."""
-
-Schema: TypeAlias = Mapping[str, Any]
-"""A JSON Schema."""
 
 Exported: TypeAlias = Mapping[str, Any]
 """A device, or a thing in it, in the form of the exported model."""

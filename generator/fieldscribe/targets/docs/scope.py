@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
@@ -12,9 +12,6 @@ from fieldscribe.facts.table import Context, Fact
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.docs.cells import LINE_BREAK, cell, number_cell
 from fieldscribe.wording.rules import RenamedPoints
-
-if TYPE_CHECKING:
-    RemarkOf = Callable[[Point], str]
 
 
 class DocsScope(NamedTuple):
@@ -83,7 +80,7 @@ class Remarks:
         self,
         context: Context,
         encode: Callable[[str], str],
-        further: Mapping[str, RemarkOf],
+        further: Mapping[str, Callable[[Point], str]],
         left_out: Collection[str] = (),
         *,
         in_columns: bool = False,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise, starmap
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from fieldscribe import wording
 from fieldscribe.facts.points import POINT
@@ -15,13 +15,10 @@ from fieldscribe.model import Command, Point
 from fieldscribe.targets.docs import sheet_cells
 from fieldscribe.targets.docs.scope import DocsScope
 from fieldscribe.targets.docs.sheet_cells import Sheet
-from fieldscribe.targets.docs.tables import Column, Table, codes_of, original, source_cells
+from fieldscribe.targets.docs.tables import Column, Encode, Table, codes_of, original, source_cells
 from fieldscribe.wording.exact import hex_text
 
-if TYPE_CHECKING:
-    from fieldscribe.targets.docs.tables import Encode
-
-    CellsOf = Callable[[Point, Sheet], Iterable[str]]
+CellsOf: TypeAlias = Callable[[Point, Sheet], Iterable[str]]
 
 _FACTS = {fact.key: fact for fact in POINT if fact.column}
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME, Line
@@ -12,11 +11,8 @@ from fieldscribe.facts.table import Fact
 from fieldscribe.model import Point
 from fieldscribe.targets.docs.bus import numbers_of
 from fieldscribe.targets.docs.scope import DocsScope, Remarks
-from fieldscribe.targets.docs.tables import decimal, enum_of
+from fieldscribe.targets.docs.tables import Encode, decimal, enum_of
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
-
-if TYPE_CHECKING:
-    from fieldscribe.targets.docs.tables import Encode
 
 _KEEPS = {None: "", "no": "no", "yes": "yes", "choice": "by the task"}
 _NO_REMARKS = ("special_of", "note", "reserved")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from fieldscribe.model import Device, Enum, Flag, Point, Source, Special, Titles
 from fieldscribe.text import csv_cell
 
-if TYPE_CHECKING:
-    Encode = Callable[[str], str]
-    """Makes a text of a description fit for a cell; numbers do not need it."""
+Encode: TypeAlias = Callable[[str], str]
+"""Makes a text of a description fit for a cell; numbers do not need it."""
 
 _MARK = "\ufeff"
 """The mark by which spreadsheets recognise UTF-8; without it `°C` and umlauts are garbled."""

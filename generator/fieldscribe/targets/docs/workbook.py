@@ -6,17 +6,14 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from datetime import datetime
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import fieldscribe
 from fieldscribe.model import Device
-from fieldscribe.targets.docs.tables import Column, Table
+from fieldscribe.targets.docs.tables import Column, Encode, Table
 from fieldscribe.targets.heads import command
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
-
-if TYPE_CHECKING:
-    from fieldscribe.targets.docs.tables import Encode
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
 _ESCAPE = re.compile(r"(?<=_)(?=x[0-9A-Fa-f]{1,4}_)")
