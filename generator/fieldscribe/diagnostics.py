@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Iterator
 from typing import Literal, NamedTuple
 
@@ -192,3 +193,11 @@ def _clean(text: str) -> str:
     from fieldscribe.text import line
 
     return line(text)
+
+
+def show_traceback(error: BaseException) -> None:
+    """Print the traceback of an internal error if FIELDSCRIBE_DEBUG is set."""
+    if os.environ.get("FIELDSCRIBE_DEBUG"):
+        import traceback
+
+        traceback.print_exception(error)

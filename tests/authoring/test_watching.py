@@ -46,7 +46,7 @@ def outcomes(*steps: Callable[[], object]) -> list[Outcome]:
         left.pop(0)()
         return False
 
-    watch = Watch([Path()], Path("made"), ("docs",), lambda error: None, lambda: None)
+    watch = Watch([Path()], Path("made"), ("docs",), lambda: None)
     return list(watch.outcomes(stopped))
 
 

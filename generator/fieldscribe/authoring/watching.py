@@ -47,7 +47,6 @@ class Watch:
     paths: list[Path]
     out: Path
     targets: tuple[str, ...]
-    debug: Callable[[BaseException], None]
     waiting: Callable[[], None]
     """Called when another run writes to the same folder."""
     states: States = field(default_factory=dict)
@@ -92,7 +91,7 @@ class Watch:
         find_devices(self.paths, report)  # reports errors of the paths
         left = {*device_files, *gone}
         self.known = {device: file for device, file in self.known.items() if file not in left}
-        generation = Generation(self.out, self.targets, report, self.debug, self.known)
+        generation = Generation(self.out, self.targets, report, self.known)
         generation.load(device_files)
         loaded = {file for file, _ in generation.devices.values()}
         wrong = report.count_of("error")

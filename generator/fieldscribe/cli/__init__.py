@@ -96,6 +96,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             print("  hint: give a shorter name, or a shorter path", file=sys.stderr)
         return USAGE
     except Exception as error:
+        from fieldscribe.diagnostics import show_traceback
+
         show_traceback(error)
         text = ascii(str(error)[:200])[1:-1]
         print(
@@ -112,14 +114,6 @@ def command_module(name: str) -> Command:
     module: Any = import_module(f"fieldscribe.cli.{_MODULES.get(name, name)}")
     command: Command = module
     return command
-
-
-def show_traceback(error: BaseException) -> None:
-    """Print the traceback of an internal error if FIELDSCRIBE_DEBUG is set."""
-    if os.environ.get("FIELDSCRIBE_DEBUG"):
-        import traceback
-
-        traceback.print_exception(error)
 
 
 def _run(argv: list[str]) -> int:

@@ -6,6 +6,7 @@ import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable
 from difflib import get_close_matches
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -13,7 +14,7 @@ from fieldscribe import pipeline
 from fieldscribe.cli.terminal import FINDINGS, USAGE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import DEVICE_FILE, device_files_below, find_devices
-from fieldscribe.report import ReadLines, as_data, as_lines, split_lines, summary, visible
+from fieldscribe.report import as_data, as_lines, split_lines, summary, visible
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.text import shortened
@@ -219,7 +220,7 @@ def report_findings(report: Report, form: str, stream: TextIO | None = None) -> 
         return
     if findings:
         stream = stream or sys.stderr
-        print_lines(as_lines(findings, _line_reader()), stream)
+        print_lines(as_lines(findings, lru_cache(_lines_of)), stream)
         print_lines([[("strong", summary(report))]], stream)
 
 
@@ -231,18 +232,11 @@ def print_json(data: object) -> None:
     sys.stdout.write("\n")
 
 
-def _line_reader() -> ReadLines:
-    """Return a function that reads the lines of a file that findings name, each file once; None if it cannot."""
+def _lines_of(name: str) -> list[str] | None:
+    """Return the lines of a file that findings name; None if it cannot be read."""
     from fieldscribe.language.source import MOST_BYTES  # a `generate` with nothing changed starts without it
 
-    known: dict[str, list[str] | None] = {}
-
-    def read(name: str) -> list[str] | None:
-        if name not in known:
-            try:
-                known[name] = split_lines(read_regular(name, MOST_BYTES).data.decode("utf-8-sig", "replace"))
-            except (OSError, ValueError):
-                known[name] = None
-        return known[name]
-
-    return read
+    try:
+        return split_lines(read_regular(name, MOST_BYTES).data.decode("utf-8-sig", "replace"))
+    except (OSError, ValueError):
+        return None

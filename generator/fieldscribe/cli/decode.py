@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import json
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
@@ -11,12 +12,14 @@ from itertools import groupby
 from typing import cast
 
 from fieldscribe.cli.common import StopError, add_device, add_format, add_repeated, open_device, usage_error
-from fieldscribe.cli.decoded_frames import FramePrinter, frame_printer
 from fieldscribe.cli.frame_options import add_family_options, add_framing, add_with, options_of, settings_of
-from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE
+from fieldscribe.cli.terminal import FINDINGS, FINE, USAGE, print_rows
 from fieldscribe.conversation.decoder import StreamDecoder, frame_decoder
-from fieldscribe.families.frame_results import FrameResult
+from fieldscribe.families.frame_results import FrameResult, bits_label
+from fieldscribe.model import Device
+from fieldscribe.report import visible
 from fieldscribe.user_errors import UnclearError
+from fieldscribe.wording.frames import spaced
 
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
@@ -77,7 +80,7 @@ def run(arguments: Namespace) -> int:
     options = options_of(device, arguments)
     settings = settings_of(device, arguments)
     decoder = StreamDecoder(device, settings, frame_decoder(device, options))
-    output = _Output(decoder, frame_printer(arguments.format, device), arguments.unit)
+    output = _Output(decoder, _PRINTERS[arguments.format](device), arguments.unit)
     requests = decoder.requests(options)
     for frames in _groups(arguments.frames):
         output.print([*requests, *decoder.pasted(frames)]) if frames else output.follow_input()
@@ -98,7 +101,7 @@ def _groups(words: list[str]) -> Iterator[list[str]]:
 class _Output:
     """Prints decoded frames as they come, and keeps what the exit code depends on."""
 
-    def __init__(self, decoder: StreamDecoder, printer: FramePrinter, unit: int | None) -> None:
+    def __init__(self, decoder: StreamDecoder, printer: _Printer, unit: int | None) -> None:
         self._decoder = decoder
         self._printer = printer
         self._unit = unit
@@ -148,3 +151,67 @@ def _lines(stream: BufferedIOBase) -> Iterator[str]:
             rest = stream.readline(_LONGEST_LINE)
         text = line[:_LONGEST_LINE].decode("utf-8-sig", "replace").strip()
         yield text if len(line) <= _LONGEST_LINE else f"{text}..."
+
+
+class _Printer:
+    """Prints frames as rows of label and text. The labels of all frames have the same width, so streams line up."""
+
+    def __init__(self, device: Device) -> None:
+        labels = {bits_label(flag.low + flag.width - 1, flag.low) for point in device.points for flag in point.flags}
+        self._width = max(map(len, labels | {"Checksum"}))
+        self._device = device.id
+        self._separator = ""
+
+    def frame(self, result: FrameResult) -> None:
+        """Print the next frame."""
+        heading = spaced(result.data) if result.captured is None else visible(result.captured.text)
+        sys.stdout.write(self._separator)
+        print_rows(heading, _rows(result), width=self._width)
+        self._separator = "\n"
+
+    def end(self, nothing: str) -> None:
+        """Print what follows the last frame; `nothing` says in words that there was no frame."""
+        if not self._separator:
+            sys.stdout.write(f"{nothing}\n")
+
+
+def _rows(result: FrameResult) -> list[tuple[str, str]]:
+    rows = [("Frame", visible(result.summary))]
+    for item in result.items:
+        rows.append(("Says", visible(item.summary)))
+        if item.bit_texts:
+            rows += [bits.row for bits in item.flags]
+    if result.checks:
+        rows.append(("Header" if result.framing == "tcp" else "Checksum", visible(result.checks)))
+    rows += [("Wrong", visible(fault)) for fault in (*result.faults, *result.findings)]
+    return rows + [("Note", visible(note)) for note in result.notes]
+
+
+class _JsonLinesPrinter(_Printer):
+    """Prints one object a line for each frame."""
+
+    def frame(self, result: FrameResult) -> None:
+        sys.stdout.write(f"{json.dumps({'device': self._device, **result.as_data()})}\n")
+
+    def end(self, nothing: str) -> None:
+        """Print nothing: each line is whole."""
+
+
+class _JsonPrinter(_Printer):
+    """Prints one object with all frames, each as it comes; the object is whole after the last frame."""
+
+    def frame(self, result: FrameResult) -> None:
+        begin = self._separator or f'{{\n  "device": {json.dumps(self._device)},\n  "frames": ['
+        frame = json.dumps(result.as_data(), indent=2).replace("\n", "\n    ")
+        sys.stdout.write(f"{begin}\n    {frame}")
+        self._separator = ","
+
+    def end(self, nothing: str) -> None:
+        del nothing  # the list of frames is empty then
+        if self._separator:
+            sys.stdout.write("\n  ]\n}\n")
+        else:
+            sys.stdout.write(json.dumps({"device": self._device, "frames": []}, indent=2) + "\n")
+
+
+_PRINTERS = {"text": _Printer, "json": _JsonPrinter, "jsonl": _JsonLinesPrinter}

@@ -43,13 +43,7 @@ def run(arguments: Namespace) -> int:
         if arguments.form == _JSON:
             print_json(export_model(device))
         else:
-            _print_bytes(export_form(arguments.form, device, arguments.unit))
+            sys.stdout.buffer.write(export_form(arguments.form, device, arguments.unit))
     except ExportError as error:
         raise StopError(f"{device.id} cannot be exported as {arguments.form}: {error}") from error
     return FINE
-
-
-def _print_bytes(data: bytes) -> None:
-    """Print bytes on stdout, whatever encoding it has."""
-    sys.stdout.flush()
-    sys.stdout.buffer.write(data)

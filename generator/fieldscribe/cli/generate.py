@@ -6,7 +6,6 @@ import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from fieldscribe.cli import show_traceback
 from fieldscribe.cli.common import (
     StopError,
     add_paths,
@@ -100,7 +99,7 @@ def _compiled(
     from fieldscribe.output.generation import Generation
 
     strict, unreleased = arguments.strict_version, arguments.unreleased
-    generation = Generation(arguments.out, targets, report, show_traceback, strict=strict, unreleased=unreleased)
+    generation = Generation(arguments.out, targets, report, strict=strict, unreleased=unreleased)
     generation.load(device_files)
     if arguments.list_outputs:
         generation.list_outputs()

@@ -41,11 +41,9 @@ def terminal_width() -> int:
 def print_lines(lines: Iterable[Line], stream: TextIO | None = None) -> None:
     """Print styled lines."""
     stream = stream or sys.stdout
-    if is_coloured(stream):
-        text = ("".join(_styled(_STYLES.get(style, ""), piece) for style, piece in line) for line in lines)
-    else:
-        text = ("".join(piece for _, piece in line) for line in lines)
-    stream.writelines(f"{line}\n" for line in text)
+    styles = _STYLES if is_coloured(stream) else {}
+    for line in lines:
+        stream.write("".join(_styled(styles.get(style, ""), piece) for style, piece in line) + "\n")
 
 
 def print_rows(heading: str, rows: Sequence[Row], width: int = 0) -> None:

@@ -13,7 +13,6 @@ from time import strftime
 from types import FrameType
 
 from fieldscribe.authoring.watching import Outcome, Watch
-from fieldscribe.cli import show_traceback
 from fieldscribe.cli.common import add_format, add_paths, description_paths, report_findings
 from fieldscribe.cli.generate import add_where, print_waiting, targets_of
 from fieldscribe.cli.terminal import FINE
@@ -37,16 +36,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Watch until Ctrl-C or SIGTERM, and return the exit code."""
     gc.enable()  # the process runs for long
-    watch = Watch(
-        description_paths(arguments.paths),
-        arguments.out,
-        targets_of(arguments),
-        show_traceback,
-        lambda: print_waiting(arguments.out),
-    )
+    paths, out = description_paths(arguments.paths), arguments.out
+    watch = Watch(paths, out, targets_of(arguments), lambda: print_waiting(out))
     with _Stop() as stop:
         for outcome in watch.outcomes(stop.wait):
-            _print(outcome, arguments.out, arguments.format)
+            _print(outcome, out, arguments.format)
     return FINE
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report, Span, show_traceback
 from fieldscribe.model import Device
 from fieldscribe.output.contents import Spool
 from fieldscribe.output.lock import only_run
@@ -29,8 +29,6 @@ class Generation:
     out: Path
     targets: tuple[str, ...]
     report: Report
-    debug: Callable[[BaseException], None]
-    """Called with each internal error."""
     known: dict[str, Path] = field(default_factory=dict)
     """The device.yaml of each loaded device, by its id."""
     strict: bool = False
@@ -151,7 +149,7 @@ class Generation:
 
     def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
         """Report an internal error as a finding of its device."""
-        self.debug(error)
+        show_traceback(error)
         bug = f"{type(error).__name__}: {str(error)[:120]}"
         message = f"internal error in {where}: {bug}; nothing of this device was written"
         hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"

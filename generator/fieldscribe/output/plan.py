@@ -22,7 +22,10 @@ _NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor t
 class Plan:
     """The differences between what should be in the output folder and what is there; paths are relative to it."""
 
+    out: Path
+    manifests: Manifests
     device: str
+    force: bool
     record: str
     """The path of the manifest."""
     targets: Targets
@@ -40,6 +43,65 @@ class Plan:
     """Files that are no longer generated but stay, because somebody edited them or they are not ours."""
     digests: dict[str, str] = field(default_factory=dict)
     """The digests of all files that should be there, the manifest included."""
+
+    def add(self, path: str, contents: Contents) -> None:
+        """Plan a file that should be in the folder."""
+        self.digests[path] = contents.digest
+        try:
+            place = inside(self.out, path)
+            state = _same(place, contents)
+            reason = None if state else self._in_the_way(path, place)
+        except UnsafePathError as error:
+            self.refused[path] = str(error)
+            return
+        except NotADirectoryError:
+            self.refused[path] = "part of its path is a file, not a folder"
+            return
+        if state:
+            self.unchanged[path] = state
+        elif reason is None or (self.force and _is_replaceable(place)):
+            self.write[path] = contents
+        else:
+            self.refused[path] = reason
+            self.forcible.update({path} if _is_replaceable(place) else ())
+
+    def add_left_over(self, files_of_targets: TargetFiles) -> None:
+        """Plan to remove files of earlier runs for these targets that are neither generated again nor shared."""
+        wanted = {path for files in files_of_targets.values() for path in files}
+        known = {path for target in files_of_targets for path in self.manifests.of(self.device).get(target, ())}
+        for path in sorted(known - wanted):
+            is_shared = self.manifests.is_shared(path, self.device, files_of_targets)
+            if not is_shared and os.path.lexists(self.out / path):
+                (self.remove if self._may_go(path) else self.kept).append(path)
+
+    def _may_go(self, path: str) -> bool:
+        """Return True if the file is ours by its name or head; a manifest alone may have been edited."""
+        try:
+            place = inside(self.out, path)
+            if self._in_the_way(path, place) is not None:
+                return False
+            named = self.manifests.layout.names(path, self.device)
+            return named or made_of(read_regular(place, _MOST_BYTES).data) == self.device
+        except (UnsafePathError, OSError):
+            return False
+
+    def _in_the_way(self, path: str, place: Path) -> str | None:
+        """Return why the present file may not be replaced; None if it may, or if there is none."""
+        try:
+            kind = kind_of(os.lstat(place))
+            if kind is not None:
+                return kind
+            data = read_regular(place, _MOST_BYTES).data
+        except FileNotFoundError:
+            return None
+        except NotADirectoryError:
+            raise
+        except OSError as error:
+            return f"it cannot be read: {error.strerror}"
+        device, maker = self.device, made_of(data)
+        if maker not in (None, device):
+            return f"it was made of the device `{maker}`; the names of the two devices meet, so rename one of them"
+        return None if self.manifests.vouch_for(path, device, data) else _NOT_OURS
 
     def advice(self, path: str) -> str:
         """Return what to do about a refused file."""
@@ -63,89 +125,18 @@ def plan_of(
     }
     further_keys = manifests.further_keys(device)
     pending = manifest_text(device, _both(before, now), further_keys).encode()
-    plan = Plan(device, manifests.layout.manifest(device), {**before, **now}, pending)
-    planner = _Planner(out, manifests, plan, force)
+    plan = Plan(out, manifests, device, force, manifests.layout.manifest(device), {**before, **now}, pending)
     for files in files_of_targets.values():
         for path, contents in files.items():
-            planner.add(path, contents)
-    planner.add_left_over(files_of_targets)
-    planner.add(plan.record, contents_of(manifest_text(device, plan.targets, further_keys).encode()))
+            plan.add(path, contents)
+    plan.add_left_over(files_of_targets)
+    plan.add(plan.record, contents_of(manifest_text(device, plan.targets, further_keys).encode()))
     return plan
 
 
 def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
     """Return the files that changed after these states were taken."""
     return [path for path, state in states.items() if _state(out / path) != state]
-
-
-class _Planner:
-    """Compares the outputs one by one with the files in the folder."""
-
-    def __init__(self, out: Path, manifests: Manifests, plan: Plan, force: bool) -> None:
-        self._out = out
-        self._manifests = manifests
-        self._plan = plan
-        self._force = force
-
-    def add(self, path: str, contents: Contents) -> None:
-        """Plan a file that should be in the folder."""
-        self._plan.digests[path] = contents.digest
-        try:
-            place = inside(self._out, path)
-            state = _same(place, contents)
-            reason = None if state else self._in_the_way(path, place)
-        except UnsafePathError as error:
-            self._plan.refused[path] = str(error)
-            return
-        except NotADirectoryError:
-            self._plan.refused[path] = "part of its path is a file, not a folder"
-            return
-        if state:
-            self._plan.unchanged[path] = state
-        elif reason is None or (self._force and _is_replaceable(place)):
-            self._plan.write[path] = contents
-        else:
-            self._plan.refused[path] = reason
-            self._plan.forcible.update({path} if _is_replaceable(place) else ())
-
-    def add_left_over(self, files_of_targets: TargetFiles) -> None:
-        """Plan to remove files of earlier runs for these targets that are neither generated again nor shared."""
-        device = self._plan.device
-        wanted = {path for files in files_of_targets.values() for path in files}
-        known = {path for target in files_of_targets for path in self._manifests.of(device).get(target, ())}
-        for path in sorted(known - wanted):
-            if not self._manifests.is_shared(path, device, files_of_targets) and os.path.lexists(self._out / path):
-                (self._plan.remove if self._may_go(path) else self._plan.kept).append(path)
-
-    def _may_go(self, path: str) -> bool:
-        """Return True if the file is ours by its name or head; a manifest alone may have been edited."""
-        device = self._plan.device
-        try:
-            place = inside(self._out, path)
-            if self._in_the_way(path, place) is not None:
-                return False
-            named = self._manifests.layout.names(path, device)
-            return named or made_of(read_regular(place, _MOST_BYTES).data) == device
-        except (UnsafePathError, OSError):
-            return False
-
-    def _in_the_way(self, path: str, place: Path) -> str | None:
-        """Return why the present file may not be replaced; None if it may, or if there is none."""
-        try:
-            kind = kind_of(os.lstat(place))
-            if kind is not None:
-                return kind
-            data = read_regular(place, _MOST_BYTES).data
-        except FileNotFoundError:
-            return None
-        except NotADirectoryError:
-            raise
-        except OSError as error:
-            return f"it cannot be read: {error.strerror}"
-        device, maker = self._plan.device, made_of(data)
-        if maker not in (None, device):
-            return f"it was made of the device `{maker}`; the names of the two devices meet, so rename one of them"
-        return None if self._manifests.vouch_for(path, device, data) else _NOT_OURS
 
 
 def _is_replaceable(place: Path) -> bool:
