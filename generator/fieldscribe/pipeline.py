@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.resolve.analysis import Analysis
     from fieldscribe.resolve.point_facts import PointFacts
-    from fieldscribe.targets import Target
 
 DEVICE_FILE = "device.yaml"
 
@@ -134,25 +133,19 @@ def outputs(device: Device, targets: Iterable[str], plain: Device | None = None)
     `plain` is the device as generated code may know it, if the caller has it. Raises TargetError if a target fails.
     """
     from fieldscribe.code_view import for_code
+    from fieldscribe.resources import render, templates_dir
     from fieldscribe.targets import target
 
     for name in targets:
         try:
             loaded = target(name)
-            for path, text in _of_target(
-                loaded, device if loaded.SEES_TITLES else (plain := plain or for_code(device))
-            ):
+            seen = device if loaded.SEES_TITLES else (plain := plain or for_code(device))
+            for path, text in loaded.outputs(seen, render):
                 yield name, path, text
+            for path, template in loaded.runtime(seen):
+                yield name, path, (templates_dir() / template).read_text("utf-8")
         except Exception as error:
             raise TargetError(name) from error
-
-
-def _of_target(target: Target, device: Device) -> Iterator[tuple[str, str]]:
-    from fieldscribe.resources import render, templates_dir
-
-    yield from target.outputs(device, render)
-    for path, template in target.runtime(device):
-        yield path, (templates_dir() / template).read_text("utf-8")
 
 
 def _checked(files: Files, report: Report) -> Analysis:

@@ -16,8 +16,6 @@ class Form:
     `sign` stands for such a key in KEYS.md.
     """
 
-    __slots__ = ("hint", "pattern", "sign", "words")
-
     def __init__(self, pattern: str, words: str, hint: str, sign: str = "") -> None:
         self.pattern, self.words, self.hint, self.sign = pattern, words, hint, sign
 
@@ -25,7 +23,6 @@ class Form:
 class Text:
     """A text: with a greatest length (0: no limit), of a form, or one of some `choices`."""
 
-    __slots__ = ("choices", "form", "longest")
     words, schema_type = "text", "string"
 
     def __init__(self, longest: int = 0, form: Form | None = None, choices: tuple[str, ...] = ()) -> None:
@@ -40,7 +37,6 @@ def one_of(*choices: str) -> Text:
 class Whole:
     """A whole number within bounds, or one of some `choices`."""
 
-    __slots__ = ("choices", "greatest", "least")
     words, schema_type = "a whole number", "integer"
 
     def __init__(self, least: int | None = None, greatest: int | None = None, choices: tuple[int, ...] = ()) -> None:
@@ -49,8 +45,6 @@ class Whole:
 
 class Plain:
     """A kind of value without further rules, with its words in messages, its type in the schema, and in Python."""
-
-    __slots__ = ("schema_type", "types", "words")
 
     def __init__(self, words: str, schema_type: str, *types: type) -> None:
         self.words, self.schema_type, self.types = words, schema_type, types
@@ -66,7 +60,6 @@ YES_NO = BOOLEAN, one_of("yes", "no")
 class Items:
     """A list of items of one shape."""
 
-    __slots__ = ("item", "least")
     words, schema_type = "a list", "array"
 
     def __init__(self, item: Shape, least: int = 0) -> None:
@@ -81,7 +74,6 @@ class Place:
     that are required there.
     """
 
-    __slots__ = ("by_form", "heading", "least", "may_be", "name", "required", "shape")
     words, schema_type = "a mapping", "object"
 
     def __init__(  # noqa: PLR0913  # each is given by name where it is used
@@ -114,16 +106,12 @@ Kind: TypeAlias = Text | Whole | Plain | Items | Place
 class Shape:
     """What a value may be: its kinds (none: anything), its meaning, and examples, the best one first."""
 
-    __slots__ = ("examples", "kinds", "meaning")
-
     def __init__(self, meaning: str, examples: Sequence[Any], *kinds: Kind) -> None:
         self.meaning, self.examples, self.kinds = meaning, examples, kinds
 
 
 class Places:
     """Places where a key may stand; in the `inherited` ones it applies to all points below."""
-
-    __slots__ = ("all", "inherited")
 
     def __init__(self, *places: Place, inherited: tuple[Place, ...] = ()) -> None:
         self.all, self.inherited = places, inherited
@@ -136,8 +124,6 @@ class Key:
     tells a point from others, so further sets do not inherit it. `of` says which points it is about: WHOLE_NUMBERS,
     NUMBERS, TEXTS, or "" for all.
     """
-
-    __slots__ = ("identity", "inherited", "name", "needs", "of", "places", "required", "shape")
 
     def __init__(  # noqa: PLR0913  # likewise
         self,

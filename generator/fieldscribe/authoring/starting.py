@@ -114,18 +114,13 @@ def start(folder: Path, answers: Mapping[str, str]) -> list[Path]:
         for name, text in _texts(answers).items():
             (made / name).write_text(schema + text, "utf-8", newline="\n")
         if not schema_above:
-            write_schema(made / SCHEMA_FILE)
+            replace(made / SCHEMA_FILE, (schema_text().encode(),))
         report = Report()
         if load_analysis(made / DEVICE_FILE, report) is None:
             raise NotStartedError(report.findings[0])
         names = sorted(os.listdir(made))
         made.rename(folder)
     return [folder / name for name in names]
-
-
-def write_schema(place: Path) -> None:
-    """Write the schema of this compiler. Raises OSError."""
-    replace(place, (schema_text().encode(),))
 
 
 def is_schema(place: Path) -> bool:

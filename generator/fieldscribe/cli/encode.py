@@ -63,10 +63,16 @@ def run(arguments: Namespace) -> int:
         if arguments.format == "json":
             print_json({"refused": {"status": error.status, "message": error.message, "hint": error.hint}})
         raise StopError(error.message, error.hint, USAGE if error.status == "missing" else FINDINGS) from error
+    frames = [] if sent is None else list(sent.frames)
+    notes = [*encoded.notes, *(() if sent is None else sent.notes)]
     if arguments.format == "json":
-        _print_json(encoded, sent)
-    else:
-        _print(encoded, sent)
+        frame = frames[0] if len(frames) == 1 else None
+        print_json({**encoded.as_data(), "notes": notes, "frame": frame, "frames": frames})
+        return FINE
+    sys.stdout.writelines(f"{frame}\n" for frame in frames)
+    sys.stdout.flush()
+    print_lines([[("", visible(encoded.text))]], sys.stdout if sent is None else sys.stderr)
+    print_lines(([("hint", f"note: {visible(note)}")] for note in notes), sys.stderr)
     return FINE
 
 
@@ -79,20 +85,3 @@ def _encoded(
     encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
     wants_frames = arguments.frame or options != Options(index=options.index)
     return encoded, frames_for(device, point, encoded.raw, settings, options) if wants_frames else None
-
-
-def _print_json(encoded: Encoded, sent: BuiltFrames | None) -> None:
-    frames = [] if sent is None else list(sent.frames)
-    notes = [*encoded.notes, *(() if sent is None else sent.notes)]
-    print_json(
-        {**encoded.as_data(), "notes": notes, "frame": frames[0] if len(frames) == 1 else None, "frames": frames}
-    )
-
-
-def _print(encoded: Encoded, sent: BuiltFrames | None) -> None:
-    if sent is not None:
-        sys.stdout.writelines(f"{frame}\n" for frame in sent.frames)
-        sys.stdout.flush()
-    print_lines([[("", visible(encoded.text))]], sys.stdout if sent is None else sys.stderr)
-    notes = (*encoded.notes, *(() if sent is None else sent.notes))
-    print_lines(([("hint", f"note: {visible(note)}")] for note in notes), sys.stderr)

@@ -73,29 +73,26 @@ def run(arguments: Namespace) -> int:
     if report.has_errors:
         report_findings(report, arguments.format)
         return FINDINGS
-    missing = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
     looks = arguments.check or arguments.list_outputs
-    deliveries = deliver_all(orders, missing, arguments.format, check=looks, force=arguments.force)
+    deliveries = deliver_all(orders, arguments.format, check=looks, force=arguments.force)
     if arguments.list_outputs:
-        return _print_paths(deliveries)
-    if not looks:
-        _update_depfile(arguments, deliveries, inputs)
+        paths = (visible(str(delivery.order.out / path)) for delivery in deliveries for path in delivery.files)
+        print(*paths, sep="\n")
+        return FINE
+    if not looks and arguments.depfile and all(delivery.is_current for delivery in deliveries):
+        outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
+        update_depfile(arguments.depfile, outputs, inputs.digests)
     left = leftovers(orders, LANGUAGES) if arguments.language is None else []
     return print_deliveries(deliveries, arguments.format, check=arguments.check, left=left)
 
 
-def deliver_all(
-    orders: list[Order], missing: tuple[str, str], form: str, *, check: bool, force: bool
-) -> list[Delivery]:
-    """Deliver or compare the files of all orders. Raises UnclearError.
-
-    `missing` is the message for a missing library of an extra.
-    """
+def deliver_all(orders: list[Order], form: str, *, check: bool, force: bool) -> list[Delivery]:
+    """Deliver or compare the files of all orders. Raises UnclearError."""
     deliveries: list[Delivery] = []
     refuse_duplicates(orders)
     for order in orders:
         try:
-            deliveries.append(_deliver(order, missing, check=check, force=force))
+            deliveries.append(_deliver(order, check=check, force=force))
         except UnclearError:
             if deliveries:
                 print_deliveries(deliveries, form, check=check)  # report what is done already
@@ -103,29 +100,17 @@ def deliver_all(
     return deliveries
 
 
-def _deliver(order: Order, missing: tuple[str, str], *, check: bool, force: bool) -> Delivery:
+def _deliver(order: Order, *, check: bool, force: bool) -> Delivery:
     try:
         return compare(order) if check else deliver(order, print_waiting, force=force)
     except ModuleNotFoundError as error:
-        raise StopError(*missing) from error
+        raise StopError(*order.request.extra) from error
     except OSError as error:
         where = error.filename or order.out
         hint = "move it away" if Path(where).is_dir() else "choose another folder, or a shorter name"
         if isinstance(error, NotADirectoryError):
             hint = "name a folder with --out"
         raise StopError(f"cannot write to {where}: {error.strerror or error}", hint) from error
-
-
-def _update_depfile(arguments: Namespace, deliveries: list[Delivery], inputs: Inputs) -> None:
-    """Write the dependency file if it is wanted and all files are current. Raises OSError."""
-    if arguments.depfile and all(delivery.is_current for delivery in deliveries):
-        outputs = [delivery.order.out / path for delivery in deliveries for path in delivery.files]
-        update_depfile(arguments.depfile, outputs, inputs.digests)
-
-
-def _print_paths(deliveries: list[Delivery]) -> int:
-    print(*(visible(str(delivery.order.out / path)) for delivery in deliveries for path in delivery.files), sep="\n")
-    return FINE
 
 
 def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]:

@@ -85,8 +85,7 @@ def refuse_duplicates(orders: Iterable[Order]) -> None:
 def compare(order: Order) -> Delivery:
     """Return what differs, and write nothing. Raises UnclearError."""
     manifests, made = Manifests(order.out, VENDORED), _files(order)
-    plan = _plan(order, manifests, made, force=False)
-    delivery = _delivery(order, plan, made)
+    plan, delivery = _planned(order, manifests, made, force=False)
     delivery.kept = sorted(plan.kept)
     for path in plan.stale:
         if path not in plan.refused:
@@ -102,8 +101,7 @@ def deliver(order: Order, waiting: Callable[[Path], None], *, force: bool = Fals
     made = _files(order)
     with only_run(order.out, lambda: waiting(order.out)):
         manifests = Manifests(order.out, VENDORED)
-        plan = _plan(order, manifests, made, force=force)
-        delivery = _delivery(order, plan, made)
+        plan, delivery = _planned(order, manifests, made, force=force)
         if not plan.refused:
             carry_out(order.out, manifests, plan)
             delivery.written, delivery.removed, delivery.kept = sorted(plan.write), plan.remove, plan.kept
@@ -129,17 +127,13 @@ def _files(order: Order) -> TargetFiles:
     return {order.request.language: {path: contents_of(data) for path, data in order.request.contents(order.device)}}
 
 
-def _plan(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> Plan:
+def _planned(order: Order, manifests: Manifests, made: TargetFiles, *, force: bool) -> tuple[Plan, Delivery]:
+    """Return the plan, and the delivery before anything is written, with the files in its way."""
     requests = manifests.requests.setdefault(order.name, {})
     requests[order.request.language] = order.request.as_data(order.device.id)
-    return plan_of(order.out, manifests, order.name, made, force=force)
-
-
-def _delivery(order: Order, plan: Plan, made: TargetFiles) -> Delivery:
-    """Return the delivery before anything is written, with the files in its way."""
-    refused = dict(sorted(plan.refused.items()))
-    paths = sorted([plan.record, *(path for files in made.values() for path in files)])
-    return Delivery(order, paths, refused=refused, advice={path: plan.advice(path) for path in refused})
+    plan = plan_of(order.out, manifests, order.name, made, force=force)
+    advice = {path: plan.advice(path) for path in plan.refused}
+    return plan, Delivery(order, sorted(plan.digests), refused=dict(sorted(plan.refused.items())), advice=advice)
 
 
 def _list_of(order: Order, manifests: Manifests, delivery: Delivery, path: str) -> list[str]:

@@ -84,7 +84,7 @@ class _Reader:
         devices = document.get("devices")
         if not isinstance(devices, list) or not devices or not all(isinstance(entry, dict) for entry in devices):
             hint = 'write `[[devices]]`, and `device = "hitachi_l200"` below it'
-            self._report.error("bad-project", "the file names no devices", self._span(None, "devices"), hint)
+            self._wrong("the file names no devices", None, "devices", hint)
             return
         for number, entry in enumerate(devices):
             self._check(entry, number, _KEYS)
@@ -94,8 +94,7 @@ class _Reader:
     def _of_device(self, settings: Mapping[str, Any], number: int, entry: Mapping[str, Any]) -> Iterator[ProjectDevice]:
         for key in ("device", "out", "targets"):
             if not settings.get(key):
-                hint = f"write `{key} = {_EXAMPLES[key]}`"
-                self._report.error("bad-project", f"`{key}` is missing", self._span(number, key), hint)
+                self._wrong(f"`{key}` is missing", number, key, f"write `{key} = {_EXAMPLES[key]}`")
         if self._report.has_errors:
             return
         out = self._inside(settings["out"], self._span(number if "out" in entry else None, "out"))
@@ -106,7 +105,7 @@ class _Reader:
         for key in LANGUAGE_OF.keys() & settings.keys():
             if LANGUAGE_OF[key] not in settings["targets"]:
                 message = f"`{key}` is for {LANGUAGE_OF[key]}, which is not among the targets"
-                self._report.error("bad-project", message, self._span(number, key), "leave it out")
+                self._wrong(message, number, key, "leave it out")
         for language in dict.fromkeys(settings["targets"]):
             switches = {key: settings[key] for key in LANGUAGE_OF if key in settings and LANGUAGE_OF[key] == language}
             yield ProjectDevice(
@@ -116,17 +115,20 @@ class _Reader:
                 out,
             )
 
+    def _wrong(self, message: str, number: int | None, key: str, hint: str | None = None) -> None:
+        """Report an error at the place of a key, of the n-th device or of the file (None)."""
+        self._report.error("bad-project", message, self._span(number, key), hint)
+
     def _check(self, settings: Mapping[str, Any], number: int | None, known: set[str]) -> None:
         for key, value in settings.items():
-            span = self._span(number, key)
             if key not in known:
                 hint = did_you_mean(get_close_matches(key, sorted(known), 1)) or f"there are {', '.join(sorted(known))}"
-                self._report.error("bad-project", f"there is no key `{shortened(key)}` here", span, hint)
+                self._wrong(f"there is no key `{shortened(key)}` here", number, key, hint)
             elif not _fits(key, value):
-                self._report.error("bad-project", f"`{key}` {_kind(key)}", span, f"write `{key} = {_EXAMPLES[key]}`")
+                self._wrong(f"`{key}` {_kind(key)}", number, key, f"write `{key} = {_EXAMPLES[key]}`")
             elif key == "targets" and (unknown := [name for name in value if name not in LANGUAGES]):
                 message = f"`{shortened(unknown[0])}` is not a language for code"
-                self._report.error("bad-project", message, span, f"there are {', '.join(LANGUAGES)}")
+                self._wrong(message, number, key, f"there are {', '.join(LANGUAGES)}")
 
     def _inside(self, path: str, span: Span) -> Path:
         """Return the full path; one that leads out of the file's folder is an error."""

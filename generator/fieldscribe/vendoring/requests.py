@@ -49,6 +49,8 @@ class CodeRequest:
     frames: bool = True
     single_file: bool = False
     wheel: bool = False
+    extra = "--wheel needs hatchling", 'pip install "fieldscribe[wheel]"'
+    """The message and the hint if the library of an extra is missing."""
 
     def command(self, device: str) -> tuple[str, ...]:
         """Return the command that makes the files again, word by word."""
@@ -89,6 +91,8 @@ class DocumentRequest:
 
     language: str
     name: None = None
+    extra = "--format xlsx needs XlsxWriter", 'pip install "fieldscribe[xlsx]"'
+    """The message and the hint if the library of an extra is missing."""
 
     def command(self, device: str) -> tuple[str, ...]:
         """Return the command that makes the files again, word by word."""
