@@ -15,13 +15,11 @@ from fieldscribe.model import (
     Entry,
     Enum,
     FamilyFacts,
-    Flag,
     Interner,
     Point,
     ScaleCase,
     Shape,
     Source,
-    Special,
     Terms,
     Titles,
 )
@@ -118,8 +116,10 @@ def _shape(shape: Shape, enums: _Enums) -> Shape:
         scale=shape.scale and tuple([ScaleCase(case.point, case.raw, case.rule) for case in shape.scale]),
         enum=shape.enum and enums.of(shape.enum),
         digits=digits and replace(digits, enum=enums.of(digits.enum)),
-        flags=tuple(_flag(flag) for flag in shape.flags),
-        specials=tuple(_special(special) for special in shape.specials),
+        flags=tuple(
+            replace(flag, title=_title(flag.name), values=tuple(map(_entry, flag.values))) for flag in shape.flags
+        ),
+        specials=tuple(replace(special, title=_title(special.name)) for special in shape.specials),
     )
 
 
@@ -142,14 +142,6 @@ class _Enums:
 
 def _entry(entry: Entry) -> Entry:
     return Entry(entry.raw, entry.name, _title(entry.name), entry.quantity)
-
-
-def _flag(flag: Flag) -> Flag:
-    return replace(flag, title=_title(flag.name), values=tuple(_entry(entry) for entry in flag.values))
-
-
-def _special(special: Special) -> Special:
-    return replace(special, title=_title(special.name))
 
 
 @lru_cache(maxsize=65536)

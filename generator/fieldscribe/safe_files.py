@@ -90,6 +90,14 @@ def state_of(status: os.stat_result) -> State:
     return status.st_size, status.st_ino, status.st_mtime_ns, status.st_ctime_ns
 
 
+def state_at(path: str | os.PathLike[str]) -> State | None:
+    """Return the state of the file at a path; None if it cannot be read."""
+    try:
+        return state_of(os.stat(path))
+    except OSError:
+        return None
+
+
 def kind_of(status: os.stat_result) -> str | None:
     """Return what a file is, in words; None if it is a regular one."""
     if stat.S_ISREG(status.st_mode):

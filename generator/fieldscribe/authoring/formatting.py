@@ -108,14 +108,9 @@ class Formatting:
             self.kept += 1
             return
         if self.writes:
-            _replace(path, new, state)
+            place = Path(os.path.realpath(path))  # a link stays
+            status = os.stat(place)
+            if state_of(status) != state:
+                raise MovedError
+            replace(place, (new,), f".{place.name}{_SUFFIX}", mode=stat.S_IMODE(status.st_mode))
         self.changed.append(path)
-
-
-def _replace(path: Path, data: bytes, state: State) -> None:
-    """Replace a file that did not change since it was read; links and the file's mode stay. Raises MovedError."""
-    place = Path(os.path.realpath(path))
-    status = os.stat(place)
-    if state_of(status) != state:
-        raise MovedError
-    replace(place, (data,), f".{place.name}{_SUFFIX}", mode=stat.S_IMODE(status.st_mode))

@@ -16,7 +16,7 @@ from fieldscribe.diagnostics import Report
 from fieldscribe.output.generation import Generation
 from fieldscribe.output.writing import Result
 from fieldscribe.pipeline import find_devices
-from fieldscribe.safe_files import State, state_of
+from fieldscribe.safe_files import State, state_at
 
 INTERVAL, SETTLING = 0.25, 0.08
 """Seconds between two polls, and between two polls while files are being saved."""
@@ -115,11 +115,4 @@ def _files_beside(device_file: Path) -> dict[str, State | None]:
         names = [name for name in os.listdir(folder) if name.endswith(_PARTS)]
     except OSError:
         names = []
-    return {name: _state(folder / name) for name in {device_file.name, *names}}
-
-
-def _state(file: Path) -> State | None:
-    try:
-        return state_of(os.stat(file))
-    except OSError:
-        return None
+    return {name: state_at(folder / name) for name in {device_file.name, *names}}

@@ -82,20 +82,14 @@ def run(arguments: Namespace) -> int:
     decoder = StreamDecoder(device, settings, frame_decoder(device, options))
     output = _Output(decoder, _PRINTERS[arguments.format](device), arguments.unit)
     requests = decoder.requests(options)
-    for frames in _groups(arguments.frames):
-        output.print([*requests, *decoder.pasted(frames)]) if frames else output.follow_input()
+    for is_input, frames in groupby(arguments.frames, key=lambda word: word == "-"):
+        output.follow_input() if is_input else output.print([*requests, *decoder.pasted(list(frames))])
         requests = []
     output.print(requests)
     for name in arguments.log:
         with open(name, "rb") as log:
             output.follow(log, name)
     return output.end()
-
-
-def _groups(words: list[str]) -> Iterator[list[str]]:
-    """Return the FRAME arguments in groups of neighbours; an empty list stands for standard input."""
-    for is_input, group in groupby(words, key=lambda word: word == "-"):
-        yield [] if is_input else list(group)
 
 
 class _Output:

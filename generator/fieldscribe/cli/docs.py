@@ -35,13 +35,6 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Write or compare the files; return the exit code."""
-    orders, code = _orders(arguments)
-    deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
-    return max(code, print_deliveries(deliveries, "text", check=arguments.check))
-
-
-def _orders(arguments: Namespace) -> tuple[list[Order], int]:
-    """Return the orders for the devices without errors, and the exit code for the others."""
     orders, code = [], FINE
     for name in arguments.devices:
         try:
@@ -50,4 +43,5 @@ def _orders(arguments: Namespace) -> tuple[list[Order], int]:
             code = max(code, stop.tell())
         else:
             orders.append(Order(device, DocumentRequest(arguments.format), arguments.out))
-    return orders, code
+    deliveries = deliver_all(orders, "text", check=arguments.check, force=arguments.force)
+    return max(code, print_deliveries(deliveries, "text", check=arguments.check))

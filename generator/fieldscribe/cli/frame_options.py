@@ -60,12 +60,6 @@ def options_of(device: Device, arguments: Namespace) -> Options:
     values = {name: getattr(arguments, name, None) for name in names}
     own = {name: value for name, value in values.items() if value is not None and value is not False}  # 0 is a value
     options = Options(**shared, own=own)
-    _refuse_foreign(device, options)
-    return options
-
-
-def _refuse_foreign(device: Device, options: Options) -> None:
-    """Refuse options that only other families take. Raises StopError."""
     given = [name for name in ("framing", "index") if getattr(options, name) is not None]
     for name in (*given, *options.own):
         takers = [bus_family.name for bus_family in families() if name in _names(bus_family)]
@@ -76,6 +70,7 @@ def _refuse_foreign(device: Device, options: Options) -> None:
     if options.framing is not None and options.framing not in known:
         message = f"--framing {options.framing} is not for {device.family} devices such as {device.id}"
         raise StopError(message, f"it takes {', '.join(known)}")
+    return options
 
 
 def _framings(bus_family: Family) -> tuple[str, ...]:

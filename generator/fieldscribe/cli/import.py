@@ -81,7 +81,9 @@ def run(arguments: Namespace) -> int:
     if not drafted.groups:
         hint = "`--list` shows the tables; `--column` says what their columns hold"
         raise StopError(f"`{arguments.file}` holds no table of points", hint, FINDINGS)
-    _write(compilable(drafted, _head(arguments, drafted), with_head=arguments.device is not None), arguments.out)
+    digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
+    head = Head(arguments.device or "draft", arguments.file.name, digest, drafted.family.name, arguments.language)
+    _write(compilable(drafted, head, with_head=arguments.device is not None), arguments.out)
     return FINE
 
 
@@ -132,12 +134,6 @@ def _drafted(path: Path, options: Options) -> Draft:
     except ModuleNotFoundError as error:
         message = f"`{path}` needs the extra `import`, which is not installed"
         raise StopError(message, 'pip install "fieldscribe[import]"') from error
-
-
-def _head(arguments: Namespace, drafted: Draft) -> Head:
-    """Return what the draft says of the device and the file."""
-    digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
-    return Head(arguments.device or "draft", arguments.file.name, digest, drafted.family.name, arguments.language)
 
 
 def _write(text: str, out: Path | None) -> None:

@@ -27,7 +27,7 @@ from fieldscribe.report import visible
 from fieldscribe.safe_files import Inputs, read_regular
 from fieldscribe.user_errors import UnclearError
 from fieldscribe.vendoring.deliveries import Delivery, Order, compare, deliver, leftovers, refuse_duplicates
-from fieldscribe.vendoring.project_file import NAME, ProjectDevice, read_project
+from fieldscribe.vendoring.project_file import NAME, read_project
 from fieldscribe.vendoring.requests import LANGUAGE_OF, LANGUAGES, CodeRequest
 from fieldscribe.vendoring.selection import address_only_messages, select
 
@@ -124,17 +124,11 @@ def _orders(arguments: Namespace, report: Report, inputs: Inputs) -> list[Order]
         raise StopError("LANGUAGE and DEVICE are missing", "as in `fieldscribe vendor c hitachi_l200 --out drivers`")
     file = arguments.project or Path(NAME)
     try:
-        wanted = read_project(file, report, inputs)
+        project = read_project(file, report, inputs)
     except OSError as error:
         missing = isinstance(error, FileNotFoundError)
         hint = "write one, or say `fieldscribe vendor LANGUAGE DEVICE --out DIR`"
         raise StopError(f"there is no project file {file}" if missing else f"{file}: {error.strerror}", hint) from error
-    return _orders_of_project(arguments, wanted, report, inputs)
-
-
-def _orders_of_project(
-    arguments: Namespace, project: list[ProjectDevice], report: Report, inputs: Inputs
-) -> list[Order]:
     orders: list[Order] = []
     for wanted in project:
         try:

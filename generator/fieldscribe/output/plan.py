@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fieldscribe.output.contents import Contents, contents_of
 from fieldscribe.output.manifests import Manifests, Targets, made_of, manifest_text
-from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_of
+from fieldscribe.safe_files import State, UnsafePathError, inside, kind_of, read_regular, state_at
 
 TargetFiles = dict[str, dict[str, Contents]]
 """By target the contents of its files, by path relative to the output folder."""
@@ -136,19 +136,12 @@ def plan_of(
 
 def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
     """Return the files that changed after these states were taken."""
-    return [path for path, state in states.items() if _state(out / path) != state]
+    return [path for path, state in states.items() if state_at(out / path) != state]
 
 
 def _is_replaceable(place: Path) -> bool:
     """Return True if something is there that a file can replace."""
     return os.path.lexists(place) and not os.path.isdir(place)
-
-
-def _state(place: Path) -> State | None:
-    try:
-        return state_of(os.stat(place))
-    except OSError:
-        return None
 
 
 def _same(place: Path, contents: Contents) -> State | None:
