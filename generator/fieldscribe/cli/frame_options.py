@@ -32,17 +32,16 @@ def add_framing(parser: ArgumentParser, default: str) -> None:
 
 def add_family_options(parser: ArgumentParser, command: str) -> None:
     """Add the options of this command that only some families take."""
+    add = parser.add_argument
     for bus_family in families():
         for option in bus_family.options:
             help_text = f"{bus_family.name}: {option.help}"
             if command not in option.commands:
                 continue
             if option.type is None:
-                parser.add_argument(option.flag, action="store_true", help=help_text)
+                add(option.flag, action="store_true", help=help_text)
             else:
-                parser.add_argument(
-                    option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=help_text
-                )
+                add(option.flag, type=option.type, metavar=option.metavar, choices=option.choices, help=help_text)
 
 
 def settings_of(device: Device, arguments: Namespace) -> dict[str, int | Fraction]:

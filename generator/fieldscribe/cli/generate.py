@@ -123,18 +123,14 @@ def print_waiting(out: Path) -> None:
 def _print_result(arguments: Namespace, result: Result, report: Report) -> int:
     """Print what happened and return the exit code."""
     if arguments.format == "json":
-        _print_json(arguments, result, report)
+        lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale", "kept")}
+        head = {"out": str(arguments.out), "outputs": sorted(result.wanted)}
+        print_json({**head, **lists, "findings": as_data(report.findings)})
     elif arguments.list_outputs:
         print(*(visible(str(arguments.out / path)) for path in sorted(result.wanted)), sep="\n")
     else:
         _print_text(arguments, result)
     return 1 if report.has_errors or (arguments.check and result.stale) else 0
-
-
-def _print_json(arguments: Namespace, result: Result, report: Report) -> None:
-    lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale", "kept")}
-    head = {"out": str(arguments.out), "outputs": sorted(result.wanted)}
-    print_json({**head, **lists, "findings": as_data(report.findings)})
 
 
 def _print_text(arguments: Namespace, result: Result) -> None:
