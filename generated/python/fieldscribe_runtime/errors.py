@@ -191,6 +191,11 @@ class NoReplyError(FieldscribeError, TimeoutError):
     lost = True
 
 
+def no_reply(what: str, error: TimeoutError) -> NoReplyError:
+    """Return the error for a request that nobody answered, with what the transport says of the bytes that came."""
+    return NoReplyError(f"{what}: {error}" if str(error) else what)
+
+
 class LineError(FieldscribeError, ConnectionError):
     """The line itself failed: it cannot be opened, or the other side is gone; the `__cause__` says more."""
 

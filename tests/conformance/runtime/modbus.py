@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
 from typing import Any
 
 from conformance.package import Package
@@ -129,7 +130,7 @@ def check_failures(package: Package) -> None:
         memory.fails = TimeoutError("nothing came")
         silence = refusal(device.c.read)
         assert type(silence) is package.runtime.NoReplyError
-        assert str(silence) == f"{device.c.label}: unit 1 did not reply to function 03h"
+        assert str(silence) == f"{device.c.label}: unit 1 did not reply to function 03h: nothing came"
         assert silence.__cause__ is memory.fails
         memory.fails = package.runtime.FrameError("bad_crc", "wrong")
         assert str(refusal(device.c.read)) == "wrong"
@@ -212,24 +213,34 @@ def check_sizes(package: Package) -> None:
     )
 
 
+def _pieces(data: bytes, size: int) -> Callable[[int], bytes]:
+    """A read that gives so many bytes at most."""
+    line = io.BytesIO(data)
+    return lambda most: line.read(min(most, size))
+
+
 def check_receiving(package: Package) -> None:
-    """A whole reply is read, just so many bytes as are known to come."""
-    for reply, framing, sizes in (
-        (b"\1\3\2\0\7\x38\x46", "rtu", [1, 1, 1, 4]),
-        (b"\0\1\0\0\0\3\1\x83\2", "tcp", [1, 1, 1, 1, 1, 1, 3]),
+    """A whole reply is read, however it comes; frames of others are dropped; what is no frame ends."""
+    rtu, tcp = b"\1\3\2\0\7\x38\x46", b"\0\1\0\0\0\3\1\x83\2"
+    refused, foreign = b"\1\x83\2\xc0\xf1", b"\2\3\2\0\7\x7c\x46"
+    late = b"\0\0" + tcp[2:]
+    receive, ask = package.modbus.receive, {"rtu": b"\1\3\0\0\0\1", "tcp": b"\0\1\0\0\0\6\1\3\0\0\0\1"}
+    for framing, before, reply in (
+        ("rtu", b"", rtu), ("rtu", b"", refused), ("rtu", foreign, rtu), ("tcp", b"", tcp), ("tcp", late + late, tcp),
+    ):  # fmt: skip
+        for size in (1, 2, 5, 300):
+            assert receive(_pieces(before + reply + b"rest", size), ask[framing], framing) == reply
+    assert receive(_pieces(foreign, 9), ask["rtu"]) == foreign, "the error names the unit that answered"
+    for data, told in (
+        (b"", "no byte came"),
+        (rtu[:4], "4 bytes came (01 03 02 00), which are no reply; is the baud rate right?"),
+        (foreign + rtu[:4], "4 bytes came (01 03 02 00), which are no reply; is the baud rate right?"),
     ):
-        line = io.BytesIO(reply + b"rest")
-        asked: list[int] = []
-
-        def read(size: int, line: io.BytesIO = line, asked: list[int] = asked) -> bytes:
-            asked.append(size)
-            return line.read(size)
-
-        assert (package.modbus.receive(read, framing), asked, line.read()) == (reply, sizes, b"rest")
-    assert package.modbus.receive(io.BytesIO(b"\1\x83\2\xc0\xf1").read) == b"\1\x83\2\xc0\xf1"
-    short = io.BytesIO(b"\1\3\2\0")
-    refuses(TimeoutError, "4 bytes came and no more", package.modbus.receive, short.read)
-    refuses(TimeoutError, "0 bytes came and no more", package.modbus.receive, short.read)
+        refuses(TimeoutError, told, receive, _pieces(data, 9), ask["rtu"])
+    noise = f"256 bytes came ({' '.join(['55'] * 16)} ...), more than any frame has; is the baud rate right?"
+    refuses(package.runtime.FrameError, noise, receive, _pieces(b"\x55" * 999, 1), ask["rtu"])
+    long = "the reply would have 260 bytes, and a frame has at most 256"
+    refuses(package.runtime.FrameError, long, receive, _pieces(b"\1\3\xff\0\0", 5), ask["rtu"])
 
 
 def check_requests(package: Package) -> None:

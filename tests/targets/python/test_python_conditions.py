@@ -131,7 +131,7 @@ def test_a_device_that_does_not_answer_is_a_no_reply_error(package: Any) -> None
     for call in (package.Tempco(Silent(), 7).actual.read, lambda: asyncio.run(ask())):
         raised = error(call)
         assert (type(raised).__name__, raised.status) == ("NoReplyError", "timeout")
-        assert str(raised) == "actual: unit 7 did not reply to function 03h"
+        assert str(raised) == "actual: unit 7 did not reply to function 03h: the port says nothing"
         assert isinstance(raised.__cause__, TimeoutError)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 import threading
 import time
@@ -37,19 +38,81 @@ def test_a_reply_that_drips_takes_no_longer_than_the_timeout(l200: Any) -> None:
         assert time.monotonic() - before < 5  # far from the 20 s that 200 bytes take
 
 
-@pytest.mark.full(seconds=0.2)
-def test_a_line_that_babbles_holds_up_nobody(l200: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(transport("serial"), "_BABBLE", 0.2)
-
-    def babble(request: bytes) -> Iterator[bytes]:
+def test_noise_without_end_is_a_frame_error(l200: Any) -> None:
+    def noise(request: bytes) -> Iterator[bytes]:
         del request
-        for _ in range(300):
-            yield b"\x01\x03\xff"
-            time.sleep(0.01)
+        while True:
+            yield b"\x55"
+            time.sleep(0.002)
 
-    with pty_end(babble) as port:
-        drive = l200.HitachiL200(transport("serial").SerialLine(port, timeout=0.1), unit=1)
-        assert isinstance(error(drive.base_frequency.read), Exception)
+    with pty_end(noise) as port:
+        drive = l200.HitachiL200(transport("serial").SerialLine(port, 115200, timeout=0.2), unit=1)
+        failure = error(drive.base_frequency.read)
+        assert failure.lost
+        assert "bytes came (55 55 55" in str(failure)
+        assert "is the baud rate right?" in str(failure)
+
+
+def test_a_flood_of_bytes_ends_on_sockets_too(l200: Any) -> None:
+    with socket_end(lambda _: b"\x55" * 100_000) as port:
+        line = transport("tcp").TcpLine("127.0.0.1", port, framing="rtu")
+        assert error(l200.HitachiL200(line, unit=1).base_frequency.read).status == "long_frame"
+
+        async def asynchronous() -> Any:
+            line = transport("tcp").AsyncTcpLine("127.0.0.1", port, framing="rtu")
+            try:
+                await l200.HitachiL200Async(line, unit=1).base_frequency.read()
+            except Exception as raised:
+                return raised
+
+        assert asyncio.run(asynchronous()).status == "long_frame"
+
+
+def test_an_async_exchange_gives_other_tasks_a_turn(l200: Any) -> None:
+    async def asynchronous(port: int) -> None:
+        drive = l200.HitachiL200Async(transport("tcp").AsyncTcpLine("127.0.0.1", port, framing="rtu"), unit=1)
+        assert await drive.read_at("holding", 2) == (7,)
+        with pytest.raises(TimeoutError):
+            async with asyncio.timeout(0):
+                await drive.read_at("holding", 2)
+
+    with socket_end(lambda request: with_word(request, 7)) as port:
+        asyncio.run(asynchronous(port))
+
+
+def test_a_dead_unit_holds_up_no_other(l200: Any) -> None:
+    """Unit 2 is dead at first: unit 1 is asked at once, and unit 2 again when its late reply would have come."""
+    asked: list[int] = []
+
+    def reply(request: bytes) -> Iterator[bytes]:
+        asked.append(request[0])
+        if asked != [2]:
+            yield with_word(b"\x02" + request[1:], 5)  # of the dead unit, too late
+            yield with_word(request, request[0])
+
+    with pty_end(reply) as port, transport("serial").SerialLine(port, timeout=0.3) as line:
+        alive, dead = (l200.HitachiL200(line, unit=unit) for unit in (1, 2))
+        before = time.monotonic()
+        failure = error(dead.read_at, "holding", 2)
+        assert (failure.status, str(failure)) == (
+            "timeout",
+            "holding 0x0002: unit 2 did not reply to function 03h: no byte came",
+        )
+        assert alive.read_at("holding", 2) == (1,)
+        assert line._late is not None
+        assert line._late[1] > before + 2 * line.timeout
+        assert asked == [2, 1]
+
+
+def test_a_broadcast_waits_for_nothing(l200: Any) -> None:
+    """The line rests before the next request."""
+    rests: list[float] = []
+    with pty_end(lambda _: iter(())) as port, transport("serial").SerialLine(port, timeout=60) as line:
+        line.turnaround = 0.01
+        l200.HitachiL200(line, unit=0).base_frequency.write(50.0)
+        rests.append(line._rests_until - time.monotonic())
+        assert line._late is None
+    assert rests[0] < 1
 
 
 @pytest.mark.usefixtures("mpu2s")

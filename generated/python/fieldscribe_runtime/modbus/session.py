@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
+from contextlib import suppress
 from typing import ClassVar, TypeVar
 
 from ..about import about, about_place
 from ..arguments import check_name, check_place, check_values
 from ..bits import BitLayout
-from ..errors import AccessError, NoReplyError, RequestError
+from ..errors import AccessError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
 from ..points import Decoding, Point
+from ..receiving import Broadcast
 from ..session import Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
@@ -59,14 +61,14 @@ class ModbusSession(Session):
         self._transaction = self._transaction + 1 & 0xFFFF
         request = Request(self.unit, function, address, count, values)
         frame = build(request, self.PROFILE, self._framing, self._transaction)
+        if self.unit == self.PROFILE.broadcast:
+            with suppress(TimeoutError):
+                yield Broadcast(frame)
+            return ()
         try:
             reply = yield frame
         except TimeoutError as error:
-            if self.unit == self.PROFILE.broadcast:
-                return ()
-            raise NoReplyError(f"unit {self.unit} did not reply to function {function:02X}h") from error
-        if self.unit == self.PROFILE.broadcast:
-            return ()
+            raise no_reply(f"unit {self.unit} did not reply to function {function:02X}h", error) from error
         return parse(request, reply, self.PROFILE, self._framing, self._transaction)
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:

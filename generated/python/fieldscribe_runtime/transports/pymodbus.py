@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import LineError
 from ..modbus.frames import PDU
+from ..receiving import Broadcast
 from . import checks
 
 try:
@@ -115,7 +116,7 @@ class PymodbusLine:
 
     def exchange(self, request: bytes) -> bytes:
         """Send a request and return the reply; raises TimeoutError and LineError."""
-        silent = request[0] == 0
+        silent = isinstance(request, Broadcast)
         with self._turn:
             try:
                 if not self.client.connect():
@@ -146,7 +147,7 @@ class AsyncPymodbusLine:
 
     async def exchange(self, request: bytes) -> bytes:
         """Send a request and return the reply; raises TimeoutError and LineError."""
-        silent = request[0] == 0
+        silent = isinstance(request, Broadcast)
         try:
             if not self.client.connected and not await self.client.connect():
                 raise LineError("the client cannot connect")

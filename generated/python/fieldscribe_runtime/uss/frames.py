@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
 from ..errors import FrameError, RefusedError, RequestError
+from ..receiving import Framing
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -193,8 +194,12 @@ def broadcast(mask: tuple[int, ...], words: tuple[int, ...], profile: Profile, l
 
 
 def reply_size(received: bytes) -> int | None:
-    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports."""
+    """Return the length of the reply that begins with these bytes; None while they are too few to tell."""
     return received[1] + 2 if len(received) >= 2 else None
+
+
+FRAMING = Framing(reply_size, lambda telegram: telegram[2] if len(telegram) > 2 else -1, shortest=4, longest=257)
+"""What a receiver must know of telegrams."""
 
 
 def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply:

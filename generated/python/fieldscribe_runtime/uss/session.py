@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
@@ -16,9 +17,10 @@ from ..arguments import (
     check_values,
     check_words,
 )
-from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
+from ..errors import AccessError, EchoError, FrameError, RequestError, no_reply
 from ..facts import Place
 from ..layouts import Layout
+from ..receiving import Broadcast
 from ..session import Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
@@ -164,10 +166,8 @@ class UssSession(Session):
                 text = f"the mask leaves out {missing:04X}h of the first word, which has to count"
                 raise RequestError("bad_value", text)
         self._sent = {}
-        try:
-            yield request
-        except TimeoutError:
-            return
+        with suppress(TimeoutError):
+            yield Broadcast(request)
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task with process data, and the reply; a task is repeated until the device answers it."""
@@ -179,7 +179,7 @@ class UssSession(Session):
                 reply = yield frame
             except TimeoutError as error:
                 about = f" to task {request.task} for {request.parameter}" if request.task != NO_TASK else ""
-                raise NoReplyError(f"unit {self.unit} did not reply{about}") from error
+                raise no_reply(f"unit {self.unit} did not reply{about}", error) from error
             try:
                 return parse(request, reply, self.PROFILE, self.link)
             except FrameError as error:

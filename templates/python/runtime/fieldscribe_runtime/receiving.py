@@ -1,23 +1,95 @@
 # SPDX-License-Identifier: 0BSD
-"""A whole reply, from bytes as they come."""
+"""Replies from bytes as they come, without any I/O: every transport receives through `Receiver`."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+
+from .errors import FrameError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+_QUOTED = 16
+"""How many bytes an error quotes."""
+_HINT = "is the baud rate right?"
 
-def whole(read: Callable[[int], bytes], size_of: Callable[[bytes], int | None]) -> bytes:
-    """Return the whole reply. `read` returns up to so many bytes, none after its timeout; `size_of` gives the length.
 
-    Raises TimeoutError when nothing more comes.
+class Broadcast(bytes):
+    """A request to all units. No unit answers it, so a transport sends it and returns no bytes."""
+
+
+class Framing(NamedTuple):
+    """What a receiver must know of the frames on a line: sizes in bytes, and whose frame one is.
+
+    `size` returns the length of the frame that begins with these bytes, or None while they are too few to tell.
+    `address` returns the number that a reply has in common with its request: a unit, or a transaction.
     """
-    received = b""
-    while (size := size_of(received)) is None or len(received) < size:
-        more = read(1 if size is None else size - len(received))
-        if not more:
-            raise TimeoutError(f"{len(received)} bytes came and no more")
-        received += more
-    return received
+
+    size: Callable[[bytes], int | None]
+    address: Callable[[bytes], int]
+    shortest: int
+    longest: int
+
+    def size_of(self, received: bytes) -> int | None:
+        """Return the length as `size` does; raises FrameError (long_frame) for one that no frame has."""
+        size = self.size(received)
+        if size is not None and size > self.longest:
+            text = f"the reply would have {size} bytes, and a frame has at most {self.longest}"
+            raise FrameError("long_frame", text)
+        return size
+
+
+class Receiver:
+    """Collects the reply to one request. Whole frames with another address are dropped."""
+
+    def __init__(self, framing: Framing, request: bytes) -> None:
+        self._framing = framing
+        self._address = framing.address(request)
+        self._foreign = b""
+        self.received = b""
+        self.missing = framing.shortest
+        """So many bytes are missing at least."""
+
+    def take(self, data: bytes) -> bytes | None:
+        """Add bytes that came; return the reply once it is whole.
+
+        Raises FrameError (long_frame) when there are more bytes than any frame has and no frame among them.
+        """
+        framing = self._framing
+        self.received += data
+        while True:
+            length = len(self.received)
+            size = framing.size_of(self.received)
+            if size is None or length < size:
+                if length >= framing.longest:
+                    raise FrameError("long_frame", f"{self._quoted()}, more than any frame has; {_HINT}")
+                self.missing = max(framing.shortest, size or 0, length + 1) - length
+                return None
+            frame, self.received = self.received[:size], self.received[size:]
+            if framing.address(frame) == self._address:
+                return frame
+            self._foreign = frame
+
+    def give_up(self) -> bytes:
+        """Return the last frame of another address, for the error that names it; raises TimeoutError without one."""
+        if self._foreign and not self.received:
+            return self._foreign
+        raise TimeoutError(f"{self._quoted()}, which are no reply; {_HINT}" if self.received else "no byte came")
+
+    def _quoted(self) -> str:
+        """Return how many bytes came, and the first of them."""
+        more = " ..." if len(self.received) > _QUOTED else ""
+        return f"{len(self.received)} bytes came ({self.received[:_QUOTED].hex(' ').upper()}{more})"
+
+
+def receive(read: Callable[[int], bytes], framing: Framing, request: bytes) -> bytes:
+    """Return the whole reply to a request. `read` returns up to so many bytes, or none after its timeout.
+
+    Raises TimeoutError when nothing more comes, and FrameError as `Receiver.take` does.
+    """
+    receiver = Receiver(framing, request)
+    while data := read(receiver.missing):
+        if (reply := receiver.take(data)) is not None:
+            return reply
+    return receiver.give_up()

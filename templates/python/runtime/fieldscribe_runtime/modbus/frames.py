@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
 from ..errors import ExceptionReplyError, FrameError, RequestError, WrongTypeError
-from ..receiving import whole
+from ..receiving import Framing
+from ..receiving import receive as receive_reply
 from ..records import Record
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 RTU, TCP = "rtu", "tcp"
 PDU = "pdu"
 """Unit and request as they are, for transports that frame them as they like."""
-_FRAMINGS = (RTU, TCP)
 
 
 class Profile(Record):
@@ -173,30 +173,27 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
 
 
 def reply_size(received: bytes, framing: str = RTU) -> int | None:
-    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports.
+    """Return the length of the reply that begins with these bytes; None while they are too few to tell.
 
     Raises FrameError if the reply would be longer than any frame can be, and RequestError for an unknown framing.
     """
     check_bytes(received)
-    if framing not in _FRAMINGS:
-        raise RequestError("bad_framing", f"frames are {' or '.join(_FRAMINGS)}, not {shown(framing)}")
-    most = _LONGEST[framing]
-    size = _tcp_size(received) if framing == TCP else _rtu_size(received)
-    if size is not None and size > most:
-        raise FrameError("long_frame", f"the reply would have {size} bytes, and a frame has at most {most}")
-    return size
+    return framing_of(framing).size_of(received)
 
 
-def receive(read: Callable[[int], bytes], framing: str = RTU) -> bytes:
-    """The whole reply. For transports: `read` gives up to so many bytes, such as pyserial's; none when nothing comes.
+def framing_of(name: str) -> Framing:
+    """Return what a receiver must know of a framing; raises RequestError for an unknown one."""
+    if name not in _FRAMINGS:
+        raise RequestError("bad_framing", f"frames are {' or '.join(_FRAMINGS)}, not {shown(name)}")
+    return _FRAMINGS[name]
 
-    Raises TimeoutError then, and FrameError as `reply_size` does.
+
+def receive(read: Callable[[int], bytes], request: bytes, framing: str = RTU) -> bytes:
+    """Return the whole reply to a request. For transports: `read` returns up to so many bytes, as pyserial's does.
+
+    Raises TimeoutError when `read` returns none, and FrameError for more bytes than any frame has.
     """
-    return whole(read, lambda received: reply_size(received, framing))
-
-
-_LONGEST = {RTU: 256, TCP: 260}
-"""How many bytes a frame has at most."""
+    return receive_reply(read, framing_of(framing), request)
 
 
 def _tcp_size(received: bytes) -> int | None:
@@ -212,6 +209,12 @@ def _rtu_size(received: bytes) -> int | None:
     if received[1] & 0x80:
         return 5
     return 5 + received[2] if function in READS else 8
+
+
+_FRAMINGS = {
+    RTU: Framing(_rtu_size, lambda frame: frame[0], shortest=5, longest=256),
+    TCP: Framing(_tcp_size, lambda frame: int.from_bytes(frame[:2], "big"), shortest=9, longest=260),
+}
 
 
 def parse(

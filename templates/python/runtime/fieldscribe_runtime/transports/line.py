@@ -1,39 +1,38 @@
 # SPDX-License-Identifier: 0BSD
-"""What lines of bytes have in common: one exchange at a time, and nothing of an old answer in a new one."""
+"""What lines of bytes have in common: one exchange at a time, and no byte of an old reply in a new one."""
 
 from __future__ import annotations
 
 import threading
+import time
 from abc import ABC, abstractmethod
-from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import FrameError, LineError
 from ..modbus import frames as modbus
-from ..receiving import whole
+from ..receiving import Broadcast, Receiver
 from ..uss import frames as uss
-from ..uss.frames import USS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import Self
 
+    from ..receiving import Framing
 
-def size_of_reply(framing: str) -> Callable[[bytes], int | None]:
-    """Return what tells the length of a reply by its first bytes. Raises RequestError for an unknown framing."""
-    if framing == USS:
-        return uss.reply_size
-    told = partial(modbus.reply_size, framing=framing)
-    told(b"")
-    return told
+
+def framing_of(name: str) -> Framing:
+    """Return what a receiver must know of `rtu`, `tcp` or `uss`; raises RequestError for any other framing."""
+    return uss.FRAMING if name == uss.USS else modbus.framing_of(name)
 
 
 class Line(ABC):
-    """A line of bytes. `framing` is `rtu`, `tcp` or `uss`."""
+    """A line of bytes. `framing` is `rtu`, `tcp` or `uss`. A reply has `timeout` seconds to begin."""
 
-    def __init__(self, framing: str) -> None:
-        self.framing = framing
-        self._size = size_of_reply(framing)
+    FRAME_SECONDS = 0.0
+    """So much longer a reply may take once its first byte is there."""
+
+    def __init__(self, framing: str, timeout: float) -> None:
+        self.framing, self.timeout = framing, timeout
+        self._framing = framing_of(framing)
         self._turn = threading.Lock()
 
     @abstractmethod
@@ -41,8 +40,8 @@ class Line(ABC):
         """Drop what came before, and send; raises OSError."""
 
     @abstractmethod
-    def _read(self, most: int) -> bytes:
-        """Up to so many bytes; none when nothing comes in time. Raises OSError."""
+    def _read(self, most: int, until: float) -> bytes:
+        """Return at least one byte; none when none comes before that time of the monotonic clock. Raises OSError."""
 
     @abstractmethod
     def close(self) -> None:
@@ -52,13 +51,16 @@ class Line(ABC):
         return f"<{type(self).__name__} {self}, {self.framing}>"
 
     def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
+        """Send a frame and return the whole reply, or no bytes at once after a Broadcast.
+
+        Raises TimeoutError, LineError and FrameError.
+        """
         with self._turn:
             try:
                 self._send(request)
-                return whole(self._read, self._size)
+                return self._after_broadcast() if isinstance(request, Broadcast) else self._received(request)
             except (TimeoutError, FrameError):
-                self._failed()
+                self._failed(request)
                 raise
             except OSError as error:
                 self.close()
@@ -67,9 +69,25 @@ class Line(ABC):
                 self.close()  # also where a program is interrupted: the answer must not come to the next request
                 raise
 
+    def _received(self, request: bytes) -> bytes:
+        receiver = Receiver(self._framing, request)
+        until = time.monotonic() + self.timeout
+        while data := self._read(receiver.missing, until):
+            if not receiver.received:
+                until += self.FRAME_SECONDS
+            if (reply := receiver.take(data)) is not None:
+                return reply
+        reply = receiver.give_up()
+        self._failed(request)
+        return reply
+
+    def _after_broadcast(self) -> bytes:
+        """Return what a broadcast brings: no bytes."""
+        return b""
+
     @abstractmethod
-    def _failed(self) -> None:
-        """Make sure that an answer which comes too late is not taken for the next one."""
+    def _failed(self, request: bytes) -> None:
+        """Make sure that a reply which comes too late is not taken for the next one."""
 
     def __enter__(self) -> Self:
         return self

@@ -6,8 +6,9 @@
     with SerialLine("/dev/ttyUSB0", 9600) as line:
         drive = HitachiL200(line, unit=1)
 
-What came before a request is dropped. After a failure the line is read until it is silent, or closed where it leads
-through a network, so that a reply which comes late is not taken for the next one.
+What came before a request is dropped, and so are frames of other units. A reply that comes late is not taken for the
+next one: after a failure the same unit is asked again only when `timeout` has passed once more, other units are asked
+at once, and a port that leads through a network is opened anew.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 from ..arguments import shown
 from ..errors import RequestError
 from ..modbus.frames import RTU
+from ..receiving import Broadcast
 from ..uss.frames import USS
 from . import checks
 from .line import Line
@@ -36,8 +38,8 @@ if TYPE_CHECKING:
 _BITS = 11
 """Of a character with start, parity and stop bit."""
 _MODE = re.compile("[78][NEO][12]")
-_BABBLE = 2.0
-"""Seconds after which nobody waits any longer for a line to be silent."""
+_SLICE = 0.02
+"""Seconds for which one call of pyserial waits, so that deadlines hold."""
 _SILENCE = 3.5
 """Characters of silence that part two frames."""
 _PORT = "a device such as '/dev/ttyUSB0' or 'COM3', or a URL such as 'socket://192.168.0.20:4001'"
@@ -47,20 +49,23 @@ _FASTEST = 10_000_000
 
 
 class SerialLine(Line):
-    """A serial line with Modbus RTU: opened when it is used first, and anew after a failure.
+    """A serial line with Modbus RTU: opened when it is used first, and anew after a failure of the port.
 
     `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
-    is data bits, parity (N, E, O) and stop bits. A reply has `timeout` seconds to begin, and as many between its parts.
-    With `echo` what is sent comes back first, as on many RS-485 adapters with two wires.
+    is data bits, parity (N, E, O) and stop bits. A reply has `timeout` seconds to begin, and then the time that the
+    longest frame takes at the baud rate. With `echo` what is sent comes back first, as on many RS-485 adapters with two wires.
     """
 
     FRAMING = RTU
     MODE = "8N1"
 
+    turnaround = 0.1
+    """Seconds for which the line rests after a broadcast, so that the units can work; set it to what your devices need."""
+
     def __init__(
         self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
     ) -> None:
-        super().__init__(self.FRAMING)
+        super().__init__(self.FRAMING, checks.seconds(timeout))
         self.port, self.echo, mode = checks.text("a port", _PORT, port), echo, mode or self.MODE
         if _OF_NETWORK.match(port) and not _WITH_PORT.search(port):
             checks.refuse("a port", _PORT, port)
@@ -72,9 +77,14 @@ class SerialLine(Line):
             "bytesize": int(mode[0]),
             "parity": mode[1],
             "stopbits": int(mode[2]),
-            "timeout": checks.seconds(timeout),
+            "timeout": min(self.timeout, _SLICE),
         }
-        self._silence = max(_SILENCE * _BITS / baudrate, 0.00175)
+        self._is_network = _OF_NETWORK.match(port) is not None
+        self._silence = 0.0 if self._is_network else max(_SILENCE * _BITS / baudrate, 0.00175)
+        self.FRAME_SECONDS = self._framing.longest * _BITS / baudrate
+        self._rests_until = 0.0
+        self._late: tuple[int, float] | None = None
+        """The unit whose reply may still come, and until when."""
         self._serial: Any = None
 
     def __str__(self) -> str:
@@ -83,13 +93,26 @@ class SerialLine(Line):
     def _send(self, request: bytes) -> None:
         if self._serial is None:
             self._serial = self._opened()
-        else:
-            time.sleep(self._silence)
+        self._rest(request)
         self._serial.reset_input_buffer()
         self._serial.write(request)
         self._serial.flush()
-        if self.echo and self._serial.read(len(request)) != request:
+        if self.echo and self._echoed(len(request)) != request:
             raise TimeoutError("what was sent was not heard: another speaks, or the adapter gives no echo")
+
+    def _rest(self, request: bytes) -> None:
+        """Wait until the line is free: silent, after a broadcast, and after a reply of this unit that is late."""
+        free = max(self._rests_until, time.monotonic() + self._silence)
+        if self._late is not None and self._late[0] == self._framing.address(request):
+            free = max(free, self._late[1])
+            self._late = None
+        time.sleep(max(0.0, free - time.monotonic()))
+
+    def _echoed(self, size: int) -> bytes:
+        until, echoed = time.monotonic() + self.timeout, b""
+        while len(echoed) < size and (more := self._read(size - len(echoed), until)):
+            echoed += more
+        return echoed
 
     def _opened(self) -> Any:
         try:
@@ -97,18 +120,22 @@ class SerialLine(Line):
         except (ValueError, TypeError) as error:  # a URL that pyserial does not know, or a half one
             raise RequestError("bad_transport", f"{error}; a port is {_PORT}") from error
 
-    def _read(self, most: int) -> bytes:
-        received: bytes = self._serial.read(most)
-        return received
+    def _read(self, most: int, until: float) -> bytes:
+        while time.monotonic() < until:
+            received: bytes = self._serial.read(most)
+            if received:
+                return received
+        return b""
 
-    def _failed(self) -> None:
-        if "://" in self.port:
+    def _after_broadcast(self) -> bytes:
+        self._rests_until = time.monotonic() + self.turnaround
+        return b""
+
+    def _failed(self, request: bytes) -> None:
+        if self._is_network:
             self.close()  # an answer that a network delays comes to nobody
-            return
-        patience = time.monotonic() + _BABBLE
-        while self._serial is not None and self._serial.read(64):  # until the line is silent
-            if time.monotonic() > patience:  # it never is: whoever babbles must not hold up everybody
-                self.close()
+        elif not isinstance(request, Broadcast):
+            self._late = self._framing.address(request), time.monotonic() + self.timeout
 
     def close(self) -> None:
         """Close the port; the next exchange opens it again."""

@@ -20,9 +20,10 @@ from typing import TYPE_CHECKING
 
 from ..errors import LineError
 from ..modbus.frames import TCP
+from ..receiving import Broadcast, Receiver
 from ..turns import Turns
 from . import checks
-from .line import Line, size_of_reply
+from .line import Line, framing_of
 
 if TYPE_CHECKING:
     from typing import Self
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 MODBUS_PORT = 502
 _OLD = 16
 """So many pieces of old bytes are read before a connection is given up."""
+_PIECE = 4096
+"""So many bytes are read at most at once."""
 _CLOSED = "the other side closed the connection"
 
 
@@ -56,7 +59,7 @@ class _Connection:
         with suppress(BlockingIOError):
             with suppress(ConnectionError):
                 for _ in range(_OLD):
-                    if not self.socket.recv(4096):
+                    if not self.socket.recv(_PIECE):
                         break
             self.close()  # the other side has closed it, or floods it
 
@@ -80,9 +83,8 @@ class TcpLine(Line):
     """
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
-        super().__init__(framing)
+        super().__init__(framing, checks.seconds(timeout))
         self._connection = _Connection(host, port, timeout)
-        self._until = 0.0
 
     def __str__(self) -> str:
         return str(self._connection)
@@ -93,22 +95,26 @@ class TcpLine(Line):
         if connection.socket is None:
             connection.opened(socket.create_connection((connection.host, connection.port), connection.timeout))
         assert connection.socket is not None
-        self._until = time.monotonic() + connection.timeout
         connection.socket.settimeout(connection.timeout)
         connection.socket.sendall(request)
 
-    def _read(self, most: int) -> bytes:
+    def _read(self, most: int, until: float) -> bytes:
+        del most  # what comes behind a reply is dropped before the next request
         assert self._connection.socket is not None
-        left = self._until - time.monotonic()
+        left = until - time.monotonic()
         if left <= 0:
             return b""
         self._connection.socket.settimeout(left)
-        received = self._connection.socket.recv(most)
+        try:
+            received = self._connection.socket.recv(_PIECE)
+        except TimeoutError:
+            return b""
         if not received:
             raise ConnectionError(_CLOSED)
         return received
 
-    def _failed(self) -> None:
+    def _failed(self, request: bytes) -> None:
+        del request
         self.close()  # an answer that comes too late comes to nobody
 
     def close(self) -> None:
@@ -121,7 +127,7 @@ class AsyncTcpLine:
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
         self.framing = framing
-        self._size = size_of_reply(framing)
+        self._framing = framing_of(framing)
         self._connection = _Connection(host, port, timeout)
         self._turns = Turns("the line")
 
@@ -129,32 +135,37 @@ class AsyncTcpLine:
         return f"<{type(self).__name__} {self._connection}, {self.framing}>"
 
     async def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; raises TimeoutError, LineError and FrameError."""
+        """Send a frame and return the whole reply, or no bytes at once after a Broadcast.
+
+        Raises TimeoutError, LineError and FrameError.
+        """
         async with self._turns.lock():
+            receiver = Receiver(self._framing, request)
             try:
                 async with asyncio.timeout(self._connection.timeout):
-                    return await self._exchanged(request)
+                    return await self._exchanged(request, receiver)
+            except TimeoutError:
+                self.close()
+                return receiver.give_up()
             except OSError as error:
                 self.close()
-                if isinstance(error, TimeoutError):
-                    raise
                 raise LineError(f"{self._connection}: {error.strerror or error}") from error
             except BaseException:
                 self.close()  # also when the task is cancelled: the answer must not come to the next one
                 raise
 
-    async def _exchanged(self, request: bytes) -> bytes:
+    async def _exchanged(self, request: bytes, receiver: Receiver) -> bytes:
         loop = asyncio.get_running_loop()
+        await asyncio.sleep(0)  # other tasks, and timeouts, have their turn even if each byte is there already
         self._connection.drop_old()
         line = self._connection.socket or await self._connected()
         await loop.sock_sendall(line, request)
-        received = b""
-        while (size := self._size(received)) is None or len(received) < size:
-            more = await loop.sock_recv(line, 1 if size is None else size - len(received))
-            if not more:
-                raise ConnectionError(_CLOSED)
-            received += more
-        return received
+        if isinstance(request, Broadcast):
+            return b""
+        while data := await loop.sock_recv(line, _PIECE):
+            if (reply := receiver.take(data)) is not None:
+                return reply
+        raise ConnectionError(_CLOSED)
 
     async def _connected(self) -> socket.socket:
         """A connection to the first address of the host that answers."""
