@@ -31,7 +31,7 @@ static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status stat
 {
     static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
         "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction",
-        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
+        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch", "noise"};
     return names[(size_t)status];
 }
 
@@ -335,6 +335,91 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     }
 }
 
+/* A receiver finds the answer behind noise, in pieces of any size, and takes no byte behind it. */
+static void fieldscribe_finds(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
+{
+    static const size_t pieces[] = {1U, 2U, SIZE_MAX};
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    const size_t size = fieldscribe_modbus_reply_length(profile, framing, request);
+    uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_stream stream;
+    unsigned kind;
+    size_t at;
+    for (kind = 0U; kind < 12U && size < sizeof buffer; ++kind) {
+        const size_t noise = fieldscribe_stream_noise(
+            &stream, kind % 4U, bytes, length, framing == FIELDSCRIBE_MODBUS_TCP ? 1U : length - 1U);
+        const size_t piece = pieces[kind / 4U];
+        fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await(profile, framing, request, buffer, size);
+        size_t taken = 0U;
+        fieldscribe_fill(buffer, sizeof buffer);
+        fieldscribe_stream_add(&stream, bytes, length);
+        fieldscribe_stream_add(&stream, bytes, 1U);
+        for (at = 0U; at < stream.count; at += taken) {
+            const size_t most = stream.count - at;
+            fieldscribe_agree(v, receiver.done == (at == noise + length));
+            taken = fieldscribe_modbus_receive(&receiver, stream.bytes + at, most < piece ? most : piece);
+            if (taken == 0U) {
+                break;
+            }
+        }
+        fieldscribe_agree(v, receiver.done && at == noise + length && receiver.dropped == noise &&
+            receiver.length == length && memcmp(buffer, bytes, length) == 0);
+        fieldscribe_untouched(v, buffer + size, sizeof buffer - size);
+        receiver = fieldscribe_modbus_await(profile, framing, request, buffer, size - 1U);
+        fieldscribe_agree(v, receiver.done && receiver.length == 0U);
+    }
+}
+
+static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, fieldscribe_stream *stream, fieldscribe_modbus_reply *reply)
+{
+    uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
+    const fieldscribe_modbus_line line = {fieldscribe_tables_of(v)->profile, buffer, sizeof buffer,
+        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream};
+    return framing == FIELDSCRIBE_MODBUS_TCP ? fieldscribe_modbus_ask_tcp(&line, request, reply)
+                                             : fieldscribe_modbus_ask_rtu(&line, request, reply);
+}
+
+/* Asking says what parsing says, whatever comes before the answer; and it ends when none comes. */
+static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_status parsed)
+{
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    static uint16_t expected[FIELDSCRIBE_VALUES_MOST];
+    uint8_t built[FIELDSCRIBE_BYTES_MOST];
+    size_t sent = 0U;
+    const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_modbus_reply reply = fieldscribe_reply_into(read, FIELDSCRIBE_VALUES_MOST);
+    fieldscribe_modbus_reply parsing = fieldscribe_reply_into(expected, FIELDSCRIBE_VALUES_MOST);
+    const size_t hurt = framing == FIELDSCRIBE_MODBUS_TCP ? 1U : length - 1U;
+    fieldscribe_stream stream;
+    unsigned kind;
+    if (fieldscribe_modbus_build(profile, framing, request, built, sizeof built, &sent) != FIELDSCRIBE_MODBUS_OK) {
+        return;
+    }
+    fieldscribe_agree(v, fieldscribe_modbus_parse(framing, request, bytes, length, &parsing) == parsed);
+    for (kind = 0U; kind < 4U; ++kind) {
+        (void)fieldscribe_stream_noise(&stream, kind, bytes, length, hurt);
+        fieldscribe_stream_add(&stream, bytes, length);
+        fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == parsed &&
+            reply.count == parsing.count && reply.exception == parsing.exception &&
+            memcmp(read, expected, reply.count * sizeof read[0]) == 0 && stream.given == stream.count);
+        fieldscribe_agree(v, stream.sent_count == sent && memcmp(stream.sent, built, sent) == 0);
+        (void)fieldscribe_stream_noise(&stream, kind, bytes, length, hurt);
+        fieldscribe_stream_add(&stream, bytes, length - 1U); /* the last byte does not come */
+        fieldscribe_agree(v, kind == 2U || fieldscribe_asks_line(v, framing, request, &stream, &reply) ==
+            (kind == 0U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_NOISE));
+    }
+    memset(&stream, 0, sizeof stream);
+    fieldscribe_agree(
+        v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME);
+    (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
+    stream.endless = true;
+    fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_NOISE &&
+        stream.given == FIELDSCRIBE_MODBUS_ASK_MOST);
+}
+
 static void fieldscribe_run_reply(fieldscribe_vector *v)
 {
     static uint16_t values[FIELDSCRIBE_VALUES_MOST];
@@ -357,6 +442,11 @@ static void fieldscribe_run_reply(fieldscribe_vector *v)
     fieldscribe_is_awaited(v, framing, &request, bytes, length, status);
     if (status == FIELDSCRIBE_MODBUS_OK) {
         fieldscribe_reparse(v, framing, &request, bytes, length);
+    }
+    if ((status == FIELDSCRIBE_MODBUS_OK || status == FIELDSCRIBE_MODBUS_EXCEPTION) &&
+        request.unit != fieldscribe_tables_of(v)->profile->broadcast) {
+        fieldscribe_finds(v, framing, &request, bytes, length);
+        fieldscribe_is_asked(v, framing, &request, bytes, length, status);
     }
 }
 

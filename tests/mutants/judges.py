@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import resource
 import shutil
@@ -110,7 +111,7 @@ class Judge:
         named = [family for family in FAMILIES if re.search(rf"[/_]{family}\b", mutant.path)]
         return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
 
-    def run(self, *words: object, memory: int = MEMORY) -> subprocess.CompletedProcess[str]:
+    def run(self, *words: object, memory: int = MEMORY, **environment: str) -> subprocess.CompletedProcess[str]:
         """Run a program that may do anything, within limits. Raises TimeoutExpired."""
         return subprocess.run(
             [str(word) for word in words],
@@ -120,6 +121,7 @@ class Judge:
             errors="replace",
             check=False,
             timeout=RUN_LIMIT,
+            env={**os.environ, **environment},
             preexec_fn=lambda: _bound(memory),
         )
 
@@ -179,15 +181,27 @@ def conditions_around(text: str, line: int) -> list[str]:
     return opened
 
 
+TRANSPORTS = "transports"
+"""What judges the transports of Python in place of a device: their tests, as vectors do not reach a line."""
+
+
 class OfPython(Judge):
     """The runner of the tests on a copy of the packages."""
 
     language = "python"
 
+    def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
+        """The devices, or the tests of transports for a transport."""
+        return [TRANSPORTS] if f"/{TRANSPORTS}/" in mutant.path else super().users(mutant, build)
+
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Run it; a package that cannot be imported tells nothing."""
         del build
         folder = self.work / "python"
+        if device == TRANSPORTS:
+            files = sorted(ROOT.glob(f"tests/targets/python/test_*{TRANSPORTS}.py"))
+            packages = {"FIELDSCRIBE_PACKAGES": str(folder)}
+            return self.run(sys.executable, "-B", "-m", "pytest", "-q", "-x", *files, **packages).returncode == 0
         done = self.run(sys.executable, "-B", ROOT / "tests/conformance", folder, device, self.vectors[device])
         if done.returncode and not done.stdout.strip():
             program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"

@@ -263,6 +263,67 @@ static void fieldscribe_agree(fieldscribe_vector *v, bool same)
     v->differs = v->differs || !same;
 }
 
+/* The other end of a line: the bytes that come from it, the last one for ever if it is `endless`, and what was sent. */
+typedef struct fieldscribe_stream {
+    uint8_t bytes[4 * FIELDSCRIBE_BYTES_MOST];
+    size_t count;
+    size_t given;
+    bool endless;
+    uint8_t sent[FIELDSCRIBE_BYTES_MOST];
+    size_t sent_count;
+} fieldscribe_stream;
+
+static inline void fieldscribe_stream_add(fieldscribe_stream *stream, const uint8_t *bytes, size_t count)
+{
+    size_t at;
+    for (at = 0U; at < count && stream->count < sizeof stream->bytes; ++at) {
+        stream->bytes[stream->count] = bytes[at];
+        ++stream->count;
+    }
+}
+
+/*
+ * Noise of four kinds before an answer of at least four bytes: none, a byte that begins no answer, the beginning of an
+ * answer that breaks off, and a whole answer with the byte `hurt` wrong. Returns its length.
+ */
+static inline size_t fieldscribe_stream_noise(
+    fieldscribe_stream *stream, unsigned kind, const uint8_t *answer, size_t length, size_t hurt)
+{
+    const uint8_t wrong = (uint8_t)(answer[0] ^ 0xFFU);
+    memset(stream, 0, sizeof *stream);
+    if (kind == 1U) {
+        fieldscribe_stream_add(stream, &wrong, 1U);
+    } else if (kind == 2U) {
+        fieldscribe_stream_add(stream, answer, 2U);
+        fieldscribe_stream_add(stream, &wrong, 1U);
+    } else if (kind == 3U) {
+        fieldscribe_stream_add(stream, answer, length);
+        stream->bytes[hurt] ^= 0x10U;
+    } else {
+        /* none */
+    }
+    return stream->count;
+}
+
+static inline void fieldscribe_stream_send(void *context, const uint8_t *bytes, size_t length)
+{
+    fieldscribe_stream *const stream = (fieldscribe_stream *)context;
+    stream->sent_count = length;
+    memcpy(stream->sent, bytes, length);
+}
+
+static inline bool fieldscribe_stream_receive(void *context, uint8_t *byte)
+{
+    fieldscribe_stream *const stream = (fieldscribe_stream *)context;
+    const bool more = stream->given < stream->count;
+    if (more || stream->endless) {
+        *byte = stream->bytes[more ? stream->given : stream->count - 1U];
+        ++stream->given;
+        return true;
+    }
+    return false;
+}
+
 static inline void fieldscribe_is_number(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
     const char *const field = fieldscribe_field(v, key);

@@ -23,7 +23,7 @@ static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
 {
     static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
         "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
-        "no_answer", "refused", "no_rights", "wrong_response"};
+        "no_answer", "refused", "no_rights", "wrong_response", "noise"};
     return names[(size_t)status];
 }
 
@@ -296,6 +296,79 @@ static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status 
     fieldscribe_untouched(v, words + heard, (FIELDSCRIBE_BYTES_MOST - heard) * sizeof words[0]);
 }
 
+/* A receiver finds the answer behind noise, in pieces of any size, and takes no byte behind it. */
+static void fieldscribe_finds(fieldscribe_vector *v, const fieldscribe_uss_link *link,
+    const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length)
+{
+    static const size_t pieces[] = {1U, 2U, SIZE_MAX};
+    uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_stream stream;
+    unsigned kind;
+    size_t at;
+    for (kind = 0U; kind < 12U && length < sizeof buffer; ++kind) {
+        const size_t noise = fieldscribe_stream_noise(&stream, kind % 4U, bytes, length, length - 1U);
+        const size_t piece = pieces[kind / 4U];
+        fieldscribe_uss_receiver receiver = fieldscribe_uss_await(link, request, buffer, length);
+        size_t taken = 0U;
+        fieldscribe_fill(buffer, sizeof buffer);
+        fieldscribe_stream_add(&stream, bytes, length);
+        fieldscribe_stream_add(&stream, bytes, 1U);
+        for (at = 0U; at < stream.count; at += taken) {
+            const size_t most = stream.count - at;
+            fieldscribe_agree(v, receiver.done == (at == noise + length));
+            taken = fieldscribe_uss_receive(&receiver, stream.bytes + at, most < piece ? most : piece);
+            if (taken == 0U) {
+                break;
+            }
+        }
+        fieldscribe_agree(v, receiver.done && at == noise + length && receiver.dropped == noise &&
+            receiver.length == length && memcmp(buffer, bytes, length) == 0);
+        fieldscribe_untouched(v, buffer + length, sizeof buffer - length);
+        receiver = fieldscribe_uss_await(link, request, buffer, fieldscribe_uss_reply_length(link) - 1U);
+        fieldscribe_agree(v, receiver.done && receiver.length == 0U);
+    }
+}
+
+static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v, const fieldscribe_uss_link *link,
+    const fieldscribe_uss_request *request, fieldscribe_stream *stream, fieldscribe_uss_reply *reply)
+{
+    uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
+    static const uint16_t nothing[FIELDSCRIBE_BYTES_MOST];
+    const fieldscribe_uss_words process = {nothing, link->pzd};
+    const fieldscribe_uss_line line = {fieldscribe_tables_of(v)->profile, link, buffer, sizeof buffer,
+        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream};
+    return fieldscribe_uss_ask(&line, request, &process, reply);
+}
+
+/* Asking says what parsing says, whatever comes before the answer; and it ends when none comes. */
+static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_link *link,
+    const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length, const fieldscribe_uss_reply *parsed)
+{
+    uint16_t words[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_uss_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_BYTES_MOST);
+    fieldscribe_stream stream;
+    unsigned kind;
+    memset(&stream, 0, sizeof stream);
+    if (fieldscribe_asks_line(v, link, request, &stream, &reply) != FIELDSCRIBE_USS_WRONG_START) {
+        return; /* no such request is sent */
+    }
+    for (kind = 0U; kind < 4U; ++kind) {
+        (void)fieldscribe_stream_noise(&stream, kind, bytes, length, length - 1U);
+        fieldscribe_stream_add(&stream, bytes, length);
+        fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_OK &&
+            reply.value == parsed->value && reply.width == parsed->width && stream.given == stream.count &&
+            memcmp(words, parsed->process, link->pzd * sizeof words[0]) == 0);
+        (void)fieldscribe_stream_noise(&stream, kind, bytes, length, length - 1U);
+        fieldscribe_stream_add(&stream, bytes, length - 1U); /* the last byte does not come */
+        fieldscribe_agree(v, kind == 2U || fieldscribe_asks_line(v, link, request, &stream, &reply) ==
+            (kind == 0U ? FIELDSCRIBE_USS_WRONG_LENGTH : FIELDSCRIBE_USS_NOISE));
+    }
+    (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
+    stream.endless = true;
+    fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_NOISE &&
+        stream.given == FIELDSCRIBE_USS_ASK_MOST);
+}
+
 static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
 {
     uint16_t words[FIELDSCRIBE_BYTES_MOST];
@@ -318,6 +391,8 @@ static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
     fieldscribe_are_heard(v, status, words, bytes, length, link.pzd);
     if (status == FIELDSCRIBE_USS_OK) {
         fieldscribe_receives(v, &link, bytes, length);
+        fieldscribe_finds(v, &link, &request, bytes, length);
+        fieldscribe_is_asked(v, &link, &request, bytes, length, &reply);
         again.room = link.pzd;
         fieldscribe_agree(
             v, fieldscribe_uss_parse(profile, &link, &request, bytes, length, &again) == FIELDSCRIBE_USS_OK);

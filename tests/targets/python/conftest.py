@@ -9,7 +9,7 @@ from typing import Any
 import can
 import pytest
 from support.models import sample_device
-from support.places import ROOT
+from support.places import PACKAGES
 from support.python_package import Slave, imported, write_package
 
 
@@ -40,13 +40,13 @@ def drive(package: Any, slave: Slave) -> Any:
 @pytest.fixture
 def l200() -> Iterator[Any]:
     """The generated package of a drive on Modbus."""
-    yield from imported(ROOT / "generated/python", "hitachi_l200")
+    yield from imported(PACKAGES, "hitachi_l200")
 
 
 @pytest.fixture
 def mpu2s() -> Iterator[Any]:
     """The generated package of a device on CAN."""
-    yield from imported(ROOT / "generated/python", "woodward_mpu2s")
+    yield from imported(PACKAGES, "woodward_mpu2s")
 
 
 @pytest.fixture

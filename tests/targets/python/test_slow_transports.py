@@ -14,7 +14,7 @@ import can
 import pytest
 from support.line_ends import pty_end
 from support.python_package import error
-from support.python_transports import NOISE, behind_a_gateway, transport
+from support.python_transports import NOISE, behind_a_gateway, socket_end, transport, with_word
 
 
 def drip(listening: socket.socket, gap: float, data: bytes) -> None:

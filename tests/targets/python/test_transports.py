@@ -10,7 +10,7 @@ import threading
 import time
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
 
 import can
@@ -20,11 +20,10 @@ from pymodbus import FramerType
 from pymodbus.client import AsyncModbusTcpClient, ModbusTcpClient
 from support.line_ends import pty_end
 from support.modbus_server import server
-from support.places import ROOT
+from support.places import PACKAGES, ROOT
 from support.python_package import error, imported
-from support.python_transports import NOISE, behind_a_gateway, transport
+from support.python_transports import NOISE, behind_a_gateway, socket_end, transport, with_word
 
-GENERATED = ROOT / "generated/python"
 FREQUENCY, STATUS = 0x1028, 0x0002
 
 
@@ -120,7 +119,7 @@ def test_an_adapter_that_echoes(l200: Any) -> None:
 
 
 def test_uss_on_a_serial_line() -> None:
-    for package in imported(GENERATED, "siemens_mm4"):
+    for package in imported(PACKAGES, "siemens_mm4"):
         uss, serial = importlib.import_module("fieldscribe_runtime.uss"), transport("serial")
         answer = bytes.fromhex("020e01") + bytes.fromhex("143a 0000 4220 0000 0000 0000".replace(" ", ""))
         bcc = 0
@@ -227,39 +226,12 @@ def test_framings_that_do_not_fit(l200: Any) -> None:
     told = str(error(l200.HitachiL200, transport("tcp").TcpLine("127.0.0.1"), 1))
     assert "framing='rtu'" in told
     assert "PROFILE.replaced(framings=('tcp',))" in told
-    for package in imported(GENERATED, "siemens_mm4"):
+    for package in imported(PACKAGES, "siemens_mm4"):
         link, serial = importlib.import_module("fieldscribe_runtime.uss").Link(4, 2), transport("serial")
         refused = error(package.SiemensMm4, serial.SerialLine("x"), 1, link)
         assert refused.status == "bad_framing"
         assert "UssLine" in str(refused)
         package.SiemensMm4Async(serial.AsyncSerialLine(serial.UssLine("x")), 1, link)
-
-
-@contextmanager
-def socket_end(answer: Any) -> Iterator[int]:
-    """The port of an end in the network which answers each request of each connection by a function."""
-
-    def serve(line: socket.socket) -> None:
-        with line, suppress(OSError):
-            while request := line.recv(256):
-                line.sendall(answer(request))
-
-    def listen() -> None:
-        with suppress(OSError):
-            while True:
-                threading.Thread(target=serve, args=(listening.accept()[0],), daemon=True).start()
-
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        threading.Thread(target=listen, daemon=True).start()
-        yield listening.getsockname()[1]
-        listening.shutdown(socket.SHUT_RDWR)
-
-
-def with_word(request: bytes, word: int) -> bytes:
-    """An RTU answer to a request of one register."""
-    body = request[:2] + bytes((2, 0, word))
-    crc: int = importlib.import_module("fieldscribe_runtime.modbus").crc(body)
-    return body + crc.to_bytes(2, "little")
 
 
 def test_a_reply_that_comes_twice(l200: Any) -> None:
@@ -426,6 +398,6 @@ def test_the_runtime_has_the_version_of_the_compiler() -> None:
     project = (ROOT / "templates/python/runtime/fieldscribe_runtime/pyproject.toml").read_text("utf-8")
     assert f'version = "{__version__}"' in project
     own = tomllib.loads(project)["project"]["optional-dependencies"]
-    passed_on = tomllib.loads((GENERATED / "hitachi_l200/pyproject.toml").read_text("utf-8"))["project"]
+    passed_on = tomllib.loads((PACKAGES / "hitachi_l200/pyproject.toml").read_text("utf-8"))["project"]
     expected = {name: [f"fieldscribe-runtime[{name}]=={__version__}"] for name in own}
     assert passed_on["optional-dependencies"] == expected
