@@ -328,6 +328,11 @@ static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framin
     fieldscribe_agree(v,
         fieldscribe_modbus_parse(framing, request, bytes, length, &reply) == FIELDSCRIBE_MODBUS_OK &&
             reply.count == (several ? 0U : room));
+    empty.take = NULL;
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse(framing, request, NULL, 0U, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
+            fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) == FIELDSCRIBE_MODBUS_WRONG_FUNCTION);
+    empty.take = request->take;
     if (!reads && !several) {
         empty.given = 0U;
         fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, &reply) ==

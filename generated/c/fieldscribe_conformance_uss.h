@@ -344,14 +344,21 @@ static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v
 static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_link *link,
     const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length, const fieldscribe_uss_reply *parsed)
 {
-    uint16_t words[FIELDSCRIBE_BYTES_MOST];
+    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
     fieldscribe_uss_reply reply = fieldscribe_reply_into(words, FIELDSCRIBE_BYTES_MOST);
     fieldscribe_stream stream;
     unsigned kind;
-    memset(&stream, 0, sizeof stream);
-    if (fieldscribe_asks_line(v, link, request, &stream, &reply) != FIELDSCRIBE_USS_WRONG_START) {
-        return; /* no such request is sent */
+    uint8_t built[FIELDSCRIBE_USS_MOST];
+    size_t sent = 0U;
+    const fieldscribe_uss_words process = {words, link->pzd};
+    if (fieldscribe_uss_build(fieldscribe_tables_of(v)->profile, link, request, &process, built, sizeof built, &sent) !=
+        FIELDSCRIBE_USS_OK) {
+        return;
     }
+    memset(&stream, 0, sizeof stream);
+    fieldscribe_agree(
+        v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_WRONG_START);
+    fieldscribe_agree(v, stream.sent_count == sent && stream.sent[0] == built[0] && stream.sent[2] == built[2]);
     for (kind = 0U; kind < 4U; ++kind) {
         (void)fieldscribe_stream_noise(&stream, kind, bytes, length, length - 1U);
         fieldscribe_stream_add(&stream, bytes, length);

@@ -111,7 +111,9 @@ class Judge:
         named = [family for family in FAMILIES if re.search(rf"[/_]{family}\b", mutant.path)]
         return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
 
-    def run(self, *words: object, memory: int = MEMORY, **environment: str) -> subprocess.CompletedProcess[str]:
+    def run(
+        self, *words: object, memory: int = MEMORY, packages: Path | None = None
+    ) -> subprocess.CompletedProcess[str]:
         """Run a program that may do anything, within limits. Raises TimeoutExpired."""
         return subprocess.run(
             [str(word) for word in words],
@@ -121,7 +123,7 @@ class Judge:
             errors="replace",
             check=False,
             timeout=RUN_LIMIT,
-            env={**os.environ, **environment},
+            env={**os.environ, **({"FIELDSCRIBE_PACKAGES": str(packages)} if packages else {})},
             preexec_fn=lambda: _bound(memory),
         )
 
@@ -200,8 +202,7 @@ class OfPython(Judge):
         folder = self.work / "python"
         if device == TRANSPORTS:
             files = sorted(ROOT.glob(f"tests/targets/python/test_*{TRANSPORTS}.py"))
-            packages = {"FIELDSCRIBE_PACKAGES": str(folder)}
-            return self.run(sys.executable, "-B", "-m", "pytest", "-q", "-x", *files, **packages).returncode == 0
+            return self.run(sys.executable, "-B", "-m", "pytest", "-q", "-x", *files, packages=folder).returncode == 0
         done = self.run(sys.executable, "-B", ROOT / "tests/conformance", folder, device, self.vectors[device])
         if done.returncode and not done.stdout.strip():
             program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"

@@ -53,14 +53,15 @@ class SerialLine(Line):
 
     `port` is a device, or a URL of pyserial such as `socket://192.168.0.20:4001` for RTU behind a serial server. `mode`
     is data bits, parity (N, E, O) and stop bits. A reply has `timeout` seconds to begin, and then the time that the
-    longest frame takes at the baud rate. With `echo` what is sent comes back first, as on many RS-485 adapters with two wires.
+    longest frame takes at the baud rate. With `echo` what is sent comes back first, as on many RS-485 adapters with
+    two wires.
     """
 
     FRAMING = RTU
     MODE = "8N1"
 
     turnaround = 0.1
-    """Seconds for which the line rests after a broadcast, so that the units can work; set it to what your devices need."""
+    """Seconds for which the line rests after a broadcast, so that the units can work. Set it to what they need."""
 
     def __init__(
         self, port: str, baudrate: int = 9600, mode: str = "", *, timeout: float = 0.5, echo: bool = False
