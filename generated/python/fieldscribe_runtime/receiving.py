@@ -73,7 +73,7 @@ class Receiver:
 
     def give_up(self) -> bytes:
         """Return the last frame of another address, for the error that names it; raises TimeoutError without one."""
-        if self._foreign and not self.received:
+        if self._foreign and not (self.received and self._framing.address(self.received) == self._address):
             return self._foreign
         raise TimeoutError(f"{self._quoted()}, which are no reply; {_HINT}" if self.received else "no byte came")
 

@@ -72,9 +72,9 @@ class Line(ABC):
     def _received(self, request: bytes) -> bytes:
         receiver = Receiver(self._framing, request)
         until = time.monotonic() + self.timeout
+        last = until + self.FRAME_SECONDS
         while data := self._read(receiver.missing, until):
-            if not receiver.received:
-                until += self.FRAME_SECONDS
+            until = last
             if (reply := receiver.take(data)) is not None:
                 return reply
         reply = receiver.give_up()
