@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
 from fieldscribe.resources import descriptions_dir
 
 
@@ -22,6 +23,7 @@ def test_check_imports_nothing_that_it_does_not_need() -> None:
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+@pytest.mark.full(seconds=5)
 def test_a_generate_with_nothing_changed_imports_as_little(tmp_path: Path) -> None:
     code = (
         "import sys\nfrom fieldscribe.cli import main\nmain(sys.argv[1:])\n"

@@ -136,6 +136,7 @@ def test_no_row_is_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
         assert f"  line: {line}\n" in draft or f"# ? line {line} is no point: " in draft
 
 
+@pytest.mark.full(seconds=2)
 def test_a_large_table_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     rows = "".join(f"{number},Point,UINT32,Hz,0-5\n" for number in range(2000))
     (tmp_path / "rows.csv").write_text(f"Address,Name,Type,Unit,Range\n{rows}", "utf-8")

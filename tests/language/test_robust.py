@@ -43,7 +43,9 @@ CAREFUL = settings(
 )
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize(
+    "part", [0, 1, *(pytest.param(part, marks=pytest.mark.full(seconds=4)) for part in range(2, PARTS))]
+)
 def test_mutants_end_in_findings_or_compile_for_every_target(part: int, tmp_path: Path) -> None:
     """Wrong values at every key, quoted numbers, values of other places, lines and characters changed, aliases."""
     for index in range(part, MUTANTS, PARTS):
@@ -128,6 +130,7 @@ def test_many_errors_stay_quick(tmp_path: Path) -> None:
     assert time.process_time() - started < 5
 
 
+@pytest.mark.full(seconds=2)
 def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
     """More points than Python has frames, each of which needs the next one, end in findings or a device."""
     for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):

@@ -32,6 +32,7 @@ sys.exit(main())
 """
 
 
+@pytest.mark.full(seconds=2)
 def test_every_step_works_without_what_other_systems_lack(tmp_path: Path) -> None:
     def run(*words: str) -> str:
         command = [sys.executable, "-c", WITHOUT, *words]

@@ -178,6 +178,7 @@ def contents(out: Path) -> dict[str, bytes]:
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in out.rglob("*") if path.is_file()}
 
 
+@pytest.mark.full(seconds=2)
 def test_two_runs_with_different_input_leave_no_mixture(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """While one run writes its first file another starts: it has to wait, and the folder is then wholly its own."""
     from fieldscribe.cli import main
