@@ -77,6 +77,7 @@ def _family_facts(facts: FamilyFacts) -> FamilyFacts:
 
 
 def _point(point: Point, shape: Shape, terms: Terms) -> Point:
+    """Return a point as code may know it: a field that is not named here is for people only."""
     return Point(
         point.name,
         point.variant,

@@ -15,8 +15,8 @@ A family is one folder here and one line in `FAMILIES`. No code outside the fold
 
 To add a function of a bus:
 
-1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py` (number, name, space, most items), or
-   `_WRITE_TASKS` and `RESPONSE_WIDTHS` in `uss/parts.py`. Checks, profiles and generated tables follow from it.
+1. Add a row to the table of the protocol: `FUNCTIONS` in `modbus/__init__.py`, or `_WRITE_TASKS` and `RESPONSE_WIDTHS`
+   in `uss/parts.py`. Checks, profiles, generated tables and the vectors of all devices follow from it.
 2. If its bytes have a new form, add that to the module that builds and parses them. The runtimes in
    `templates/<target>/runtime` have the same form once more, each in its language.
 3. Add its requests and replies to `targets/vectors.py`: the vectors show where a language differs.

@@ -15,7 +15,7 @@ from fieldscribe.resolve.point_facts import PointFacts
 Fact = TypeVar("Fact")
 
 _IDENTITY = identifying_keys(POINT) | {*keys_of(SOURCE), "source", "lines", "note", "was", "write_at", "each"}
-"""Keys that identify a point. No fact of other keys depends on them."""
+"""Keys that identify or annotate a point: no shape, scale or limit depends on them."""
 
 _NUMBERS = frozenset(("range", "range_in_units", "default", "default_in_units"))
 """Keys of which only the presence counts: points with the same facts have numbers of their own there."""

@@ -1,4 +1,8 @@
-"""The languages that a device is compiled to. A target is a folder here, a folder of templates and a line below."""
+"""The languages that a device is compiled to.
+
+To add a target: write a folder here with what `Target` lists (`tests/toy_target` is the smallest one), templates if it
+needs them, and add a line to the registry below. Tests and the help of `generate` say what else names all targets.
+"""
 
 from __future__ import annotations
 

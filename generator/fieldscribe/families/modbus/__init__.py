@@ -24,7 +24,10 @@ FAMILY = Family(
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function: its common name, its space, what it does there, and the most items of one request."""
+    """A function: its common name, its space, what it does there, and the most items of one request.
+
+    `does` is `read`, `write_one` or `write_many`, which `SPACES` chooses from, or another word for what no point uses.
+    """
 
     name: str
     space: str
@@ -45,11 +48,11 @@ FUNCTIONS: Mapping[int, Function] = {
 }
 """The functions that the runtimes support, with the limits of the protocol."""
 READS = frozenset(number for number, function in FUNCTIONS.items() if function.does == "read")
-SINGLE = frozenset(number for number, function in FUNCTIONS.items() if function.most == 1)
+SINGLE = frozenset(number for number, function in FUNCTIONS.items() if function.does in ("write_one", "test"))
 """Functions that carry exactly one value; the reply repeats the request."""
 BIT_LISTS = frozenset({0x01, 0x02, 0x0F})
 """Functions whose data are bits, eight to a byte."""
-BROADCAST = frozenset(FUNCTIONS) - READS - {0x08}
+BROADCAST = frozenset(number for number, function in FUNCTIONS.items() if function.does.startswith("write"))
 """Functions that the protocol allows to broadcast."""
 
 

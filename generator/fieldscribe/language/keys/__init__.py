@@ -4,11 +4,14 @@ To add a key:
 
 1. Write one `Key` (see `fieldscribe/schema_types.py`) in the module here that has its neighbours: `files`, `points`,
    `meaning`, `nested_keys`, `bus` or `frames`; for one family alone in the part `description` of that family. Its
-   `places` come from `places.py`. Run `make keys`: editors and `check` know the key now.
+   `places` come from `places.py`.
 2. Read it where its neighbours are read, in `resolve/` (`facts.get("name")`), and give the model a field for it with a
-   default, so that nothing changes for descriptions without the key.
-3. If people should see it, add a row to the table of facts (`fieldscribe/facts/`): pages, export and `diff` follow.
-4. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
+   default, so that nothing changes for descriptions without the key. If no shape depends on it, name it in
+   `resolve/memo.py`; if generated code needs it, pass it on in `code_view.py`.
+3. If people should see it, add a row to the table of facts (`fieldscribe/facts/`): pages, export and `diff` follow. A
+   new published fact raises `FORMAT` in `facts/devices.py`.
+4. Run `make keys`: editors, KEYS.md and the schema of the export know the key now.
+5. Use it in a description of `tests/devices/` or a test, and add a wrong use to `tests/bad/`.
 """
 
 from __future__ import annotations
