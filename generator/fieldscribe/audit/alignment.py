@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import SequenceMatcher
 from functools import cached_property
 from itertools import pairwise
-from typing import Final, NamedTuple
+from operator import itemgetter
+from typing import Final, NamedTuple, TypeAlias
 
 _MOST_PAIRS: Final = 4_000
 """A block of so many pairs of lines, or words, is compared pair by pair."""
@@ -23,16 +24,16 @@ _ALIKE = 0.3
 """The share of words from which on one line is another one changed."""
 
 
+_Chain: TypeAlias = "tuple[tuple[int, int], _Chain] | None"
+"""Pairs of lines, each with those that follow it."""
+
+
 class Change(NamedTuple):
     """A line that differs: `old` and `new` are line numbers from 1. A moved line has the same text elsewhere."""
 
     kind: str
     old: int | None
     new: int | None
-
-
-def _whole(line: str) -> str:
-    return line
 
 
 def _without_numbers(line: str) -> str:
@@ -56,8 +57,8 @@ class Alignment:
     def _moved_lines(self) -> dict[int, int]:
         """Lines without a counterpart whose text stands exactly once among such lines of the other text."""
         aligned = set(self._new_of.values())
-        left = _unique(self.old, {line for line in self.old.numbers if line not in self._new_of})
-        right = _unique(self.new, {line for line in self.new.numbers if line not in aligned})
+        left = _unique((line, self.old.text(line)) for line in self.old.numbers if line not in self._new_of)
+        right = _unique((line, self.new.text(line)) for line in self.new.numbers if line not in aligned)
         return {line: right[text] for text, line in left.items() if text in right}
 
     def now(self, line: int) -> int | None:
@@ -109,9 +110,11 @@ def _counterpart(line: int, text: _Text, lines: dict[int, int]) -> int | None:
     return line if above == 0 else lines[above] + line - above if above in lines else None
 
 
-def _unique(text: _Text, numbers: set[int]) -> dict[str, int]:
-    often = Counter(text.text(number) for number in numbers)
-    return {text.text(number): number for number in numbers if often[text.text(number)] == 1}
+def _unique(texts: Iterable[tuple[int, str]]) -> dict[str, int]:
+    """Return the numbers of the texts that occur once."""
+    numbers = list(texts)
+    often = Counter(text for _, text in numbers)
+    return {text: number for number, text in numbers if often[text] == 1}
 
 
 class _Aligner:
@@ -150,14 +153,11 @@ class _Aligner:
 
     def _anchors(self, old: range, new: range) -> list[tuple[int, int]]:
         """Return lines that are unique in both blocks: as they are, without numbers, or by their first words."""
-        keys: tuple[Callable[[str], str], ...] = (_whole, _without_numbers, _opening)
+        keys: tuple[Callable[[str], str], ...] = (str, _without_numbers, _opening)
         for key in keys:
-            left: dict[str, int | None] = {}
-            right: dict[str, int | None] = {}
-            for block, lines, places in ((old, self.old, left), (new, self.new, right)):
-                for at in block:
-                    places[key(lines[at])] = None if key(lines[at]) in places else at
-            both = [(at, to) for text, at in left.items() if at is not None and (to := right.get(text)) is not None]
+            left = _unique((at, key(self.old[at])) for at in old)
+            right = _unique((at, key(self.new[at])) for at in new)
+            both = [(at, right[text]) for text, at in left.items() if text in right]
             if both:
                 return _longest_rising(both)
         return []
@@ -166,12 +166,15 @@ class _Aligner:
         """Pair the lines of a block by the words that they share; of a large one those at the same places."""
         if len(old) * len(new) > _MOST_PAIRS:
             return list(zip(old, new, strict=False)) if len(old) == len(new) else []
-        best = [[0.0] * (len(new) + 1) for _ in range(len(old) + 1)]
-        alike = [[self._likeness(at, to) for to in new] for at in old]
-        for i in reversed(range(len(old))):
-            for j in reversed(range(len(new))):
-                best[i][j] = max(best[i + 1][j], best[i][j + 1], best[i + 1][j + 1] + alike[i][j])
-        return list(_traced(best, alike, old, new))
+        nothing: tuple[float, _Chain] = (0.0, None)
+        best = [nothing] * (len(new) + 1)
+        for at in reversed(old):
+            below, best = best, [nothing] * (len(new) + 1)
+            for place, to in reversed(list(enumerate(new))):
+                share, (rest, chain) = self._likeness(at, to), below[place + 1]
+                pair = [(rest + share, ((at, to), chain))] if share else []
+                best[place] = max((*pair, below[place], best[place + 1]), key=itemgetter(0))
+        return list(_unchained(best[0][1]))
 
     def _likeness(self, at: int, to: int) -> float:
         left, right = (Counter(re.findall(r"\w+", text)) for text in (self.old[at], self.new[to]))
@@ -180,34 +183,22 @@ class _Aligner:
         return share if share >= _ALIKE else 0.01 * is_prose
 
 
-def _traced(best: list[list[float]], alike: list[list[float]], old: range, new: range) -> Iterator[tuple[int, int]]:
-    i = j = 0
-    while i < len(old) and j < len(new):
-        if alike[i][j] and best[i][j] == best[i + 1][j + 1] + alike[i][j]:
-            yield old[i], new[j]
-            i, j = i + 1, j + 1
-        elif best[i][j] == best[i + 1][j]:
-            i += 1
-        else:
-            j += 1
+def _unchained(chain: _Chain) -> Iterator[tuple[int, int]]:
+    while chain is not None:
+        pair, chain = chain
+        yield pair
 
 
 def _longest_rising(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """Return the longest choice of pairs that rises in both texts; the pairs come in the order of the old one."""
     ends: list[int] = []
-    chosen: list[int] = []
-    before: list[int] = []
-    for number, (_, to) in enumerate(pairs):
-        place = bisect_left(ends, to)
-        before.append(chosen[place - 1] if place else -1)
-        ends[place : place + 1] = [to]
-        chosen[place : place + 1] = [number]
-    rising = []
-    number = chosen[-1] if chosen else -1
-    while number >= 0:
-        rising.append(pairs[number])
-        number = before[number]
-    return rising[::-1]
+    chains: list[_Chain] = []
+    for pair in pairs:
+        place = bisect_left(ends, pair[1])
+        chain = (pair, chains[place - 1] if place else None)
+        ends[place : place + 1] = [pair[1]]
+        chains[place : place + 1] = [chain]
+    return [*_unchained(chains[-1])][::-1]
 
 
 def changed_words(old: str, new: str) -> list[tuple[str, str]]:

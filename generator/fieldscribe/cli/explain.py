@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from typing import TYPE_CHECKING
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
@@ -18,9 +17,8 @@ from fieldscribe.text import shortened
 from fieldscribe.user_errors import did_you_mean
 from fieldscribe.wording import label
 
-if TYPE_CHECKING:
-    Found = tuple[list[str], Explanation]
-    """How WHAT was read (there may be several ways), and the explanation of what it then means."""
+Found = tuple[list[str], Explanation]
+"""How WHAT was read (there may be several ways), and the explanation of what it then means."""
 
 EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 A020

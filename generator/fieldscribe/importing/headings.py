@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from fieldscribe.importing.cells import one_line
 from fieldscribe.importing.tables import Row, Table
 
-if TYPE_CHECKING:
-    Wanted = Mapping[str, Sequence[str]]
+Wanted = Mapping[str, Sequence[str]]
 
 IGNORED = "ignore"
 ROLES = (

@@ -7,14 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from fieldscribe.families.frame_results import Options
 from fieldscribe.families.uss import of_bus
 from fieldscribe.model import Bus, Device
 from fieldscribe.user_errors import UnclearError
-
-if TYPE_CHECKING:
-    from fieldscribe.families.frame_results import Options
 
 VARIABLE = 127
 """The setting of the parameter part whose length depends on the request."""

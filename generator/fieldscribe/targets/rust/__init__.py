@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
-from fieldscribe.resources import runtime_files
+from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.rust.identifiers import device_name_taken, identifiers
 from fieldscribe.targets.rust.subjects import scope_of
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 

@@ -6,13 +6,10 @@ This target shares no code with the others, so that a mistake in one of them can
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from fieldscribe.model import Device
+from fieldscribe.resources import Render
 from fieldscribe.targets.identifiers import Names
-
-if TYPE_CHECKING:
-    from fieldscribe.resources import Render
 
 SEES_TITLES = False
 NEEDS_FAMILY = False
