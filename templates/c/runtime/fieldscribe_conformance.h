@@ -296,7 +296,7 @@ static inline size_t fieldscribe_stream_noise(
     } else if (kind == 2U) {
         fieldscribe_stream_add(stream, answer, 2U);
         fieldscribe_stream_add(stream, &wrong, 1U);
-    } else if (kind == 3U) {
+    } else if (kind == 3U && hurt < length && hurt < sizeof stream->bytes) {
         fieldscribe_stream_add(stream, answer, length);
         stream->bytes[hurt] ^= 0x10U;
     } else {
@@ -309,7 +309,7 @@ static inline void fieldscribe_stream_send(void *context, const uint8_t *bytes, 
 {
     fieldscribe_stream *const stream = (fieldscribe_stream *)context;
     stream->sent_count = length;
-    memcpy(stream->sent, bytes, length);
+    memcpy(stream->sent, bytes, length < sizeof stream->sent ? length : sizeof stream->sent);
 }
 
 static inline bool fieldscribe_stream_receive(void *context, uint8_t *byte)
