@@ -333,7 +333,7 @@ static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v
     const fieldscribe_uss_request *request, fieldscribe_stream *stream, fieldscribe_uss_reply *reply)
 {
     uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
-    static const uint16_t nothing[FIELDSCRIBE_BYTES_MOST];
+    static const uint16_t nothing[FIELDSCRIBE_BYTES_MOST] = {0U};
     const fieldscribe_uss_words process = {nothing, link->pzd};
     const fieldscribe_uss_line line = {fieldscribe_tables_of(v)->profile, link, buffer, sizeof buffer,
         &fieldscribe_stream_send, &fieldscribe_stream_receive, stream};
