@@ -6,11 +6,11 @@ Two editions: `Editions` aligns both texts, `compare` lists every line that diff
 numbers.py, manual.py, passage.py    a text: its numbers, its sections and rows, a piece of it
 claims.py                            one shape of a claim, with few kinds of evidence, and how claims are made
 point_claims.py, flag_claims.py, claims_of_device.py    the claims of points, of flags, and all of a description
-notation.py, errata.py               how the manual writes things; what errata say that it prints
+notation.py                          how the manual writes things
 evidence.py, held.py                 whether a passage has the evidence; all claims in a text
 plain_audit.py                       the plain audit and its findings
 alignment.py, comparison.py          two texts line by line; what cites the lines that differ
-renumbering.py, recording.py         writing new line numbers, and the new text's checksum, into the YAML
+renumbering.py                       writing new line numbers, and the new text's checksum, into the YAML
 report.py                            both for people
 """
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.audit.alignment import Alignment, changed_words
 from fieldscribe.audit.claims import Cited, Claim, Word
-from fieldscribe.audit.errata import PrintedErratum
+from fieldscribe.audit.claims_of_device import PrintedErratum
 from fieldscribe.audit.held import Citations, Held
 from fieldscribe.diagnostics import Span
 

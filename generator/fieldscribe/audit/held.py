@@ -10,8 +10,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from fieldscribe.audit.claims import Cited, Claim, Label, Number, Run
-from fieldscribe.audit.claims_of_device import claims_of, passed_over
-from fieldscribe.audit.errata import PrintedErratum, printed_errata
+from fieldscribe.audit.claims_of_device import PrintedErratum, claims_of, passed_over, printed_errata
 from fieldscribe.audit.evidence import Found, found, labels_found, lies_in_section
 from fieldscribe.audit.manual import Extent, Manual, has_word
 from fieldscribe.audit.notation import Notation

@@ -267,12 +267,6 @@ def _uncited(held: Held) -> Iterator[Uncited]:
 
 def _runs(lines: Iterable[int]) -> Iterator[tuple[int, int]]:
     """Yield the first and last of lines that follow each other."""
-    first = last = 0
-    for line in lines:
-        if line != last + 1:
-            if first:
-                yield first, last
-            first = line
-        last = line
-    if first:
-        yield first, last
+    for _, run in groupby(enumerate(lines), key=lambda entry: entry[1] - entry[0]):
+        numbers = [line for _, line in run]
+        yield numbers[0], numbers[-1]

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from fieldscribe.audit import Citations, Comparison, Editions, audit, audit_of
-from fieldscribe.audit.recording import LONGEST, hindrances, with_recorded
-from fieldscribe.audit.renumbering import renumber
+from fieldscribe.audit.renumbering import LONGEST, hindrances, renumber, with_recorded
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
 from fieldscribe.cli import FINDINGS, FINE
 from fieldscribe.cli.common import StopError, add_device, device_file, print_json, report_findings, some_path
