@@ -51,13 +51,13 @@ def print_rows(heading: str, rows: Sequence[Row], width: int = 0) -> None:
 
     `width` is the least width of the labels.
     """
-    width = max(width, *(len(label) for label, _ in rows))
+    width = max([width, *(len(label) for label, _ in rows)])
     if not is_coloured(sys.stdout):
         margin, gap = " " * _MARGIN, " " * _GAP
         lines = [heading, *(f"{margin}{label:<{width}}{gap}{text}".rstrip() for label, text in rows)]
     else:
         lines = [_styled("1", heading), *(line for label, text in rows for line in _wrapped(label, text, width))]
-    sys.stdout.writelines(f"{line}\n" for line in lines)
+    sys.stdout.write("\n".join(lines) + "\n")
 
 
 def _wrapped(label: str, text: str, width: int) -> Iterable[str]:
