@@ -23,7 +23,7 @@ from fieldscribe.code_view import for_code
 from fieldscribe.differences.changes import CLASSES
 from fieldscribe.differences.comparison import differences
 from fieldscribe.export import export_model
-from fieldscribe.facts.digest import code_digest, facts_digest
+from fieldscribe.facts.digest import facts_digest, with_digest
 from fieldscribe.model import Device
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
@@ -83,7 +83,7 @@ def others(value: Any) -> list[Any]:
 
 def digest(device: Device) -> str:
     """The digest of what code may know of a device."""
-    return code_digest(for_code(device))
+    return with_digest(device, for_code(device))[0].digest
 
 
 def code(device: Device) -> dict[str, str]:

@@ -36,14 +36,6 @@ class Change(NamedTuple):
     new: int | None
 
 
-def _without_numbers(line: str) -> str:
-    return re.sub(r"[0-9]+", "#", line)
-
-
-def _opening(line: str) -> str:
-    return " ".join(re.findall(r"\w+", line)[:2])
-
-
 class Alignment:
     """The lines of an old and a new text with their counterparts. Blanks and the width of cells do not count."""
 
@@ -153,7 +145,11 @@ class _Aligner:
 
     def _anchors(self, old: range, new: range) -> list[tuple[int, int]]:
         """Return lines that are unique in both blocks: as they are, without numbers, or by their first words."""
-        keys: tuple[Callable[[str], str], ...] = (str, _without_numbers, _opening)
+        keys: tuple[Callable[[str], str], ...] = (
+            str,
+            lambda line: re.sub(r"[0-9]+", "#", line),
+            lambda line: " ".join(re.findall(r"\w+", line)[:2]),
+        )
         for key in keys:
             left = _unique((at, key(self.old[at])) for at in old)
             right = _unique((at, key(self.new[at])) for at in new)

@@ -7,6 +7,7 @@ from fieldscribe.checks.coexistence import Coexistence, clauses
 from fieldscribe.conditions import Clause, Domain, ends_before
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
+from fieldscribe.wording.rules import band_text
 
 _MOST_SHOWN = 12
 
@@ -62,10 +63,6 @@ def _report_never_true(analysis: Analysis, resolved: ResolvedPoint, coexistence:
 
 
 def _shown(domain: Domain) -> str:
-    parts = [part if isinstance(part, str) else _band(part) for part in domain[:_MOST_SHOWN]]
+    parts = [part if isinstance(part, str) else band_text(part) for part in domain[:_MOST_SHOWN]]
     raw = "" if isinstance(domain[0], str) else " (raw)"
     return ", ".join(parts) + (", ..." if len(domain) > _MOST_SHOWN else "") + raw
-
-
-def _band(band: tuple[int, int]) -> str:
-    return f"{band[0]}" if band[0] == band[1] else f"{band[0]}..{band[1]}"

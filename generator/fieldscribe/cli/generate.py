@@ -6,15 +6,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from fieldscribe.cli.common import (
-    StopError,
-    add_paths,
-    description_paths,
-    print_json,
-    report_findings,
-    some_path,
-    usage_error,
-)
+from fieldscribe.cli import common
 from fieldscribe.diagnostics import Report
 from fieldscribe.output.memory import Memory
 from fieldscribe.output.writing import Result
@@ -41,12 +33,12 @@ def add_where(parser: ArgumentParser) -> None:
     targets = f"what to make, of {names} (default: all)"
     parser.add_argument("--target", default=",".join(TARGETS), metavar="LIST", help=targets)
     out = "where to (default: generated)"
-    parser.add_argument("--out", type=some_path, default=Path("generated"), metavar="DIR", help=out)
+    parser.add_argument("--out", type=common.some_path, default=Path("generated"), metavar="DIR", help=out)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    add_paths(parser)
+    common.add_paths(parser)
     add_where(parser)
     add = parser.add_argument
     add("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
@@ -55,7 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     unreleased = "nobody has the present versions yet: record their present facts, without a warning"
     add("--unreleased", action="store_true", help=unreleased)
     add("--force", action="store_true", help="replace files in the way that fieldscribe did not make")
-    add("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
+    add("--depfile", type=common.some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     add("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     add("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
 
@@ -65,7 +57,7 @@ def targets_of(arguments: Namespace) -> tuple[str, ...]:
     targets = tuple(dict.fromkeys(name.strip() for name in arguments.target.split(",") if name.strip()))
     unknown = [name for name in targets if name not in TARGETS]
     if unknown or not targets:
-        raise StopError(f"there is no target `{', '.join(unknown)}`; there are {', '.join(TARGETS)}")
+        raise common.StopError(f"there is no target `{', '.join(unknown)}`; there are {', '.join(TARGETS)}")
     return targets
 
 
@@ -73,11 +65,11 @@ def run(arguments: Namespace) -> int:
     """Compile, and return the exit code: 0 fine, 1 findings or stale, 2 environment."""
     targets = targets_of(arguments)
     if arguments.strict_version and not arguments.check:
-        return usage_error("--strict-version is for --check", "write `generate --check --strict-version`")
+        return common.usage_error("--strict-version is for --check", "write `generate --check --strict-version`")
     if arguments.unreleased and (arguments.check or arguments.list_outputs):
-        return usage_error("--unreleased records facts; --check and --list-outputs write nothing")
+        return common.usage_error("--unreleased records facts; --check and --list-outputs write nothing")
     report = Report()
-    device_files = find_devices(description_paths(arguments.paths), report)
+    device_files = find_devices(common.description_paths(arguments.paths), report)
     writes = not (arguments.check or arguments.list_outputs)
     memory = Memory(arguments.out, targets, device_files) if writes and not report.has_errors else None
     known = memory.outputs() if memory and not (arguments.depfile or arguments.unreleased) else None
@@ -86,9 +78,9 @@ def run(arguments: Namespace) -> int:
     try:
         result = _compiled(arguments, targets, device_files, report, memory)
     except OSError as error:
-        return usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
+        return common.usage_error(f"cannot write to {error.filename or arguments.out}: {error.strerror or error}")
     if arguments.format == "text":
-        report_findings(report, "text")
+        common.report_findings(report, "text")
     return _print_result(arguments, result, report)
 
 
@@ -125,7 +117,7 @@ def _print_result(arguments: Namespace, result: Result, report: Report) -> int:
     if arguments.format == "json":
         lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale", "kept")}
         head = {"out": str(arguments.out), "outputs": sorted(result.wanted)}
-        print_json({**head, **lists, "findings": as_data(report.findings)})
+        common.print_json({**head, **lists, "findings": as_data(report.findings)})
     elif arguments.list_outputs:
         print(*(visible(str(arguments.out / path)) for path in sorted(result.wanted)), sep="\n")
     else:

@@ -7,16 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
 
 from fieldscribe import wording
-from fieldscribe.cli.common import (
-    StopError,
-    add_device,
-    add_format,
-    add_repeated,
-    open_device,
-    print_json,
-    searched_devices,
-    usage_error,
-)
+from fieldscribe.cli import common
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.conversation.selection import points_by_name, present
 from fieldscribe.model import Device, Point
@@ -64,12 +55,12 @@ _FILTERS: dict[str, tuple[str, str, Callable[[Point, str], bool]]] = {
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
-    add_device(parser, optional=True)
-    add_repeated(parser, "--matching", "GLOB", "only names or codes like this")
+    common.add_device(parser, optional=True)
+    common.add_repeated(parser, "--matching", "GLOB", "only names or codes like this")
     add("--family", metavar="NAME", help="only devices of this family")
     for option, (metavar, which, _) in _FILTERS.items():
         add(f"--{option}", metavar=metavar, help=f"only points {which}")
-    add_format(parser, ("csv",))
+    common.add_format(parser, ("csv",))
 
 
 def run(arguments: Namespace) -> int:
@@ -80,10 +71,10 @@ def run(arguments: Namespace) -> int:
 def _devices(arguments: Namespace) -> int:
     about_points = [f"--{name}" for name in (*_FILTERS, "variant") if getattr(arguments, name)]
     if about_points:
-        raise StopError(f"{about_points[0]} chooses points", "name their DEVICE, too")
+        raise common.StopError(f"{about_points[0]} chooses points", "name their DEVICE, too")
     data = [
         summary.as_data()
-        for file in searched_devices(arguments).values()
+        for file in common.searched_devices(arguments).values()
         if (summary := summary_of(file)) is not None
         and arguments.family in (None, summary.family)
         and _matches(arguments.matching, (summary.device,))
@@ -95,8 +86,8 @@ def _devices(arguments: Namespace) -> int:
 
 def _points(arguments: Namespace) -> int:
     if arguments.family is not None:
-        raise StopError("--family chooses devices", "leave out DEVICE, or --family")
-    device = open_device(arguments)
+        raise common.StopError("--family chooses devices", "leave out DEVICE, or --family")
+    device = common.open_device(arguments)
     tests = [
         (test, given) for name, (_, _, test) in _FILTERS.items() if (given := getattr(arguments, name)) is not None
     ]
@@ -138,7 +129,7 @@ def _matches(globs: Iterable[str], names: Iterable[str]) -> bool:
 def _print(form: str, head: Sequence[str], rows: Sequence[Sequence[str]], data: Mapping[str, object]) -> int:
     """Print the list; return the exit code."""
     if form == "json":
-        print_json(data)
+        common.print_json(data)
     elif form == "csv":
         print_lines([[("", ",".join(map(csv_cell, row)))] for row in (head, *rows)])
     elif rows:
@@ -147,5 +138,5 @@ def _print(form: str, head: Sequence[str], rows: Sequence[Sequence[str]], data: 
             cells = "  ".join(f"{visible(cell):<{width}}" for cell, width in zip(row, widths, strict=True))
             print_lines([[("" if number else "strong", cells.rstrip())]])
     else:
-        usage_error("nothing matches", "the list without options shows how its values are written")
+        common.usage_error("nothing matches", "the list without options shows how its values are written")
     return FINE if rows else FINDINGS

@@ -5,16 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 
-from fieldscribe.cli.common import (
-    StopError,
-    add_descriptions,
-    add_format,
-    add_repeated,
-    device_file,
-    print_json,
-    searched_devices,
-    usage_error,
-)
+from fieldscribe.cli import common
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_analysis
@@ -44,38 +35,38 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("words", nargs="+", metavar="WORD", help="a word, a code, a section, or a number with its kind: error:21h")
-    add_repeated(parser, "--device", "DEVICE", "only this device")
-    add_descriptions(parser)
+    common.add_repeated(parser, "--device", "DEVICE", "only this device")
+    common.add_descriptions(parser)
     add("--most", type=int, default=_MOST, metavar="N", help=f"print the nearest N, 0 for all (default: {_MOST})")
-    add_format(parser)
+    common.add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Search and print the hits; return the exit code."""
     words = [word for text in arguments.words for word in text.split()]
     if not words:
-        raise StopError("there is no word to search", "give a word, a code or a section")
+        raise common.StopError("there is no word to search", "give a word, a code or a section")
     entries = _entries(arguments)
     hits = search(entries, words)
     near = [] if hits else near_words(entries, words)
     if arguments.format == "json":
-        print_json({"words": words, "hits": [_as_data(hit) for hit in hits], "near": near})
+        common.print_json({"words": words, "hits": [_as_data(hit) for hit in hits], "near": near})
     elif hits:
         _print(hits, arguments.most)
     else:
-        usage_error(f"nothing has `{shortened(' '.join(words))}`", did_you_mean(near))
+        common.usage_error(f"nothing has `{shortened(' '.join(words))}`", did_you_mean(near))
     return FINE if hits else FINDINGS
 
 
 def _entries(arguments: Namespace) -> list[Entry]:
     """Return the entries of the chosen devices; those with errors are left out, with a message."""
     folder = arguments.descriptions
-    named = {name: device_file(Namespace(device=name, descriptions=folder)) for name in arguments.device}
+    named = {name: common.device_file(Namespace(device=name, descriptions=folder)) for name in arguments.device}
     entries: list[Entry] = []
-    for name, file in (named or searched_devices(arguments)).items():
+    for name, file in (named or common.searched_devices(arguments)).items():
         subject = load_analysis(file, Report())
         if subject is None:
-            usage_error(f"`{name}` has errors and is left out", f"fieldscribe check {name}")
+            common.usage_error(f"`{name}` has errors and is left out", f"fieldscribe check {name}")
         else:
             entries += entries_of(subject)
     return entries

@@ -53,7 +53,8 @@ class _SpanItems:
             if at == place.addresses[0] and self._is_whole(point, place) and self._directory.teaches(point)
         ]
         if taught:
-            self._state = state if span.learned else state.for_one_frame()
+            # the points of one frame are settings for each other; what only they tell is not kept
+            self._state = state if span.learned else replace(state, settings=dict(state.settings), changed=set())
             self._state.learn(taught)
 
     def items_at(self, at: int) -> list[Item] | None:

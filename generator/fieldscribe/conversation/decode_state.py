@@ -162,10 +162,6 @@ class DecodeState:
                 self.settings[name] = setting
                 self.changed.add(name)
 
-    def for_one_frame(self) -> DecodeState:
-        """Return a state for a frame whose points are settings for each other; what it learns is not kept."""
-        return replace(self, settings=dict(self.settings), changed=set())
-
     def forget(self, address: int) -> None:
         """Forget the numbers that the device derives from a parameter: the parameter was written."""
         for written in {point.name for point in self.directory.at(PARAMETER, address)}:

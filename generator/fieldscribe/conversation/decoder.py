@@ -12,19 +12,7 @@ from fieldscribe.conversation.address_items import element_items, span_items, wo
 from fieldscribe.conversation.decode_state import DecodeState, Directory, PointFormatter
 from fieldscribe.conversation.encoding import family_part
 from fieldscribe.conversation.telegram_items import mask_items, piece_items, process_items
-from fieldscribe.families.decoded_frame import (
-    MOST_STATES,
-    CutFrame,
-    DecodedFrame,
-    Element,
-    FrameDecoder,
-    Masks,
-    OpenRequests,
-    Piece,
-    ProcessData,
-    Span,
-    Word,
-)
+from fieldscribe.families import decoded_frame
 from fieldscribe.families.frame_results import FrameResult, Item, Options
 from fieldscribe.model import Device, Frame
 from fieldscribe.text import line
@@ -33,12 +21,12 @@ from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import spaced
 
 _ITEMS: Mapping[type, Callable[[DecodeState, Any], Iterable[Item]]] = {
-    Span: span_items,
-    Element: element_items,
-    Word: word_items,
-    ProcessData: process_items,
-    Masks: mask_items,
-    Piece: piece_items,
+    decoded_frame.Span: span_items,
+    decoded_frame.Element: element_items,
+    decoded_frame.Word: word_items,
+    decoded_frame.ProcessData: process_items,
+    decoded_frame.Masks: mask_items,
+    decoded_frame.Piece: piece_items,
     Item: lambda _state, item: (item,),
 }
 """Each kind of content of a frame, and the function that makes items of it."""
@@ -50,23 +38,23 @@ def decode(device: Device, settings: Settings, texts: Sequence[str], options: Op
     return [*decoder.requests(options), *decoder.pasted(texts)]
 
 
-def frame_decoder(device: Device, options: Options) -> FrameDecoder:
+def frame_decoder(device: Device, options: Options) -> decoded_frame.FrameDecoder:
     """Return the family's decoder for frames of the device. Raises UnclearError."""
-    decoder: FrameDecoder = family_part(device, "frame_decoder").decoder_of(device, options)
+    decoder: decoded_frame.FrameDecoder = family_part(device, "frame_decoder").decoder_of(device, options)
     return decoder
 
 
 class StreamDecoder:
     """Decodes the frames of one line in their order."""
 
-    def __init__(self, device: Device, settings: Settings, frame_decoder: FrameDecoder) -> None:
+    def __init__(self, device: Device, settings: Settings, frame_decoder: decoded_frame.FrameDecoder) -> None:
         given, directory = dict(settings), Directory(device)
         formatters: dict[Any, PointFormatter] = {}
         self._frame_decoder, self._framings, self._directory = frame_decoder, device.bus.framings, directory
         misprinted = (frame for frame in reversed(device.frames) if not frame.valid and frame.family_facts is None)
         self._misprints = {frame.printed: frame for frame in misprinted}
-        self._open_requests = OpenRequests()
-        self._state_of_unit = lru_cache(MOST_STATES)(
+        self._open_requests = decoded_frame.OpenRequests()
+        self._state_of_unit = lru_cache(decoded_frame.MOST_STATES)(
             lambda _unit: DecodeState(device, directory, formatters, given, dict(given))
         )
 
@@ -89,20 +77,20 @@ class StreamDecoder:
         result, findings = decoded.result, decoded.result.findings
         if self._framings and result.framing not in self._framings:  # the device does not use it
             findings = (*findings, f"the manual knows only {' and '.join(self._framings).upper()} frames")
-        notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, CutFrame) else ()))
+        notes = (*self._warnings(decoded), *((frame.note,) if isinstance(frame, decoded_frame.CutFrame) else ()))
         return replace(result, items=items, findings=findings, notes=result.notes + notes)
 
-    def _warnings(self, decoded: DecodedFrame) -> Iterator[str]:
+    def _warnings(self, decoded: decoded_frame.DecodedFrame) -> Iterator[str]:
         """Yield what may be a mistake in a frame: an address that counts from 1, a misprint of the manual."""
         for content in decoded.contents if decoded.request else ():
-            if isinstance(content, Span):
+            if isinstance(content, decoded_frame.Span):
                 yield from _off_by_one(self._directory, content)
         misprint = self._misprints.get(decoded.result.data)
         if misprint is not None:
             yield _misprint_text(misprint)
 
 
-def _off_by_one(directory: Directory, span: Span) -> Iterator[str]:
+def _off_by_one(directory: Directory, span: decoded_frame.Span) -> Iterator[str]:
     """Return a note if a point starts one below the address, and none at it: probably a Modicon number (from 1)."""
     if span.address == 0 or directory.starting_at(span.space, span.address):
         return

@@ -15,6 +15,7 @@ from fieldscribe.wording import without_lines
 from fieldscribe.wording.exact import hex_text
 
 _MOST_NAMES = 12
+_PLURALS = {"erratum": "errata"}
 _MOST_SYMBOLS = 3
 _OTHER_LINES = "other lines of the manual"
 _ARROW = "\N{RIGHTWARDS ARROW}"
@@ -128,12 +129,9 @@ def _subject(group: _Group, quoted: Callable[[str], str] = str) -> str:
     if group.first.is_rename and len(group.first.things) == 1:
         thing = group.first.things[0]
         return quoted(thing.old or "" if thing.kind == "point" else f"{thing.kind}:{thing.old}")
+    kind = group.first.things[0].kind
     few = ", ".join(map(quoted, subjects[:_MOST_NAMES])) + _more(len(subjects) - _MOST_NAMES)
-    return few if len(subjects) == 1 else f"{len(subjects)} {_many(group.first.things[0].kind)} ({few})"
-
-
-def _many(kind: str) -> str:
-    return {"erratum": "errata"}.get(kind, f"{kind}s")
+    return few if len(subjects) == 1 else f"{len(subjects)} {_PLURALS.get(kind, f'{kind}s')} ({few})"
 
 
 def _sentence(difference: Difference, arrow: str = "->") -> str:

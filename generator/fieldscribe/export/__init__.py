@@ -8,20 +8,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from fieldscribe.facts.devices import (
-    CODE,
-    COMMAND,
-    DOCUMENT,
-    ERRATUM,
-    FORMAT,
-    GROUP,
-    MESSAGE,
-    TELEGRAM,
-    codes_table,
-    device_table,
-    frame_table,
-    limits_table,
-)
+from fieldscribe.facts import devices
 from fieldscribe.facts.points import DIGITS, ENTRY, FLAG, FLAG_VALUE, POINT, SPECIAL
 from fieldscribe.facts.schema import DEFINITIONS, record
 from fieldscribe.facts.table import Context, FactTable, exported
@@ -35,7 +22,7 @@ class ExportError(ValueError):
 
 def export_model(device: Device) -> dict[str, Any]:
     """Return the device as plain dictionaries, lists, texts and integers, ready for `json.dumps`."""
-    return exported(device_table(device.family), device, Context(device))
+    return exported(devices.device_table(device.family), device, Context(device))
 
 
 def export_form(form: str, device: Device, unit: int | None) -> bytes:
@@ -52,31 +39,31 @@ def schema_text() -> str:
     """Return the JSON Schema of the exported model."""
     first = next(iter(FAMILIES))
     tables: dict[str, tuple[str, FactTable]] = {
-        "document": ("A manual that facts were taken from.", DOCUMENT),
-        "limits": ("What the line allows.", limits_table(first)),
-        "group": ("Points that the manual presents together.", GROUP),
+        "document": ("A manual that facts were taken from.", devices.DOCUMENT),
+        "limits": ("What the line allows.", devices.limits_table(first)),
+        "group": ("Points that the manual presents together.", devices.GROUP),
         "point": ("One addressable datum. Records, sets and arrays are expanded.", POINT),
         "special": ("A special code, or a band of them.", SPECIAL),
         "entry": ("A number with a name.", ENTRY),
         "flag": ("A bit, or several, inside a word.", FLAG),
         "flag_value": ("One number of a flag with a name.", FLAG_VALUE),
         "digits": ("The decimal digits of a word.", DIGITS),
-        "command": ("A named write of a constant.", COMMAND),
-        "message": ("A layout of eight bytes with an identifier.", MESSAGE),
-        "telegram": ("A layout of words that is sent again and again.", TELEGRAM),
-        "frame": ("A worked frame of the manual.", frame_table(first)),
-        "code": ("A number of the protocol with a name.", CODE),
-        "codes": ("Numbers of the protocol.", codes_table(first)),
-        "erratum": ("A place where the manual is wrong, unclear or silent.", ERRATUM),
+        "command": ("A named write of a constant.", devices.COMMAND),
+        "message": ("A layout of eight bytes with an identifier.", devices.MESSAGE),
+        "telegram": ("A layout of words that is sent again and again.", devices.TELEGRAM),
+        "frame": ("A worked frame of the manual.", devices.frame_table(first)),
+        "code": ("A number of the protocol with a name.", devices.CODE),
+        "codes": ("Numbers of the protocol.", devices.codes_table(first)),
+        "erratum": ("A place where the manual is wrong, unclear or silent.", devices.ERRATUM),
     }
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "$id": f"urn:fieldscribe:export:{FORMAT}",
+        "$id": f"urn:fieldscribe:export:{devices.FORMAT}",
         "title": "The exported model of a device (fieldscribe export json)",
         "description": "One device with every record, set and array expanded. Tools rely on it: it changes only with "
         "`format`. JSON numbers are integers; every other exact number is text. Numbers are raw unless a key says "
         "otherwise.",
-        **_object(device_table(first)),
+        **_object(devices.device_table(first)),
         "$defs": {
             **DEFINITIONS,
             **{name: {"description": doc, **_object(table)} for name, (doc, table) in tables.items()},

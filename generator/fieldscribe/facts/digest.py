@@ -21,13 +21,8 @@ from fieldscribe.model import Device, Point
 
 def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
     """Return a device, and the same as code sees it, both with the digest for code."""
-    digest = code_digest(plain)
+    digest = _digest(plain, Context(plain, for_code=True), ("points",))
     return replace(device, digest=digest), replace(plain, digest=digest)
-
-
-def code_digest(plain: Device) -> str:
-    """Return the digest of all facts that code may depend on; `plain` is the device as code sees it."""
-    return _digest(plain, Context(plain, for_code=True), ("points",))
 
 
 def facts_digest(device: Device) -> str:

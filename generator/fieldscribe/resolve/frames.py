@@ -67,7 +67,7 @@ def frames_of(scope: Scope, bus: Bus, symbols: SymbolTable, points: Mapping[str,
 
 def _frame(scope: Scope, bus: Bus, node: Map, data: bytes, meaning: Mapping[str, int]) -> Frame:
     answers = node.get("answers")
-    framing = framing_of(scope, bus, node)
+    framing = str(node.get("framing") or (bus.framings or scope.family.framings)[0])
     _foreign_keys(scope, node)
     return Frame(
         name=node["name"],
@@ -83,12 +83,6 @@ def _frame(scope: Scope, bus: Bus, node: Map, data: bytes, meaning: Mapping[str,
         errata=(),
         family_facts=reader_of(scope).frame(scope, node, framing),
     )
-
-
-def framing_of(scope: Scope, bus: Bus, node: Map) -> str:
-    """Return the framing of a frame: its own, else the first one of the bus or the family."""
-    usual = bus.framings[0] if bus.framings else scope.family.framings[0]
-    return str(node.get("framing") or usual)
 
 
 def _known_framing(scope: Scope, node: Map) -> bool:

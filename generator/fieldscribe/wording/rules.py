@@ -125,12 +125,13 @@ def _lifted_text(bound: Bound, side: str, line: Line, points: Points | None) -> 
     """Return the exception of a limit: the numbers of other points that lift it, and the limit that then applies."""
     if isinstance(bound, int) or not bound.unless:
         return ""
-    cases = [f"{name_of(name, points)}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
+    cases = [f"{name_of(name, points)}.raw is {' or '.join(map(band_text, codes))}" for name, codes in bound.unless]
     fixed = bound.outermost(low=side == "low")
     return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {converted(fixed, line)}"
 
 
-def _band_text(band: tuple[int, int]) -> str:
+def band_text(band: tuple[int, int]) -> str:
+    """Return a range of raw numbers, or its only one: `1..4`."""
     return str(band[0]) if band[0] == band[1] else f"{band[0]}..{band[1]}"
 
 

@@ -8,19 +8,7 @@ from dataclasses import dataclass, replace
 from fieldscribe.checks import frames_agree
 from fieldscribe.checks.frames_agree import Seen, Words
 from fieldscribe.checks.reachability import report_missing
-from fieldscribe.families.can import identifier_of
-from fieldscribe.families.can.frames import (
-    LENGTH,
-    CanFrame,
-    Parsed,
-    carries,
-    parse,
-    places,
-    request_and_answer,
-    sums,
-    telegram_words,
-    unit_of,
-)
+from fieldscribe.families.can import frames, identifier_of
 from fieldscribe.model import Frame, Message, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.frames import LocatedFrame
@@ -65,12 +53,12 @@ def _missing_messages(subject: Analysis, points: list[Point]) -> Iterator[tuple[
     described = list(subject.scope.listed("messages"))
     if subject.scope.is_lost("messages", "messages") or len(subject.messages) < len(described):
         return  # the missing message may be one that could not be read
-    answered = {message.answers for message in subject.messages if carries(message, "raw")}
+    answered = {message.answers for message in subject.messages if frames.carries(message, "raw")}
     requests = [
-        message for message in subject.messages if message.direction == "request" and carries(message, "address")
+        message for message in subject.messages if message.direction == "request" and frames.carries(message, "address")
     ]
-    reads = any(not carries(message, "raw") and message.name in answered for message in requests)
-    write_request, _ = request_and_answer(subject.messages, writes=True)
+    reads = any(not frames.carries(message, "raw") and message.name in answered for message in requests)
+    write_request, _ = frames.request_and_answer(subject.messages, writes=True)
     hint = "add {} under `messages`, or correct `access`"
     if not reads:
         what_to_add = hint.format("a request with `address`, and a response with `raw` that answers it")
@@ -86,14 +74,14 @@ class _Reading:
 
     message: Message
     unit: int
-    parsed: Parsed
+    parsed: frames.Parsed
 
 
 def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> Seen:
     """Read a worked frame as a message of the device; `Seen.request` is a `_Reading`."""
     frame = open_frame.frame
-    if len(frame.printed) != LENGTH:
-        message = f"a frame has {LENGTH} bytes, {len(frame.printed)} are printed"
+    if len(frame.printed) != frames.LENGTH:
+        message = f"a frame has {frames.LENGTH} bytes, {len(frame.printed)} are printed"
         return frames_agree.report_no_frame(subject, open_frame, message)
     request: _Reading | None = None
     if frame.direction == "response":
@@ -113,12 +101,12 @@ def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> 
 
 def _readings(subject: Analysis, frame: Frame, number: int, request: _Reading | None) -> Iterator[_Reading]:
     """Yield the frame read as each message that it could be."""
-    read_frame = CanFrame(number, frame.printed)
+    read_frame = frames.CanFrame(number, frame.printed)
     for message in subject.messages:
         if message.direction == frame.direction and (request is None or message.answers == request.message.name):
-            unit = unit_of(message, read_frame)
+            unit = frames.unit_of(message, read_frame)
             unit = subject.bus.units[0] if unit is None else unit
-            yield _Reading(message, unit, parse(message, unit, read_frame))
+            yield _Reading(message, unit, frames.parse(message, unit, read_frame))
 
 
 def _with_right_checksum(
@@ -130,11 +118,11 @@ def _with_right_checksum(
     wrong = by_status.get("wrong_check")
     if "ok" in by_status or wrong is None:
         return frame, by_status.get("ok")
-    data, (here, right) = bytearray(frame.printed), sums(wrong.message, frame.printed)
-    for place, due in zip(places(wrong.message, "xor"), right, strict=True):
+    data, (here, right) = bytearray(frame.printed), frames.sums(wrong.message, frame.printed)
+    for place, due in zip(frames.places(wrong.message, "xor"), right, strict=True):
         data[place] = due
     frames_agree.report_wrong_sum(subject, open_frame, "xor", here, right)
-    parsed = parse(wrong.message, wrong.unit, CanFrame(number, bytes(data)))
+    parsed = frames.parse(wrong.message, wrong.unit, frames.CanFrame(number, bytes(data)))
     return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)
 
 
@@ -157,10 +145,10 @@ def _fault(
 def _words(subject: Analysis, reading: _Reading, frame: Frame) -> Words:
     """Return the word of a parameter, and the words of telegrams in a frame."""
     message, parsed = reading.message, reading.parsed
-    words = telegram_words(message, CanFrame(0, frame.corrected))
+    words = frames.telegram_words(message, frames.CanFrame(0, frame.corrected))
     telegrams = [name for name, (telegram, _) in subject.places.telegrams.items() if telegram.message == message.name]
     carried = {(name, address, 0): (word,) for name in telegrams for address, word in words.items()}
-    return carried | ({("parameter", parsed.address, 0): (parsed.raw,)} if carries(message, "raw") else {})
+    return carried | ({("parameter", parsed.address, 0): (parsed.raw,)} if frames.carries(message, "raw") else {})
 
 
 CHECKS = (messages_differ, parameters_are_reachable)

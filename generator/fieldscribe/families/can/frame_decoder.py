@@ -38,7 +38,9 @@ class CanFrameDecoder:
     def __init__(self, device: Device, can_id: str | None = None) -> None:
         self._device = device
         self._identifier = None if can_id is None else read_identifier(can_id)
-        self._receiver = lru_cache(MOST_STATES)(self._new_receiver)
+        self._receiver = lru_cache(MOST_STATES)(
+            lambda message, unit: Receiver(self._telegrams[message], self._messages[message], unit)
+        )
         self._telegrams = {telegram.message: telegram for telegram in reversed(device.telegrams)}
         self._messages = {message.name: message for message in device.messages}
         asks = [message for message in device.messages if message.direction == "request" and carries(message, "raw")]
@@ -103,9 +105,6 @@ class CanFrameDecoder:
         receiver = self._receiver(message.name, head.unit or 0)
         piece = Piece(telegram, receiver.positions[head.slot], receiver.keep(head.slot, pasted.frame), receiver)
         return DecodedFrame(result, (piece,), head.unit)
-
-    def _new_receiver(self, message: str, unit: int) -> Receiver:
-        return Receiver(self._telegrams[message], self._messages[message], unit)
 
     def _parameter(self, head: Head, pasted: Pasted, requests: OpenRequests) -> DecodedFrame:
         result, frame = self._result(head, pasted), pasted.frame

@@ -5,17 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fieldscribe.arithmetic.words import words_in
-from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, Profile
-from fieldscribe.families.modbus.frames import (
-    Flaw,
-    Unwrapped,
-    data_size,
-    frame,
-    pack_bits,
-    reply_length,
-    unwrap,
-    values_in,
-)
+from fieldscribe.families.modbus import FUNCTIONS, READS, SINGLE, Profile, frames
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +43,7 @@ def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]
     status = _refusal(profile, request) if framing in profile.framings else "bad_framing"
     if status != "ok":
         return status, b""
-    return "ok", frame(framing, request.unit, request.transaction, _pdu(profile, request))
+    return "ok", frames.frame(framing, request.unit, request.transaction, _pdu(profile, request))
 
 
 def _refusal(profile: Profile, request: Request) -> str:
@@ -78,7 +68,7 @@ def _pdu(profile: Profile, request: Request) -> bytes:
     if request.function in READS | SINGLE:
         return head + (_second_word(request) or 0).to_bytes(2, "big")
     if request.function == 0x0F:
-        data = pack_bits(request.values, profile.pad_coil_bytes_even)
+        data = frames.pack_bits(request.values, profile.pad_coil_bytes_even)
     else:
         data = b"".join(value.to_bytes(2, "big") for value in request.values)
     return head + request.count.to_bytes(2, "big") + bytes((len(data),)) + data
@@ -93,61 +83,61 @@ def _second_word(request: Request) -> int | None:
     return 0xFF00 * request.values[0] if request.function == 0x05 else request.values[0]
 
 
-def parse_request(framing: str, data: bytes) -> Request | Flaw:
+def parse_request(framing: str, data: bytes) -> Request | frames.Flaw:
     """Return the request in the bytes, or what is wrong with them. Any bytes are safe."""
-    unwrapped = unwrap(framing, data)
+    unwrapped = frames.unwrap(framing, data)
     return unwrapped.flaw or request_in(unwrapped)
 
 
-def request_in(unwrapped: Unwrapped) -> Request | Flaw:
+def request_in(unwrapped: frames.Unwrapped) -> Request | frames.Flaw:
     """Return the request in a PDU, also out of a flawed frame; else the first flaw.
 
     `bad_function` (one that is not supported here), `short_request`, `long_request`, `bad_count`, and the flaws of
     the data that it writes.
     """
     pdu = unwrapped.pdu
-    flaw = _head_flaw(pdu) if pdu else unwrapped.flaw or Flaw("short_request", 0, 5)
+    flaw = _head_flaw(pdu) if pdu else unwrapped.flaw or frames.Flaw("short_request", 0, 5)
     if flaw is not None:
         return flaw
     function, (address, number) = pdu[0], words_in(pdu[1:5])
     count = 1 if function in SINGLE else number
     if not 1 <= count <= FUNCTIONS[function].most:
-        return Flaw("bad_count", count, FUNCTIONS[function].most)
+        return frames.Flaw("bad_count", count, FUNCTIONS[function].most)
     one_value = function in READS | SINGLE
     values = _one_value(function, number) if one_value else _several_values(function, count, pdu[5:])
-    if isinstance(values, Flaw):
+    if isinstance(values, frames.Flaw):
         return values
     return Request(unwrapped.unit or 0, function, address, count, values, unwrapped.transaction)
 
 
-def _head_flaw(pdu: bytes) -> Flaw | None:
+def _head_flaw(pdu: bytes) -> frames.Flaw | None:
     """Return what is wrong with the function of a request, or with the length that the function gives."""
     function = pdu[0]
     if function not in FUNCTIONS:
-        return Flaw("bad_function", of=function)
+        return frames.Flaw("bad_function", of=function)
     if len(pdu) < 5:
-        return Flaw("short_request", len(pdu), 5, function)
-    return Flaw("long_request", len(pdu), 5, function) if function in READS | SINGLE and len(pdu) > 5 else None
+        return frames.Flaw("short_request", len(pdu), 5, function)
+    return frames.Flaw("long_request", len(pdu), 5, function) if function in READS | SINGLE and len(pdu) > 5 else None
 
 
-def _one_value(function: int, number: int) -> tuple[int, ...] | Flaw:
+def _one_value(function: int, number: int) -> tuple[int, ...] | frames.Flaw:
     """Return the value in the second word of a single write; nothing for a read."""
     if function == 0x05:
-        return Flaw("bad_coil", number) if number % 0xFF00 else (number // 0xFF00,)
+        return frames.Flaw("bad_coil", number) if number % 0xFF00 else (number // 0xFF00,)
     return (number,) if function in SINGLE else ()
 
 
-def _several_values(function: int, count: int, rest: bytes) -> tuple[int, ...] | Flaw:
+def _several_values(function: int, count: int, rest: bytes) -> tuple[int, ...] | frames.Flaw:
     """Return the values of a write of several items, from the bytes behind the count: the byte count and the data."""
-    data, size = rest[1:], data_size(function, count)
+    data, size = rest[1:], frames.data_size(function, count)
     if not rest:
-        return Flaw("no_byte_count")
+        return frames.Flaw("no_byte_count")
     if rest[0] != len(data):
-        return Flaw("bad_byte_count", len(data), rest[0])
+        return frames.Flaw("bad_byte_count", len(data), rest[0])
     # coils may be padded to an even number of bytes
     if len(data) not in (size, size + (size & 1)):
-        return Flaw("bad_coils" if function == 0x0F else "bad_words", len(data), size, count)
-    return values_in(function, data)[:count]
+        return frames.Flaw("bad_coils" if function == 0x0F else "bad_words", len(data), size, count)
+    return frames.values_in(function, data)[:count]
 
 
 def parse_reply(framing: str, request: Request, data: bytes) -> Reply:
@@ -159,10 +149,10 @@ def parse_reply(framing: str, request: Request, data: bytes) -> Reply:
     `wrong_function`, `bad_byte_count` (a read brings another number of bytes than requested), `short_frame` or
     `long_frame` (a write that does not repeat two words), `echo_mismatch` (a write or 08h repeats other words).
     """
-    return reply_in(request, unwrap(framing, data))
+    return reply_in(request, frames.unwrap(framing, data))
 
 
-def reply_in(request: Request, unwrapped: Unwrapped) -> Reply:
+def reply_in(request: Request, unwrapped: frames.Unwrapped) -> Reply:
     """Return what `parse_reply` returns, for bytes that are unwrapped already."""
     if request.function not in FUNCTIONS:
         return Reply("bad_function")
@@ -183,13 +173,13 @@ def confirmed_write(pdu: bytes) -> Request | None:
     return Request(0, pdu[0], address, count)
 
 
-def _frame_status(request: Request, unwrapped: Unwrapped) -> str:
+def _frame_status(request: Request, unwrapped: frames.Unwrapped) -> str:
     """Return what is wrong with the frame of a reply or its unit; an RTU frame has the length of its function."""
     pdu, flaw = unwrapped.pdu, unwrapped.flaw
     if len(pdu) < 2:
         return "short_frame"
-    if unwrapped.framing == "rtu" and pdu[0] & 0x7F == request.function and len(pdu) != reply_length(pdu):
-        return _size_status(len(pdu), reply_length(pdu))
+    if unwrapped.framing == "rtu" and pdu[0] & 0x7F == request.function and len(pdu) != frames.reply_length(pdu):
+        return _size_status(len(pdu), frames.reply_length(pdu))
     if flaw is not None:
         return _size_status(flaw.here, flaw.due) if flaw.status == "bad_length" else flaw.status
     if unwrapped.framing == "tcp" and unwrapped.transaction != request.transaction:
@@ -204,10 +194,10 @@ def _size_status(here: int, due: int) -> str:
 def _parse_pdu(request: Request, pdu: bytes) -> Reply:
     """Return the reply in a PDU of at least two bytes that carries the request's function."""
     if request.function in READS:
-        size = data_size(request.function, request.count)
+        size = frames.data_size(request.function, request.count)
         if pdu[1] != size or len(pdu) != 2 + size:
             return Reply("bad_byte_count")
-        return Reply("ok", values_in(request.function, pdu[2:])[: request.count])
+        return Reply("ok", frames.values_in(request.function, pdu[2:])[: request.count])
     if len(pdu) != 5:
         return Reply(_size_status(len(pdu), 5))
     if words_in(pdu[1:]) != (request.address, _second_word(request)):

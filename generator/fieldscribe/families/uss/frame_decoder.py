@@ -7,19 +7,7 @@ from dataclasses import replace
 
 from fieldscribe.families.decoded_frame import DecodedFrame, Element, Masks, OpenRequests, ProcessData
 from fieldscribe.families.frame_results import FrameResult, Options
-from fieldscribe.families.uss import of_bus, remarks
-from fieldscribe.families.uss.parts import (
-    MASKS,
-    NO_RIGHTS,
-    REFUSED,
-    RESPONSE_WIDTHS,
-    SIZE,
-    Link,
-    Part,
-    link_of,
-    part_of,
-    split,
-)
+from fieldscribe.families.uss import of_bus, parts, remarks
 from fieldscribe.families.uss.telegrams import Request, Unwrapped, answer_in, bare_words, frames_in, request_in, unwrap
 from fieldscribe.model import Device
 from fieldscribe.pasted_numbers import rejoined, typed_bytes
@@ -31,7 +19,7 @@ _ANSWERS = ("ok", "refused", "no_rights", "no_answer")
 class UssFrameDecoder:
     """Decodes the telegrams of one device, with the settings of its link."""
 
-    def __init__(self, device: Device, link: Link, framing: str = "uss", direction: str | None = None) -> None:
+    def __init__(self, device: Device, link: parts.Link, framing: str = "uss", direction: str | None = None) -> None:
         self._device = device
         self._link = link if framing == "uss" else replace(link, pzd=0)
         self._framing = framing
@@ -84,14 +72,14 @@ class UssFrameDecoder:
 
     def _could_answer(self, words: tuple[int, ...]) -> bool:
         """Return True if these words, read as a request, carry values: they could be a response instead."""
-        part = part_of(split(words, self._link, request=True).part)
+        part = parts.part_of(parts.split(words, self._link, request=True).part)
         return part is not None and any(part.values) and part.code != 0
 
     def _request(self, base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
-        divided = split(words, self._link, request=True)
+        divided = parts.split(words, self._link, request=True)
         if not divided.fits:
             base = replace(base, faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=True)))
-        part, data = part_of(divided.part), ProcessData("request", divided.words)
+        part, data = parts.part_of(divided.part), ProcessData("request", divided.words)
         unit = base.unit or 0
         if part is None:
             kind, text = ("request", "request, process data") if self._link.pkw == 0 else ("unreadable", "not readable")
@@ -116,12 +104,12 @@ class UssFrameDecoder:
     def _response(
         self, base: FrameResult, words: tuple[int, ...], open_request: Request | None, status: str
     ) -> DecodedFrame:
-        divided = split(words, self._link, request=False)
+        divided = parts.split(words, self._link, request=False)
         if not divided.fits:
             base = replace(base, faults=(*base.faults, remarks.misfit_text(len(words), self._link, request=False)))
         elif status and status not in _ANSWERS:
             base = replace(base, faults=(*base.faults, no_answer_text(status)))
-        part, data = part_of(divided.part), ProcessData("response", divided.words)
+        part, data = parts.part_of(divided.part), ProcessData("response", divided.words)
         answers = status != "no_answer"
         if part is None:
             result = replace(base, kind="reply", summary=f"{base.summary}: reply, process data")
@@ -129,21 +117,21 @@ class UssFrameDecoder:
         response = remarks.code_text(self._device.bus.codes("responses"), part.code, "response")
         text, details = self._element_and_details(part, "response")
         result = replace(base, kind="reply", summary=f"{base.summary}: reply, {response}{text}", details=details)
-        if part.code in (REFUSED, NO_RIGHTS):
+        if part.code in (parts.REFUSED, parts.NO_RIGHTS):
             result = self._refusal(result, part, None if open_request is None else open_request.task)
-        width = RESPONSE_WIDTHS.get(part.code, 0)
+        width = parts.RESPONSE_WIDTHS.get(part.code, 0)
         element = Element(
             part.parameter,
             part.index,
             width,
             part.value(width, self._link),
             part.values,
-            refused=part.code in (REFUSED, NO_RIGHTS),
-            counts=part.code == SIZE,
+            refused=part.code in (parts.REFUSED, parts.NO_RIGHTS),
+            counts=part.code == parts.SIZE,
         )
         return DecodedFrame(result, (element, data) if part.code else (data,), base.unit, answers=answers)
 
-    def _element_and_details(self, part: Part, key: str) -> tuple[str, dict[str, object]]:
+    def _element_and_details(self, part: parts.Part, key: str) -> tuple[str, dict[str, object]]:
         """Return the element of a parameter part in words, and the part as details for JSON."""
         if not part.code:
             return "", {key: part.code}
@@ -151,9 +139,9 @@ class UssFrameDecoder:
         details: dict[str, object] = {key: part.code, "parameter": part.parameter, "index": part.index}
         return f", {element_text(part.parameter, part.index, alone=alone)}", details
 
-    def _refusal(self, base: FrameResult, part: Part, task: int | None) -> FrameResult:
+    def _refusal(self, base: FrameResult, part: parts.Part, task: int | None) -> FrameResult:
         """Return the result of a response that refuses the request."""
-        if part.code == NO_RIGHTS or not part.values:
+        if part.code == parts.NO_RIGHTS or not part.values:
             return replace(base, kind="exception")
         error = part.values[0]
         return replace(
@@ -178,13 +166,15 @@ class UssFrameDecoder:
 
 def decoder_of(device: Device, options: Options) -> UssFrameDecoder:
     """Return the decoder for the telegrams of the device. Raises UnclearError."""
-    return UssFrameDecoder(device, link_of(device, options), options.framing or "uss", options.own.get("direction"))
+    return UssFrameDecoder(
+        device, parts.link_of(device, options), options.framing or "uss", options.own.get("direction")
+    )
 
 
 def _broadcast(base: FrameResult, words: tuple[int, ...]) -> DecodedFrame:
     """Return the result of a broadcast: four words of masks, then process data."""
     result = replace(base, kind="broadcast", summary=f"{base.summary}: broadcast, no unit answers")
-    if len(words) < MASKS:
-        fault = f"a broadcast starts with {MASKS} words of masks, here are {len(words)}"
+    if len(words) < parts.MASKS:
+        fault = f"a broadcast starts with {parts.MASKS} words of masks, here are {len(words)}"
         return DecodedFrame(replace(result, faults=(*result.faults, fault)))
-    return DecodedFrame(result, (Masks(words[:MASKS]), ProcessData("request", words[MASKS:])))
+    return DecodedFrame(result, (Masks(words[: parts.MASKS]), ProcessData("request", words[parts.MASKS :])))

@@ -9,19 +9,7 @@ from operator import xor
 
 from fieldscribe.arithmetic.words import words_in
 from fieldscribe.families.decoded_frame import cut_apart
-from fieldscribe.families.uss import FAMILY, of_bus
-from fieldscribe.families.uss.parts import (
-    DOUBLE_RESPONSES,
-    MASKS,
-    NO_RIGHTS,
-    REFUSED,
-    TASK_WIDTHS,
-    Link,
-    Part,
-    parameter_words,
-    part_of,
-    split,
-)
+from fieldscribe.families.uss import FAMILY, of_bus, parts
 from fieldscribe.model import Bus
 
 START = 0x02
@@ -111,13 +99,13 @@ def bare_words(data: bytes) -> Unwrapped:
     return Unwrapped(data, None, words_in(data) if whole else None, () if whole else ("no_words",))
 
 
-def request_in(unit: int, part: Part, link: Link, words: tuple[int, ...]) -> Request:
+def request_in(unit: int, part: parts.Part, link: parts.Link, words: tuple[int, ...]) -> Request:
     """Return the request in a parameter part and process data."""
-    width = TASK_WIDTHS.get(part.code, 0)
+    width = parts.TASK_WIDTHS.get(part.code, 0)
     return Request(unit, part.code, part.parameter, part.index, width, part.value(width, link) or 0, words)
 
 
-def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
+def build(bus: Bus, link: parts.Link, request: Request) -> tuple[str, bytes]:
     """Return ("ok", the bytes of a request), or (status, b"") if it must not be sent.
 
     The first failure wins: `bad_link` (a length that the device does not know, or other words of process data),
@@ -131,11 +119,11 @@ def build(bus: Bus, link: Link, request: Request) -> tuple[str, bytes]:
         high, low = divmod(request.value, 0x10000)
         if request.width == 1:
             high, low = (0, low) if link.single_last else (low, 0)
-        words = (*parameter_words(request.task, request.parameter, request.index), high, low)[: link.sent]
+        words = (*parts.parameter_words(request.task, request.parameter, request.index), high, low)[: link.sent]
     return "ok", telegram(request.unit, (*words, *request.words))
 
 
-def _refusal(bus: Bus, link: Link, request: Request) -> str:
+def _refusal(bus: Bus, link: parts.Link, request: Request) -> str:
     (least, most), (low, high) = of_bus(bus).pzd, bus.units
     if link.pkw not in of_bus(bus).pkw or len(request.words) != link.pzd or not least <= link.pzd <= most:
         return "bad_link"
@@ -153,17 +141,17 @@ def _refusal(bus: Bus, link: Link, request: Request) -> str:
     return "ok" if fits and words_fit and not too_wide else "bad_value"
 
 
-def broadcast(bus: Bus, link: Link, mask: tuple[int, ...], words: tuple[int, ...]) -> tuple[str, bytes]:
+def broadcast(bus: Bus, link: parts.Link, mask: tuple[int, ...], words: tuple[int, ...]) -> tuple[str, bytes]:
     """Return a telegram to all units: four words of masks and the process data; (status, b"") if these do not fit."""
     low, high = of_bus(bus).pzd
-    if bus.broadcast is None or len(mask) != MASKS or len(words) != link.pzd or not low <= link.pzd <= high:
+    if bus.broadcast is None or len(mask) != parts.MASKS or len(words) != link.pzd or not low <= link.pzd <= high:
         return "bad_link", b""
     if not all(0 <= word <= 0xFFFF for word in (*mask, *words)):
         return "bad_value", b""
     return "ok", telegram(bus.broadcast, (*mask, *words))
 
 
-def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
+def parse(bus: Bus, link: parts.Link, request: Request, data: bytes) -> Reply:
     """Return `data` as the response to `request`. Any bytes at any length are safe; the first failure wins.
 
     `wrong_start`, `wrong_length`, `wrong_check`, `wrong_unit`, `wrong_parameter`, `no_answer`, `refused` (with the
@@ -174,19 +162,19 @@ def parse(bus: Bus, link: Link, request: Request, data: bytes) -> Reply:
     if data[:1] != bytes((START,)):
         return Reply("wrong_start")
     words = unwrapped.words or ()
-    if set(unwrapped.flaws) - {"wrong_check"} or not split(words, link, request=False).fits:
+    if set(unwrapped.flaws) - {"wrong_check"} or not parts.split(words, link, request=False).fits:
         return Reply("wrong_length")
     if unwrapped.flaws:
         return Reply("wrong_check")
     return answer_in(bus, link, request, words) if unwrapped.unit == request.unit else Reply("wrong_unit")
 
 
-def answer_in(bus: Bus, link: Link, request: Request, received: tuple[int, ...]) -> Reply:
+def answer_in(bus: Bus, link: parts.Link, request: Request, received: tuple[int, ...]) -> Reply:
     """Return what `parse` returns, for the words of a telegram."""
-    divided = split(received, link, request=False)
+    divided = parts.split(received, link, request=False)
     if not divided.fits:
         return Reply("wrong_length")
-    part, words = part_of(divided.part), divided.words
+    part, words = parts.part_of(divided.part), divided.words
     if part is None:
         return Reply("ok", words=words)
     if request.task == 0:
@@ -194,7 +182,7 @@ def answer_in(bus: Bus, link: Link, request: Request, received: tuple[int, ...])
     fault = _answer_fault(bus, request, divided.part)
     if fault is not None:
         return Reply(fault, part.code, error=part.values[0]) if fault == "refused" else Reply(fault)
-    width = 2 if part.code in DOUBLE_RESPONSES else 1
+    width = 2 if part.code in parts.DOUBLE_RESPONSES else 1
     return Reply("ok", part.code, width, part.value(width, link) or 0, words=words)
 
 
@@ -203,10 +191,10 @@ def _answer_fault(bus: Bus, request: Request, pkw: tuple[int, ...]) -> str | Non
     response = pkw[0] >> 12
     if response == 0:
         return "no_answer"
-    if (pkw[0] & 0x0FFF, pkw[1]) != parameter_words(0, request.parameter, request.index):
+    if (pkw[0] & 0x0FFF, pkw[1]) != parts.parameter_words(0, request.parameter, request.index):
         return "wrong_parameter"
-    if response in (REFUSED, NO_RIGHTS):
-        return "refused" if response == REFUSED else "no_rights"
+    if response in (parts.REFUSED, parts.NO_RIGHTS):
+        return "refused" if response == parts.REFUSED else "no_rights"
     if not any(code.number == request.task and response in code.answers for code in bus.functions):
         return "wrong_response"
-    return "wrong_length" if response in DOUBLE_RESPONSES and len(pkw) < 4 else None
+    return "wrong_length" if response in parts.DOUBLE_RESPONSES and len(pkw) < 4 else None

@@ -105,11 +105,9 @@ def uses(device: Device, name: str, wait: str) -> tuple[str, ...]:
 
 def _example(device: Device) -> Point | None:
     """Return the point for the example: one to read and write, else one to read; of these one that is a quantity."""
-    for is_fit in (_is_settable, _is_usual):
-        fitting = list(filter(is_fit, device.points))
-        if fitting:
-            return min(filter(_is_quantity, fitting), key=_RANK, default=None) or min(fitting, key=_RANK)
-    return None
+    usual = list(filter(_is_usual, device.points))
+    fitting = [point for point in usual if point.writable] or usual
+    return min(list(filter(_is_quantity, fitting)) or fitting, key=_RANK, default=None)
 
 
 _RANK = attrgetter("rank")
@@ -117,10 +115,6 @@ _RANK = attrgetter("rank")
 
 def _is_usual(point: Point) -> bool:
     return point.generated and point.readable and point.variant is None and point.when is None
-
-
-def _is_settable(point: Point) -> bool:
-    return point.writable and _is_usual(point)
 
 
 def _is_quantity(point: Point) -> bool:

@@ -8,16 +8,7 @@ from dataclasses import dataclass
 from fieldscribe.families.can import identifier_bits, of_bus
 from fieldscribe.families.can.frames import carriers, frame_count, request_and_answer
 from fieldscribe.model import Device, Message, Point, Role, Telegram
-from fieldscribe.targets.c.frames import (
-    Descriptor,
-    Frame,
-    Frames,
-    FramesHeader,
-    Layouts,
-    exceptions_of,
-    frames_header,
-    lies,
-)
+from fieldscribe.targets.c import frames
 from fieldscribe.targets.c.literals import hexadecimal, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
@@ -64,7 +55,7 @@ class GroupView:
     rows: list[tuple[str, str]]
 
 
-def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> FramesHeader:
+def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope) -> frames.FramesHeader:
     """Return the header of frames, `<device>_can.h`."""
     carrying = carriers(device)
     exchanges = [request_and_answer(device.messages, writes=writes) for writes in (False, True)]
@@ -76,8 +67,8 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         if telegram.name in carrying and carrying[telegram.name].words
     ]
     groups = list(_groups(device, scope))
-    layouts = Layouts(scope)
-    return frames_header(
+    layouts = frames.Layouts(scope)
+    return frames.frames_header(
         device,
         layouts,
         _sections(device, placed, layouts, arrays),
@@ -87,22 +78,22 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         messages=[_message(message, scope) for message in device.messages],
         telegrams=telegrams,
         exchanges=arrays,
-        exceptions=exceptions_of(device, scope),
+        exceptions=frames.exceptions_of(device, scope),
         groups=groups,
     )
 
 
 def _sections(
-    device: Device, placed: Sequence[GeneratedPoint], layouts: Layouts, arrays: Sequence[str]
-) -> dict[str, Frames]:
+    device: Device, placed: Sequence[GeneratedPoint], layouts: frames.Layouts, arrays: Sequence[str]
+) -> dict[str, frames.Frames]:
     """Return the frames of parameters, and those of points in telegrams."""
     carried = carriers(device)
     reached = [each for each in placed if each.point.addresses]
     parameters = [each for each in reached if each.point.space == "parameter" and _fits(each.point, 1)]
     cyclic = [each for each in reached if each.point.telegram in carried and _fits(each.point, 2)]
     return {
-        "parameters": Frames(parameters, lambda point, view: _parameter(point, view, layouts, arrays)),
-        "cyclic": Frames(cyclic, lambda point, view: _cyclic(point, view, layouts)),
+        "parameters": frames.Frames(parameters, lambda point, view: _parameter(point, view, layouts, arrays)),
+        "cyclic": frames.Frames(cyclic, lambda point, view: _cyclic(point, view, layouts)),
     }
 
 
@@ -160,7 +151,7 @@ def _fits(point: Point, words: int) -> bool:
     return point.text is not None or point.words <= words
 
 
-def _parameter(point: Point, view: PointView, layouts: Layouts, arrays: Sequence[str]) -> Frame | None:
+def _parameter(point: Point, view: PointView, layouts: frames.Layouts, arrays: Sequence[str]) -> frames.Frame | None:
     """Return the frames of a parameter, one for each word; None if the device has no message for it."""
     read_request, read_answer, write_request, write_answer = map(bool, arrays)
     read, write = read_request and point.readable, write_request and point.writable
@@ -180,7 +171,7 @@ def _parameter(point: Point, view: PointView, layouts: Layouts, arrays: Sequence
     return _frame(point, view, ways, parts, cases)
 
 
-def _cyclic(point: Point, view: PointView, layouts: Layouts) -> Frame:
+def _cyclic(point: Point, view: PointView, layouts: frames.Layouts) -> frames.Frame:
     """Return the place of a point in its telegram."""
     name = f"{view.function}_frame"
     if point.text is not None:
@@ -191,9 +182,9 @@ def _cyclic(point: Point, view: PointView, layouts: Layouts) -> Frame:
     return _frame(point, view, "h", parts, [case])
 
 
-def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: Iterable[str]) -> Frame:
+def _frame(point: Point, view: PointView, ways: str, parts: list[str], cases: Iterable[str]) -> frames.Frame:
     """Return the frames of a point; the letters are r (read), w (write), u (update) and h (receive)."""
     name, text = f"{view.function}_frame", point.text is not None
     kind = f"fieldscribe_can_{'text_' if text else ''}{ways}"
-    layout_cases = [] if text else [f"LIES({name}, {lies(point)})"]
-    return Frame((Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), (*layout_cases, *cases))
+    layout_cases = [] if text else [f"LIES({name}, {frames.lies(point)})"]
+    return frames.Frame((frames.Descriptor(kind, name, f"{{{', '.join(parts)}}}", "_frame"),), (*layout_cases, *cases))
