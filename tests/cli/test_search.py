@@ -16,6 +16,8 @@ from fieldscribe.search.entries import Entry, entries_of
 from fieldscribe.search.matching import near_words, search
 from support.places import ROOT
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 DEVICES = ["hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s"]
 
 

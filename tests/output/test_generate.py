@@ -241,12 +241,11 @@ def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind:
     place = project / "descriptions/jumo_controller" / name
     place.unlink()
     put(kind, place)
-    for command in (["check"], ["generate", "--target", "docs"]):
-        done = run_bounded(project, *command)
-        assert done.returncode == 1
-        shown_text = done.stdout + done.stderr
-        assert any(rule in shown_text for rule in ("file-unreadable", "file-too-large", "part-outside")), shown_text
-        assert f"jumo_controller/{'device.yaml' if 'part-outside' in shown_text else name}" in shown_text
+    done = run_bounded(project, *(["check"] if name == "device.yaml" else ["generate", "--target", "docs"]))
+    assert done.returncode == 1
+    shown_text = done.stdout + done.stderr
+    assert any(rule in shown_text for rule in ("file-unreadable", "file-too-large", "part-outside")), shown_text
+    assert f"jumo_controller/{'device.yaml' if 'part-outside' in shown_text else name}" in shown_text
 
 
 def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path, tmp_path: Path) -> None:

@@ -16,6 +16,8 @@ from fieldscribe.cli import main
 from support.described import described, write
 from support.places import ROOT
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 PROJECT = """\
 out = "drivers"
 targets = ["c"]

@@ -22,6 +22,8 @@ from support.described import described, made, shipped, write
 from support.places import ROOT
 from support.toolchains import succeed, tool
 
+pytestmark = pytest.mark.usefixtures("loads_once")
+
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 TEN = "A001,A002,A003,A020,D001,D002,F002,F003,run_command,inverter_status"
 HARD = TEN.replace("A003,A020", "A061,A062")

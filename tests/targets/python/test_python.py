@@ -20,6 +20,7 @@ def trips(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     yield from imported(write_package(trip_device(), tmp_path_factory.mktemp("trips")), "trips")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("item", [one.item for one in trip_device().points])
 def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
     point_ = trips.Trips.POINTS[item]

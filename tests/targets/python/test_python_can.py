@@ -170,6 +170,7 @@ async def use_async(mpu: SampleCanAsync) -> None:
 """
 
 
+@pytest.mark.full
 def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
     assert typed_findings(TYPED, folder, "sample_can", tmp_path) == ""
 

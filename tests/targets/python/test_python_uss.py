@@ -209,6 +209,7 @@ async def use_async(drive: SampleUssAsync) -> None:
 """
 
 
+@pytest.mark.full
 def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
     assert typed_findings(TYPED, folder, "sample_uss", tmp_path) == ""
 
