@@ -3061,11 +3061,11 @@ static inline int32_t hitachi_l200_overvoltage_deceleration_level_400v_decode(ui
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_ADDRESS 0x1102U
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_RAW_MAX 255
-static const fieldscribe_range hitachi_l200_ranges_e8c1e3bc[] = {
+static const fieldscribe_range hitachi_l200_digital_input_1_function_ranges[] = {
     {0, 9}, {11, 13}, {15, 16}, {18, 24}, {27, 29}, {31, 31}, {50, 53}, {255, 255}
 };
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3082,7 +3082,7 @@ static inline int32_t hitachi_l200_digital_input_1_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_1_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_1_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3099,7 +3099,7 @@ static inline int32_t hitachi_l200_digital_input_1_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3116,7 +3116,7 @@ static inline int32_t hitachi_l200_digital_input_2_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_2_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_2_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3133,7 +3133,7 @@ static inline int32_t hitachi_l200_digital_input_2_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3150,7 +3150,7 @@ static inline int32_t hitachi_l200_digital_input_3_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_3_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_3_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3167,7 +3167,7 @@ static inline int32_t hitachi_l200_digital_input_3_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3184,7 +3184,7 @@ static inline int32_t hitachi_l200_digital_input_4_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_4_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_4_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3201,7 +3201,7 @@ static inline int32_t hitachi_l200_digital_input_4_function_set_2_decode(uint16_
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3218,7 +3218,7 @@ static inline int32_t hitachi_l200_digital_input_5_function_decode(uint16_t raw)
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MIN 0
 #define HITACHI_L200_DIGITAL_INPUT_5_FUNCTION_SET_2_RAW_MAX 255
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_check(uint16_t raw)
-{ return fieldscribe_check_ranges(raw, hitachi_l200_ranges_e8c1e3bc, FIELDSCRIBE_COUNT(hitachi_l200_ranges_e8c1e3bc)); }
+{ return FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_digital_input_1_function_ranges); }
 FIELDSCRIBE_STATUS hitachi_l200_digital_input_5_function_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 255)
@@ -3808,14 +3808,11 @@ static inline const char *hitachi_l200_motor_poles_name(int32_t raw)
 #define HITACHI_L200_MOTOR_POLES_ADDRESS 0x1165U
 #define HITACHI_L200_MOTOR_POLES_RAW_MIN 2
 #define HITACHI_L200_MOTOR_POLES_RAW_MAX 8
-static const fieldscribe_range hitachi_l200_ranges_9c951a72[] = {
+static const fieldscribe_range hitachi_l200_motor_poles_ranges[] = {
     {2, 2}, {4, 4}, {6, 6}, {8, 8}
 };
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_check(uint16_t raw)
-{
-    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_ranges_9c951a72,
-        FIELDSCRIBE_COUNT(hitachi_l200_ranges_9c951a72)));
-}
+{ return fieldscribe_known(FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_motor_poles_ranges)); }
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 2, 8)
@@ -3829,10 +3826,7 @@ static inline int32_t hitachi_l200_motor_poles_decode(uint16_t raw) { return raw
 #define HITACHI_L200_MOTOR_POLES_SET_2_RAW_MIN 2
 #define HITACHI_L200_MOTOR_POLES_SET_2_RAW_MAX 8
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_check(uint16_t raw)
-{
-    return fieldscribe_known(fieldscribe_check_ranges(raw, hitachi_l200_ranges_9c951a72,
-        FIELDSCRIBE_COUNT(hitachi_l200_ranges_9c951a72)));
-}
+{ return fieldscribe_known(FIELDSCRIBE_CHECK_RANGES(raw, hitachi_l200_motor_poles_ranges)); }
 FIELDSCRIBE_STATUS hitachi_l200_motor_poles_set_2_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 2, 8)

@@ -495,14 +495,11 @@ static inline const char *siemens_mm4_uss_pkw_length_name(int32_t raw)
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_INDEX 0U
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MIN 0
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_0_RAW_MAX 127
-static const fieldscribe_range siemens_mm4_ranges_32e3334e[] = {
+static const fieldscribe_range siemens_mm4_uss_pkw_length_index_0_ranges[] = {
     {0, 0}, {3, 4}, {127, 127}
 };
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_check(uint16_t raw)
-{
-    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_ranges_32e3334e,
-        FIELDSCRIBE_COUNT(siemens_mm4_ranges_32e3334e)));
-}
+{ return fieldscribe_known(FIELDSCRIBE_CHECK_RANGES(raw, siemens_mm4_uss_pkw_length_index_0_ranges)); }
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_0_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 127)
@@ -517,10 +514,7 @@ static inline int32_t siemens_mm4_uss_pkw_length_index_0_decode(uint16_t raw) { 
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MIN 0
 #define SIEMENS_MM4_USS_PKW_LENGTH_INDEX_1_RAW_MAX 127
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_check(uint16_t raw)
-{
-    return fieldscribe_known(fieldscribe_check_ranges(raw, siemens_mm4_ranges_32e3334e,
-        FIELDSCRIBE_COUNT(siemens_mm4_ranges_32e3334e)));
-}
+{ return fieldscribe_known(FIELDSCRIBE_CHECK_RANGES(raw, siemens_mm4_uss_pkw_length_index_0_ranges)); }
 FIELDSCRIBE_STATUS siemens_mm4_uss_pkw_length_index_1_encode(int32_t value, uint16_t *raw)
 {
     return fieldscribe_within(value, 0, 127)
@@ -837,7 +831,7 @@ typedef struct siemens_mm4_with_reference_frequency_and_uss_normalisation {
     uint16_t uss_normalisation_raw;
 } siemens_mm4_with_reference_frequency_and_uss_normalisation;
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_check(uint16_t raw) { (void)raw; return FIELDSCRIBE_OK; }
-static inline fieldscribe_rule siemens_mm4_rule_fa46e384(
+static inline fieldscribe_rule siemens_mm4_main_setpoint_rule(
     const siemens_mm4_with_reference_frequency_and_uss_normalisation *with)
 {
     return (with->uss_normalisation_raw == 0)
@@ -848,13 +842,13 @@ static inline fieldscribe_rule siemens_mm4_rule_fa46e384(
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode_count(
     int64_t count, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
 {
-    return fieldscribe_store_u16(fieldscribe_ruled_count(siemens_mm4_rule_fa46e384(with), count, 100000, 0, 65535),
+    return fieldscribe_store_u16(fieldscribe_ruled_count(siemens_mm4_main_setpoint_rule(with), count, 100000, 0, 65535),
         raw);
 }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_setpoint_encode(
     double value, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, uint16_t *raw)
-{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_rule_fa46e384(with), value, 0, 65535), raw); }
+{ return fieldscribe_store_u16(fieldscribe_ruled_value(siemens_mm4_main_setpoint_rule(with), value, 0, 65535), raw); }
 #endif
 
 /* HSW2 second setpoint: 0..65535; w, pzd 3; not generated: the manual does not settle its scale */
@@ -909,11 +903,11 @@ static inline int32_t siemens_mm4_status_word_decode(uint16_t raw) { return raw;
 #define SIEMENS_MM4_MAIN_ACTUAL_VALUE_DECIMALS 5
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode_count(
     uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, int64_t *count)
-{ return fieldscribe_decode_count(siemens_mm4_rule_fa46e384(with), (int64_t)raw, 100000, count); }
+{ return fieldscribe_decode_count(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, 100000, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS siemens_mm4_main_actual_value_decode(
     uint16_t raw, const siemens_mm4_with_reference_frequency_and_uss_normalisation *with, double *value)
-{ return fieldscribe_decode_value(siemens_mm4_rule_fa46e384(with), (int64_t)raw, value); }
+{ return fieldscribe_decode_value(siemens_mm4_main_setpoint_rule(with), (int64_t)raw, value); }
 #endif
 
 /*

@@ -156,6 +156,7 @@ def test_words_enums_flags_and_specials() -> None:
             "name": "ready",
             "title": {"en": "Ready", "de": "Bereit"},
             "active": 1,
+            "enum": None,
             "values": {"1": {"name": "ready", "title": {"en": "Ready", "de": "Bereit"}}},
         },
         {
@@ -163,6 +164,7 @@ def test_words_enums_flags_and_specials() -> None:
             "name": "fault",
             "title": {"en": "Fault"},
             "active": 0,
+            "enum": None,
             "values": {"0": {"name": "fault", "title": {"en": "Fault"}}},
         },
         {
@@ -170,6 +172,7 @@ def test_words_enums_flags_and_specials() -> None:
             "name": "mode",
             "title": {"en": "Mode"},
             "active": 1,
+            "enum": None,
             "values": {
                 "0": {"name": "stop", "title": {"en": "stop"}},
                 "3": {"name": "run", "title": {"en": "run"}},

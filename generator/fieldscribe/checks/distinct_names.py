@@ -16,7 +16,7 @@ from functools import cached_property
 
 from fieldscribe.lowered.template_keys import TemplateKeys
 from fieldscribe.model import Device, Point
-from fieldscribe.targets.identifiers import Names, Owner, clashes
+from fieldscribe.targets.identifiers import Names, Owner, clashes, resemblances
 
 
 class PointKinds:
@@ -36,10 +36,12 @@ class PointKinds:
         sizes = Counter(kinds.values())
         first: dict[object, str] = {}
         self.names: dict[str, str] = {}
+        self._longest: dict[str, int] = {}
         several = [item for item, kind in kinds.items() if sizes[kind] > 1]
         for item in several:
             name = _plain(item)
             self.names[name] = first.setdefault(kinds[item], name)
+            self._longest[self.names[name]] = max(len(item), self._longest.get(self.names[name], 0))
         self._are_unique = len(self.names) == len(several)
         left_out = {item for item in several if self.names[_plain(item)] != _plain(item)}
         self.sample = _sample(device, left_out)
@@ -50,19 +52,23 @@ class PointKinds:
         return TemplateKeys().of
 
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]]) -> bool:
-        """Return True if all identifiers of a target are proven to differ."""
+        """Return True if all identifiers of a target are proven to differ, in the characters that it compares."""
         if not self._are_unique or not self.names:
             return False
         listed = list(identifiers(self.sample))
-        if next(clashes(listed), None) is not None:
+        if next(clashes(listed), None) is not None or next(resemblances(listed), None) is not None:
             return False
         spaces: defaultdict[str, _Space] = defaultdict(_Space)
         device = _plain(self.sample.id)
-        for namespace, owner, names in listed:
+        for namespace, owner, names, significant in listed:
             point = _point_of(owner)
             item = _plain(point)
             shared = self.names.get(item) == item and point not in namespace  # a namespace of one point meets no other
             space = spaces[namespace]
+            if shared and significant is not None:
+                most = significant - (self._longest[item] - len(point))  # of a longer name all need not be compared
+                if any(len(name) >= most for name in names):
+                    return False
             for name in map(_plain, names):
                 start = next((start for start in (device, "") if shared and name.startswith(start + item)), None)
                 if start is not None:

@@ -94,11 +94,13 @@ def _enums(analysis: Analysis) -> Iterator[_LocatedEnum]:
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
-        thing = Thing(f"the enum of `{facts.name}`", facts.span(key))
-        if by_name:
-            section = next(file["enums"] for file in analysis.scope.files if enum_as_written in file.get("enums", {}))
-            thing = Thing(f"the enum `{enum_as_written}`", section.key_span(enum_as_written))
+        thing = _shared_enum(analysis, enum.name) if by_name else Thing(f"the enum of `{facts.name}`", facts.span(key))
         yield _LocatedEnum(enum.name, enum.was, thing, entries)
+
+
+def _shared_enum(analysis: Analysis, name: str) -> Thing:
+    section = next(file["enums"] for file in analysis.scope.files if name in file.get("enums", {}))
+    return Thing(f"the enum `{name}`", section.key_span(name))
 
 
 class IdentifierPlaces:
@@ -119,7 +121,9 @@ class IdentifierPlaces:
 
     @cached_property
     def _enums(self) -> dict[str, _LocatedEnum]:
-        return {enum.name: enum for enum in reversed(list(_enums(self._analysis)))}
+        declared = self._analysis.scope.named_enums
+        shared = {name: _LocatedEnum(name, (), _shared_enum(self._analysis, name), declared[name]) for name in declared}
+        return shared | {enum.name: enum for enum in reversed(list(_enums(self._analysis)))}
 
     def _facts(self, point: Owner) -> PointFacts:
         return self._analysis.symbols.by_item(point.name)

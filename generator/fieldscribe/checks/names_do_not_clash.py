@@ -1,14 +1,21 @@
 """No two things get the same identifier in a target, and none gets an identifier that generated code needs.
 
+Nor do two identifiers differ only behind the characters that a language compares.
+
 Each target lists its identifiers with their owners (`targets/*/identifiers.py`); here they are only compared. Points
 that have other findings are left out. Reserved words do not clash: targets change such names themselves.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.checks.identifier_places import IdentifierPlaces, Named, Thing, given_names, thing_of
 from fieldscribe.resolve.analysis import Analysis
+
+if TYPE_CHECKING:
+    from fieldscribe.targets.identifiers import Resemblance
 
 
 def check(analysis: Analysis) -> None:
@@ -24,16 +31,19 @@ def check(analysis: Analysis) -> None:
 
 def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> None:
     from fieldscribe.targets import TARGETS, knows, target
-    from fieldscribe.targets.identifiers import clashes
+    from fieldscribe.targets.identifiers import clashes, resemblances
 
     owners, device = IdentifierPlaces(analysis), analysis.code_device
     kinds = PointKinds(device)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
         if language.NAMES_CONTAIN_POINT and kinds.are_distinct(language.identifiers):
             continue
-        for clash in clashes(language.identifiers(device)):
+        listed = list(language.identifiers(device))
+        for clash in clashes(listed):
             first, second = owners.thing(clash.first), owners.thing(clash.second)
             _report(analysis, first, second, f"`{clash.name}` in {clash.namespace}", reported)
+        for alike in resemblances(listed):
+            _warn(analysis, alike, owners.thing(alike.first), owners.thing(alike.second), reported)
 
 
 def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reported: set[frozenset[Thing]]) -> None:
@@ -50,3 +60,14 @@ def _report(analysis: Analysis, first: Thing, second: Thing, where: str, reporte
     if first.words == second.words:
         message = f"{second.words} is there twice"
     analysis.report.error("name-clash", message, second.place, hint, related)
+
+
+def _warn(analysis: Analysis, alike: Resemblance, first: Thing, second: Thing, reported: set[frozenset[Thing]]) -> None:
+    """Warn of names that a compiler need not tell apart; once for all names of two things."""
+    pair, place = frozenset((first, second)), second.place or first.place
+    if pair in reported or place is None:
+        return
+    reported.add(pair)
+    names = " and ".join(f"`{name}`" for name in alike.names)
+    message = f"{names} are equal in their first {alike.significant} characters, and C compilers need not compare more"
+    analysis.report.warning("long-names", message, place, "give it a shorter name")

@@ -169,7 +169,7 @@ def _found(place: Callable[[], Span | None]) -> Span | None:
 def _names(name: str, plain: Device) -> Mapping[Owner, Mapping[str, None]]:
     """All names in a language by owner, each once, in the order of the listing."""
     by_owner: dict[Owner, dict[str, None]] = {}
-    for _, owner, names in target(name).identifiers(plain):
+    for _, owner, names, _ in target(name).identifiers(plain):
         by_owner.setdefault(owner, {}).update(dict.fromkeys(names))
     return by_owner
 

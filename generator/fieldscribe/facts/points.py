@@ -80,6 +80,7 @@ FLAG: FactTable = (
         value=values.flag_values,
         views=(_by_raw("value", "value", values.flag_value_parts, FLAG_VALUE, (_RAW_NUMBER,)),),
     ),
+    Fact("enum", "The shared enum that has these names.", TEXT_OR_NULL, API, value=lambda flag, _: flag.enum or None),
 )
 
 SPECIAL: FactTable = (

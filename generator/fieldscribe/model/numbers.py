@@ -98,7 +98,8 @@ class Fixed:
 class Flag:
     """One or several bits of a word that are named in the word's description. `low` is the lowest bit, counted from 0.
 
-    `active` is the value of a single bit while its name is true (0 for inverted bits). `values` names the numbers.
+    `active` is the value of a single bit while its name is true (0 for inverted bits). `values` names the numbers;
+    `enum` is the name of the shared enum that has them.
     """
 
     low: int
@@ -107,3 +108,4 @@ class Flag:
     title: Titles
     active: int
     values: tuple[Entry, ...]
+    enum: str = ""

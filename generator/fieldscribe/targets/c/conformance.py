@@ -65,7 +65,7 @@ def adapters_text(
 
 def _adapter(view: PointView, scope: HeaderScope, sections: Iterable[Frames], render: Render) -> str:
     of_family = [case for frames in sections for case in frames.cases(view)]
-    cases = [*_cases(view, scope), *of_family, *_flag_cases(view), *_special_code_cases(view, scope)]
+    cases = [*_cases(view, scope), *of_family, *_flag_cases(view, scope), *_special_code_cases(view, scope)]
     return folded(render("c/adapter.c.j2", {"item": view.fields.item, "cases": cases}))
 
 
@@ -166,7 +166,7 @@ def _place_cases(view: PointView) -> Iterator[str]:
         yield f"PLACE({' '.join(words)}, {' '.join(calls)})"
 
 
-def _flag_cases(view: PointView) -> Iterator[str]:
+def _flag_cases(view: PointView, scope: HeaderScope) -> Iterator[str]:
     """Yield the macros for flags, and for the named numbers of flags of several bits."""
     point, macro = view.point, view.macro
     raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
@@ -180,7 +180,8 @@ def _flag_cases(view: PointView) -> Iterator[str]:
             continue
         yield f'WIDE_FLAG("{flag.name}", {view.function}_{flag.name}({raw}), {name})'
         for entry in flag.values:
-            constant = f"{macro if shares_values(point) else name}_{upper(entry.name)}"
+            shared = f"{scope.upper}_{upper(flag.enum)}" if flag.enum else macro if shares_values(point) else name
+            constant = f"{shared}_{upper(entry.name)}"
             yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
 
 

@@ -98,14 +98,14 @@ def defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[D
     for flag in point.flags:
         yield from flag_defines(flag, point, macro)
     if shares_values(point):
-        wide = next(flag for flag in point.flags if flag.width > 1)
-        yield from ((f"{macro}_{upper(entry.name)}", f"{entry.raw}U") for entry in wide.values)
+        yield from value_defines(next(flag for flag in point.flags if flag.width > 1), macro)
 
 
 def shares_values(point: Point) -> bool:
     """Return True if several flags have the same named numbers: their macros are then named after the point."""
-    wide = [tuple((entry.name, entry.raw) for entry in flag.values) for flag in point.flags if flag.width > 1]
-    return len(wide) > 1 and len(set(wide)) == 1
+    wide = [flag for flag in point.flags if flag.width > 1]
+    several = {tuple((entry.name, entry.raw) for entry in flag.values) for flag in wide}
+    return len(wide) > 1 and len(several) == 1 and not any(flag.enum for flag in wide)
 
 
 def place_defines(point: Point, fields: PointFields, scope: HeaderScope) -> Iterator[Define]:
@@ -154,12 +154,16 @@ def _active_low(flag: Flag) -> bool:
 
 
 def flag_defines(flag: Flag, point: Point, macro: str) -> list[Define]:
-    """Return the macros of a flag, and of its named numbers unless they are named after the point."""
+    """Return the macros of a flag, and of its named numbers unless they are named after the point or an enum."""
     name, ones = f"{macro}_{upper(flag.name)}", (1 << flag.width) - 1
     remark = " /* true while 0 */" if _active_low(flag) else ""  # setting the bit of OFF2 ends OFF2
     defines = [(f"{name}_MASK", hexadecimal(ones << flag.low, point.info.bits // 4) + remark)]
     if flag.width > 1:
         defines.append((f"{name}_SHIFT", f"{flag.low}U"))
-        values = () if shares_values(point) else flag.values
-        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in values]
+        defines += [] if flag.enum or shares_values(point) else value_defines(flag, name)
     return defines
+
+
+def value_defines(flag: Flag, macro: str) -> list[Define]:
+    """Return the macros of a flag's named numbers; `macro` is what they begin with."""
+    return [(f"{macro}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values]

@@ -20,6 +20,9 @@ from fieldscribe.text import upper
 
 _OWN = Owner("target", "what the header needs")
 
+SIGNIFICANT = 63
+"""The characters of a name that every C compiler compares (C99 5.2.4.1, MISRA C 5.1 and 5.4)."""
+
 _TYPES = ("status", "real")
 _VERSION = tuple(f"DESCRIPTION_VERSION{tail}" for tail in ("", "_MAJOR", "_MINOR", "_PATCH", "_NUMBER"))
 _MACROS = ("H", *_VERSION, "DESCRIPTION_DIGEST", "DESCRIPTION")
@@ -39,7 +42,7 @@ def device_name_taken(name: str) -> str:
 def identifiers(device: Device) -> Iterator[Names]:
     """Yield all that the headers of a device define."""
     for owner, names in _identifiers(device):
-        yield Names("C", owner, names)
+        yield Names("C", owner, names, SIGNIFICANT)
 
 
 def _identifiers(device: Device) -> Iterator[Named]:
@@ -73,6 +76,9 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
             names.remove(name)  # only once: another use of the name in the same point is a clash
     yield owner, names
     yield from parts
+    for flag, values in view.shared_values:
+        for entry, (name, _) in zip(flag.values, values, strict=True):
+            yield Owner("entry", entry.name, Owner("enum", flag.enum)), (name,)
     yield from _of_shared(view, scope)
     if view.special is not None and view.special.codes is not None and point.shared_codes:
         codes, shared = view.special.codes, Owner("special codes", point.shared_codes)
@@ -87,14 +93,12 @@ def _of_point(view: PointView, scope: HeaderScope) -> Iterator[Named]:
 
 
 def _of_shared(view: PointView, scope: HeaderScope) -> Iterator[Named]:
-    """Yield the identifiers that hold a checksum of a content; the owner is that content, so equal checksums clash."""
+    """Yield the struct, rule and ranges of a point, which others may share; the first of them has its name in them."""
     point = view.point
     if view.struct:
         yield Owner("struct", ", ".join(sorted(point.arguments))), (view.struct,)
-    if view.rule is not None:
-        yield Owner("rule", view.rule.content), (view.rule.name,)
-    if table := ranges_table(point, scope):
-        yield Owner("table of ranges", repr(point.allowed.fixed)), (table,)
+    shared = {view.rule.name if view.rule is not None else "", ranges_table(point, scope)}
+    yield Owner("point", view.fields.item), sorted(shared & {f"{view.function}_rule", f"{view.function}_ranges"})
 
 
 def _of_parts(view: PointView, owner: Owner) -> Iterator[Named]:

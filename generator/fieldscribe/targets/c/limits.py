@@ -76,7 +76,7 @@ def _status(point: Point, fields: PointFields, scope: HeaderScope) -> str:
         return "FIELDSCRIBE_OK" if low <= least and high >= greatest else _checked(point, fields, low, high)
     table = ranges_table(point, scope)
     if table:
-        return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
+        return f"FIELDSCRIBE_CHECK_RANGES(raw, {table})"
     test = is_in(point, point.allowed.fixed)
     return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
 
@@ -106,7 +106,7 @@ def has_ranges_table(point: Point) -> bool:
 
 def ranges_table(point: Point, scope: HeaderScope) -> str:
     """Return the name of the table of a point's ranges, shared by points with equal ranges; empty if it needs none."""
-    return scope.by_content("ranges", repr(point.allowed.fixed)) if has_ranges_table(point) else ""
+    return scope.named_after_first(point.item, "ranges", repr(point.allowed.fixed)) if has_ranges_table(point) else ""
 
 
 def _between(interval: Interval, point: Point, scope: HeaderScope) -> str:
@@ -145,9 +145,9 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
         parameters, scope.spelling = [f"{raw_type(scope.points[names[0]])} other_raw"], "other_raw"
     body = f"return {_rule_of(point, scope)};"
     content = f"({', '.join(parameters)}) {body}"
-    name = scope.by_content("rule", content)
+    name = scope.named_after_first(point.item, "rule", content)
     text = function("static inline fieldscribe_rule", name, parameters, body).text
-    return RuleView(name, content, text if scope.is_first(point.item, name) else "")
+    return RuleView(name, text if name == f"{scope.prefix}_{point.item}_rule" else "")
 
 
 def _rule_of(point: Point, scope: HeaderScope) -> str:

@@ -8,7 +8,7 @@ from fieldscribe.arithmetic.words import mask_of
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Enum, Flag, Point
 from fieldscribe.targets.c.conversions import Writer, value_type
-from fieldscribe.targets.c.declarations import defines
+from fieldscribe.targets.c.declarations import defines, value_defines
 from fieldscribe.targets.c.layout import INLINE, Function, filled, function
 from fieldscribe.targets.c.limits import ranges_table, rule_view
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
@@ -32,13 +32,18 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
     shape = shape_of(point)
     struct = scope.struct(point.arguments) if len(point.arguments) > 1 else ""
     members = sorted(point.arguments) if struct and scope.is_first(point.item, struct) else ()
-    enum, (brings_names, brings_codes) = named_numbers(point.shape), scope.brings(point)
+    enum, (brings_names, brings_codes, brought) = named_numbers(point.shape), scope.brings(point)
     return PointView(
         point=point,
         fields=fields,
         function=name,
         macro=macro,
         defines=tuple(defines(point, fields, scope)),
+        shared_values=tuple(
+            (flag, tuple(value_defines(flag, f"{scope.upper}_{upper(name)}")))
+            for name in brought
+            for flag in [next(flag for flag in point.flags if flag.enum == name)]
+        ),
         enum=_enum_view(enum, point, fields, scope) if enum is not None and brings_names else None,
         tables=tuple(_tables(point, name, scope)),
         struct=struct,
@@ -106,7 +111,7 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[tuple[str, 
     if point.text is not None:
         rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield f"uint16_t {name}_addresses[{point.words}]", tuple(rows)
-    elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):
+    elif (table := ranges_table(point, scope)) == f"{name}_ranges":
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
         yield f"fieldscribe_range {table}[]", tuple(rows)
 

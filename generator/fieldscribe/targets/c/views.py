@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from fieldscribe.model import Point
+from fieldscribe.model import Flag, Point
 from fieldscribe.targets.c.scales import Scaled
 
 Define = tuple[str, str]
@@ -78,10 +78,9 @@ class SpecialView(NamedTuple):
 
 
 class RuleView(NamedTuple):
-    """The function that gives the rule of a scale, what it does, and its text if no earlier point has it."""
+    """The function that gives the rule of a scale, and its text if no earlier point has it."""
 
     name: str
-    content: str
     text: str
 
 
@@ -89,6 +88,7 @@ class RuleView(NamedTuple):
 class PointView:
     """A generated point; or the first of several with one text, whose fields are then placeholders.
 
+    `shared_values` are the macros of shared enums of flags that no earlier point has, each with a flag that has them.
     `tables` are declarations of arrays with their rows. `struct` holds the raw numbers of other points, if functions
     need several; `members` are its members if no earlier point has it. `shape` is the form of the functions: `plain`,
     `scaled`, `ruled`, `float`, `text` or `digits`. `scale` has the expressions of a scale without run-time factors.
@@ -99,6 +99,7 @@ class PointView:
     function: str
     macro: str
     defines: tuple[Define, ...]
+    shared_values: tuple[tuple[Flag, tuple[Define, ...]], ...]
     enum: EnumView | None
     tables: tuple[tuple[str, tuple[str, ...]], ...]
     struct: str

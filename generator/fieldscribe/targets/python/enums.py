@@ -58,12 +58,14 @@ class _Classes:
     def __init__(self, names: Identifiers, render: Render) -> None:
         self.texts: list[str] = []
         self.used: set[str] = set()
+        self._added: set[str] = set()
         self.composes = False
         self._names, self._render = names, render
         self._templates = TextTemplates()
 
     def add_enum(self, name: str, title: Titles, entries: tuple[Entry, ...]) -> None:
         """Add the class of named numbers."""
+        self._added.add(name)
         self.used.add("NamedNumber")
         self._add(id(entries), (name, _sentence(title["en"])), lambda name, text: _enum(name, text, entries))
 
@@ -71,8 +73,9 @@ class _Classes:
         """Add the class of a word of flags, behind those of the numbers of its flags."""
         classes = tuple([self._names.field_class(point, flag.name) or "" for flag in point.flags])
         for flag, named in zip(point.flags, classes, strict=True):
-            if named:
-                self.add_enum(named, flag.title, flag.values)
+            if named and named not in self._added:
+                title = {"en": flag.enum.replace("_", " ").capitalize()} if flag.enum else flag.title
+                self.add_enum(named, title, flag.values)
             self.used.add("Flag" if flag.width == 1 else "Field")
         self.used.add("Word")
         self.composes |= point.writable

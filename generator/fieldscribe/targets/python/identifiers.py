@@ -94,6 +94,7 @@ class Identifiers:
         self.async_class = f"{self.device_class}Async"
         self._taken = {self.device_class, self.async_class, *_CLASS_TAKEN}
         self._enums = {enum.name: self._class(pascal(enum.name), "Enum") for enum in device.enums}
+        self._shared = dict(self._enums)
         self._words: dict[str, str] = {}
         self._fields: dict[tuple[str, str], str] = {}
         for point in device.points:
@@ -125,7 +126,7 @@ class Identifiers:
     @cached_property
     def imports(self) -> Sequence[str]:
         """The classes of the enums module, sorted for an import."""
-        return sorted_imports([*self._enums.values(), *self._words.values(), *self._fields.values()])
+        return sorted_imports({*self._enums.values(), *self._words.values(), *self._fields.values()})
 
     @property
     def exports(self) -> Sequence[str]:
@@ -136,7 +137,10 @@ class Identifiers:
         name = self._class(pascal(point.item), "Flags")
         self._words[point.item] = name
         for flag in point.flags:
-            if flag.width > 1 and flag.values:
+            if flag.width > 1 and flag.enum:
+                shared = self._shared.get(flag.enum) or self._class(pascal(flag.enum), "Field")
+                self._fields[point.item, flag.name] = self._shared[flag.enum] = shared
+            elif flag.width > 1 and flag.values:
                 self._fields[point.item, flag.name] = self._class(f"{name}{pascal(flag.name)}", "Field")
 
     def _renamed(self, device: Device) -> Iterator[tuple[str, str, Iterable[str]]]:
@@ -145,7 +149,7 @@ class Identifiers:
             yield self._enums[enum.name], "Enum", map(pascal, enum.was)
         for point in device.points:
             for flag, name in ((flag, self.field_class(point, flag.name)) for flag in point.flags if point.was):
-                if name is not None:
+                if name is not None and not flag.enum:
                     yield name, "Field", [f"{pascal(item)}{pascal(flag.name)}" for item in point.old_items]
             if point.was and self.word_class(point):
                 yield self.word_class(point), "Flags", map(pascal, point.old_items)

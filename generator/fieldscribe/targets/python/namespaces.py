@@ -68,7 +68,9 @@ def _classes(device: Device, names: Identifiers) -> Iterator[Names]:
             yield Names(_CLASSES, owner, (word,))
         for flag in point.flags if word else ():
             if (name := names.field_class(point, flag.name)) is not None:
-                yield Names(_CLASSES, Owner("flag", flag.name, owner), (name,))
+                yield Names(
+                    _CLASSES, Owner("enum", flag.enum) if flag.enum else Owner("flag", flag.name, owner), (name,)
+                )
 
 
 def _of_point(point: Point) -> Iterator[Names]:
