@@ -37,8 +37,10 @@
     defined(__RECIPROCAL_MATH__) || defined(__ASSOCIATIVE_MATH__)
 #error "Compile without -ffast-math, -Ofast and their parts, or define FIELDSCRIBE_NO_FLOAT."
 #endif
-#if (FLT_RADIX != 2) || (FLT_MANT_DIG != 24) || ((DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32))
-#error "A double has not 53 bits here, or a float not 24: define FIELDSCRIBE_FLOAT32 or FIELDSCRIBE_NO_FLOAT."
+#if (FLT_RADIX != 2) || (FLT_MANT_DIG != 24)
+#error "A float has not 24 bits here: define FIELDSCRIBE_NO_FLOAT."
+#elif (DBL_MANT_DIG != 53) && !defined(FIELDSCRIBE_FLOAT32)
+#error "A double has not 53 bits here: define FIELDSCRIBE_NO_FLOAT, or FIELDSCRIBE_FLOAT32 if all values fit a float."
 #endif
 #if (FLT_EVAL_METHOD != 0) && (FLT_EVAL_METHOD != 16) /* 16 concerns only half floats */
 #error "The arithmetic here has excess precision (x87): take -msse2 -mfpmath=sse, or define FIELDSCRIBE_NO_FLOAT."
@@ -1667,11 +1669,12 @@ bool fieldscribe_take_u64(const fieldscribe_layout *layout, const uint16_t *word
 
 bool fieldscribe_take_s64(const fieldscribe_layout *layout, const uint16_t *words, size_t count, int64_t *raw)
 {
-    const uint64_t most = layout->mask >> 1;
+    uint64_t most;
     uint64_t bits;
     if (!fieldscribe_layout_fits(layout, words, count, FIELDSCRIBE_S64)) {
         return false;
     }
+    most = layout->mask >> 1;
     bits = fieldscribe_layout_joined_wide(layout, words) & layout->mask;
     *raw = (bits > most) ? (-1 - (int64_t)(~bits & most)) : (int64_t)bits;
     return true;
@@ -1738,7 +1741,7 @@ bool fieldscribe_take_text(
     const fieldscribe_text *text, const uint16_t *words, size_t count, uint16_t *reading, size_t room)
 {
     size_t at;
-    if ((words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
+    if ((text == NULL) || (words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
         return false;
     }
     for (at = 0U; at < text->words; ++at) {
@@ -1751,7 +1754,7 @@ bool fieldscribe_put_text(
     const fieldscribe_text *text, const uint16_t *reading, size_t count, uint16_t *words, size_t room)
 {
     size_t at;
-    if ((words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
+    if ((text == NULL) || (words == NULL) || (reading == NULL) || (count < text->words) || (room < text->words)) {
         return false;
     }
     for (at = 0U; at < text->words; ++at) {

@@ -21,6 +21,10 @@
  * with which the device took it. A point that only some bits of a word are has `update` for `write`: read its word
  * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
  * long one is, and fieldscribe_can_id which identifier a filter has to let through.
+ *
+ * Interrupts: frames of a telegram may be taken in an interrupt and its words be read elsewhere, or the reverse: what
+ * is read is of one moment, or TORN where reading interrupted fieldscribe_can_take. One place alone takes the frames
+ * of a receiver. All else here keeps no state.
  */
 #include "fieldscribe.h"
 
@@ -54,7 +58,7 @@ typedef enum fieldscribe_can_status {
     FIELDSCRIBE_CAN_ECHO_MISMATCH, /* the device answers a write with another word than the one that was written */
     /* telegrams */
     FIELDSCRIBE_CAN_MISSING, /* the frame that carries a word has not come yet */
-    FIELDSCRIBE_CAN_TORN,    /* two words of one number may be of different times: wait for more frames */
+    FIELDSCRIBE_CAN_TORN,    /* words may be of different times: wait for more frames */
     FIELDSCRIBE_CAN_BUFFER_TOO_SMALL /* the caller's words do not hold the result */
 } fieldscribe_can_status;
 
@@ -207,6 +211,8 @@ typedef struct fieldscribe_can_telegram {
 typedef struct fieldscribe_can_slot {
     uint64_t now;
     uint64_t before;
+    uint32_t time_now;
+    uint32_t time_before;
     uint16_t words_now[FIELDSCRIBE_CAN_WORDS];
     uint16_t words_before[FIELDSCRIBE_CAN_WORDS];
 } fieldscribe_can_slot;
@@ -217,6 +223,7 @@ typedef struct fieldscribe_can_receiver {
     fieldscribe_can_slot *slots;
     size_t slot_count;
     uint64_t clock;
+    uint32_t changes; /* odd while a frame is being taken */
     uint8_t unit;
 } fieldscribe_can_receiver;
 
@@ -266,8 +273,11 @@ FIELDSCRIBE_CHECKED size_t fieldscribe_can_slots(const fieldscribe_can_telegram 
 FIELDSCRIBE_CHECKED fieldscribe_can_receiver fieldscribe_can_listen(
     const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots, size_t count);
 
-/* Takes a frame, if it is one of the telegram. To a unit that the device cannot have nothing belongs. */
-bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame);
+/*
+ * Takes a frame that came at `time`, by a clock of yours (0 if you do not ask for ages), if it is one of the telegram.
+ * To a unit that the device cannot have nothing belongs.
+ */
+bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time);
 
 /* The newest word at a position of the telegram, which counts from 0. */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word(
@@ -280,6 +290,13 @@ FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_word(
  */
 FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_heard *what, uint16_t *words, size_t count);
+
+/*
+ * How long ago the frames came that fieldscribe_can_received takes the words from, the older of two, by the clock that
+ * times frames, which may run over. Nothing is stored unless the result is OK.
+ */
+FIELDSCRIBE_CHECKED fieldscribe_can_status fieldscribe_can_age(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint32_t now, uint32_t *age);
 
 /*
  * The words of a text in the order of reading; those that came are stored, up to the first that has not, and none if
@@ -544,29 +561,51 @@ size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
     return ((size_t)telegram->words / per_frame) + (((telegram->words % per_frame) != 0U) ? 1U : 0U);
 }
 
+/* A slot that nothing came into. */
+static const fieldscribe_can_slot fieldscribe_can_silent = {0U, 0U, 0U, 0U, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
+
 fieldscribe_can_receiver fieldscribe_can_listen(
     const fieldscribe_can_telegram *telegram, uint8_t unit, fieldscribe_can_slot *slots, size_t count)
 {
-    static const fieldscribe_can_slot silent = {0U, 0U, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
     const size_t frames = fieldscribe_can_slots(telegram);
     fieldscribe_can_receiver receiver;
     size_t at;
     receiver.slot_count = ((slots == NULL) || (count < frames)) ? 0U : frames;
     for (at = 0U; at < receiver.slot_count; ++at) {
-        slots[at] = silent;
+        slots[at] = fieldscribe_can_silent;
     }
     receiver.telegram = telegram;
     receiver.slots = slots;
     receiver.clock = 0U;
+    receiver.changes = 0U;
     receiver.unit = unit;
     return receiver;
 }
 
-bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
+/* The words that a frame carries. */
+static void fieldscribe_can_words(
+    const fieldscribe_can_message *message, const fieldscribe_can_frame *frame, uint16_t words[FIELDSCRIBE_CAN_WORDS])
+{
+    unsigned at;
+    for (at = 0U; at < FIELDSCRIBE_CAN_WORDS; ++at) {
+        words[at] = 0U;
+    }
+    for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
+        const fieldscribe_can_role role = message->roles[at];
+        if ((role.kind == (uint8_t)FIELDSCRIBE_CAN_WORD) && (role.number < FIELDSCRIBE_CAN_BYTES)) {
+            uint16_t *const word = &words[role.number / 2U];
+            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (((role.number % 2U) != 0U) ? 0U : 8U)));
+        }
+    }
+}
+
+bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint32_t time)
 {
     const fieldscribe_can_message *const message = receiver->telegram->message;
     const fieldscribe_can_profile *const profile = receiver->telegram->profile;
-    fieldscribe_can_slot *slot;
+    volatile uint32_t *const changes = &receiver->changes; /* volatile: written in this order */
+    volatile fieldscribe_can_slot *slot;
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
     uint8_t multiplexer = 0U;
     unsigned at;
     if ((receiver->unit < profile->first_unit) || (receiver->unit > profile->last_unit)) {
@@ -583,44 +622,64 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
     if (multiplexer >= receiver->slot_count) {
         return false;
     }
+    fieldscribe_can_words(message, frame, words);
     slot = &receiver->slots[multiplexer];
     ++receiver->clock;
+    *changes = (*changes + 1U) & 0x7FFFFFFFU;
     slot->before = slot->now;
     slot->now = receiver->clock;
+    slot->time_before = slot->time_now;
+    slot->time_now = time;
     for (at = 0U; at < FIELDSCRIBE_CAN_WORDS; ++at) {
         slot->words_before[at] = slot->words_now[at];
-        slot->words_now[at] = 0U;
+        slot->words_now[at] = words[at];
     }
-    for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        const fieldscribe_can_role role = message->roles[at];
-        if ((role.kind == (uint8_t)FIELDSCRIBE_CAN_WORD) && (role.number < FIELDSCRIBE_CAN_BYTES)) {
-            uint16_t *const word = &slot->words_now[role.number / 2U];
-            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (((role.number % 2U) != 0U) ? 0U : 8U)));
-        }
-    }
+    *changes = (*changes + 1U) & 0x7FFFFFFFU;
     return true;
 }
 
-/* The slot of a word, into which something came; NULL if nothing did, or the telegram has no such word. */
-static const fieldscribe_can_slot *fieldscribe_can_heard_slot(
-    const fieldscribe_can_receiver *receiver, uint16_t position)
+/* Copies the slot of a word as it is between two frames; MISSING if nothing came, or the telegram has no such word. */
+static fieldscribe_can_status fieldscribe_can_heard_slot(
+    const fieldscribe_can_receiver *receiver, uint16_t position, fieldscribe_can_slot *copy)
 {
+    const volatile uint32_t *const changes = &receiver->changes; /* volatile: read in this order */
     const size_t frame = (size_t)position / fieldscribe_can_per_frame(receiver->telegram);
+    const volatile fieldscribe_can_slot *slot;
+    uint32_t begin;
+    uint32_t end;
+    unsigned at;
+    *copy = fieldscribe_can_silent;
     if ((position >= receiver->telegram->words) || (frame >= receiver->slot_count)) {
-        return NULL;
+        return FIELDSCRIBE_CAN_MISSING;
     }
-    return (receiver->slots[frame].now == 0U) ? NULL : &receiver->slots[frame];
+    slot = &receiver->slots[frame];
+    do {
+        begin = *changes;
+        copy->now = slot->now;
+        copy->before = slot->before;
+        copy->time_now = slot->time_now;
+        copy->time_before = slot->time_before;
+        for (at = 0U; at < FIELDSCRIBE_CAN_WORDS; ++at) {
+            copy->words_now[at] = slot->words_now[at];
+            copy->words_before[at] = slot->words_before[at];
+        }
+        end = *changes;
+    } while ((begin != end) && ((begin % 2U) == 0U)); /* a frame was taken meanwhile */
+    if ((begin % 2U) != 0U) {
+        return FIELDSCRIBE_CAN_TORN;
+    }
+    return (copy->now == 0U) ? FIELDSCRIBE_CAN_MISSING : FIELDSCRIBE_CAN_OK;
 }
 
 fieldscribe_can_status fieldscribe_can_word(
     const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word)
 {
-    const fieldscribe_can_slot *const slot = fieldscribe_can_heard_slot(receiver, position);
-    if (slot == NULL) {
-        return FIELDSCRIBE_CAN_MISSING;
+    fieldscribe_can_slot slot;
+    const fieldscribe_can_status status = fieldscribe_can_heard_slot(receiver, position, &slot);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        *word = slot.words_now[position % fieldscribe_can_per_frame(receiver->telegram)];
     }
-    *word = slot->words_now[position % fieldscribe_can_per_frame(receiver->telegram)];
-    return FIELDSCRIBE_CAN_OK;
+    return status;
 }
 
 /* Whether a high word that came before and after a low one, in a frame of its own, is the same. */
@@ -634,30 +693,74 @@ static bool fieldscribe_can_around(
                                   : ((low->before >= high->before) && (low->before <= high->now));
 }
 
+/* The high and the low word of a point, and when their frames came; the same twice for a point of one word. */
+static fieldscribe_can_status fieldscribe_can_pair(const fieldscribe_can_receiver *receiver,
+    const fieldscribe_can_heard *what, uint16_t words[2], uint32_t times[2])
+{
+    const uint8_t per_frame = fieldscribe_can_per_frame(receiver->telegram);
+    const uint8_t high_place = (uint8_t)(what->high % per_frame);
+    const uint8_t low_place = (uint8_t)(what->low % per_frame);
+    const bool apart = (what->high / per_frame) != (what->low / per_frame);
+    fieldscribe_can_slot high;
+    fieldscribe_can_slot low;
+    const fieldscribe_can_status high_status = fieldscribe_can_heard_slot(receiver, what->high, &high);
+    const fieldscribe_can_status low_status = fieldscribe_can_heard_slot(receiver, what->low, &low);
+    bool before = false; /* the low word is that of the time before */
+    if ((high_status != FIELDSCRIBE_CAN_OK) || (low_status != FIELDSCRIBE_CAN_OK)) {
+        return (high_status != FIELDSCRIBE_CAN_OK) ? high_status : low_status;
+    }
+    if (!apart) {
+        low = high; /* of one moment */
+    } else if (fieldscribe_can_around(&high, &low, high_place)) {
+        before = high.now < low.now;
+    } else {
+        return FIELDSCRIBE_CAN_TORN;
+    }
+    words[0] = high.words_now[high_place];
+    words[1] = before ? low.words_before[low_place] : low.words_now[low_place];
+    times[0] = high.time_now;
+    times[1] = before ? low.time_before : low.time_now;
+    return FIELDSCRIBE_CAN_OK;
+}
+
 fieldscribe_can_status fieldscribe_can_received(const fieldscribe_can_receiver *receiver,
     const fieldscribe_can_heard *what, uint16_t *words, size_t count)
 {
-    const uint8_t per_frame = fieldscribe_can_per_frame(receiver->telegram);
     const size_t needed = (what->high != what->low) ? 2U : 1U;
-    const uint8_t high_place = (uint8_t)(what->high % per_frame);
-    const uint8_t low_place = (uint8_t)(what->low % per_frame);
-    const fieldscribe_can_slot *const high = fieldscribe_can_heard_slot(receiver, what->high);
-    const fieldscribe_can_slot *const low = fieldscribe_can_heard_slot(receiver, what->low);
+    fieldscribe_can_status status;
+    uint16_t pair[2] = {0U, 0U};
+    uint32_t times[2] = {0U, 0U};
     if ((words == NULL) || (count < needed)) {
         return FIELDSCRIBE_CAN_BUFFER_TOO_SMALL;
     }
-    if ((high == NULL) || (low == NULL)) {
-        return FIELDSCRIBE_CAN_MISSING;
+    status = fieldscribe_can_pair(receiver, what, pair, times);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[0] = pair[0];
+        if (needed > 1U) {
+            words[1] = pair[1];
+        }
     }
-    if ((high != low) && !fieldscribe_can_around(high, low, high_place)) {
-        return FIELDSCRIBE_CAN_TORN;
+    return status;
+}
+
+/* From one time of a clock to another, which may have run over meanwhile. */
+static uint32_t fieldscribe_can_since(uint32_t time, uint32_t now)
+{
+    return (now >= time) ? (now - time) : (((UINT32_MAX - time) + now) + 1U);
+}
+
+fieldscribe_can_status fieldscribe_can_age(
+    const fieldscribe_can_receiver *receiver, const fieldscribe_can_heard *what, uint32_t now, uint32_t *age)
+{
+    uint16_t pair[2] = {0U, 0U};
+    uint32_t times[2] = {0U, 0U};
+    const fieldscribe_can_status status = fieldscribe_can_pair(receiver, what, pair, times);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        const uint32_t high = fieldscribe_can_since(times[0], now);
+        const uint32_t low = fieldscribe_can_since(times[1], now);
+        *age = (high > low) ? high : low;
     }
-    words[0] = high->words_now[high_place];
-    if (needed > 1U) {
-        words[1] = ((high != low) && (high->now < low->now)) ? low->words_before[low_place]
-                                                             : low->words_now[low_place];
-    }
-    return FIELDSCRIBE_CAN_OK;
+    return status;
 }
 
 fieldscribe_can_status fieldscribe_can_received_text(const fieldscribe_can_receiver *receiver,

@@ -22,6 +22,7 @@
  *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
  *         (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
  *     }
+ *     fieldscribe_uss_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
  *     status = fieldscribe_uss_parse(&profile, &link, &request, buffer, receiver.length, &reply);
  *     status = fieldscribe_uss_words_of_reply(&reply, &point->read, words, FIELDSCRIBE_COUNT(words));
  *     fits = fieldscribe_take_u32(point->layout, words, FIELDSCRIBE_COUNT(words), &raw);
@@ -258,17 +259,17 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_uss_left(
 /*
  * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
  * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, a telegram
- * of another unit or length, a wrong check. If nothing came and nothing was dropped, nobody answers.
+ * of another unit, a wrong check. If nothing came and nothing was dropped, nobody answers. A telegram of another length
+ * than the link has is received, too, where it fits into the buffer; parsing says that its length is wrong.
  */
 typedef struct fieldscribe_uss_receiver {
     uint8_t *buffer;
     size_t size;
     size_t length;
     size_t dropped;
+    size_t next; /* so many bytes say more about the answer */
     bool done;
     uint8_t unit;
-    size_t least; /* the bytes of the shortest answer */
-    bool longer;  /* whether there are longer ones */
 } fieldscribe_uss_receiver;
 
 /* A receiver for the answer to a request; it is done at once where `size` bytes are too few for any. */
@@ -280,6 +281,12 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_receiver fieldscribe_uss_await(
  * answer. Those belong to the next one.
  */
 size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t count);
+
+/*
+ * Tells a receiver that the line is silent: an answer that is not done may stand behind noise that looked like the
+ * beginning of a longer one.
+ */
+void fieldscribe_uss_silent(fieldscribe_uss_receiver *receiver);
 
 /*
  * Reads the answer to `request`. The words of process data, as many as the link has, come with every good telegram,
@@ -308,7 +315,8 @@ typedef struct fieldscribe_uss_line {
 /*
  * Sends a request with words of process data and waits for its answer: building, sending, receiving and parsing in one.
  * WRONG_START says that nothing came, WRONG_LENGTH that it broke off; NOISE that other bytes came (an answer with a
- * wrong check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them.
+ * wrong check, of another unit, at another baud rate), or ASK_MOST bytes with no answer in them. Nothing is sent where
+ * the reply has no room for the words of process data (BUFFER_TOO_SMALL).
  */
 FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     const fieldscribe_uss_request *request, const fieldscribe_uss_words *process, fieldscribe_uss_reply *reply);
@@ -606,6 +614,21 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     return FIELDSCRIBE_USS_OK;
 }
 
+/* Nothing has come yet. */
+static void fieldscribe_uss_clear(fieldscribe_uss_reply *reply)
+{
+    reply->response = 0U;
+    reply->width = 0U;
+    reply->value = 0U;
+    reply->error = 0U;
+}
+
+/* How many words of process data there is room for in a reply. */
+static size_t fieldscribe_uss_room(const fieldscribe_uss_reply *reply)
+{
+    return (reply->process == NULL) ? 0U : reply->room;
+}
+
 fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
     fieldscribe_uss_reply *reply)
@@ -614,10 +637,7 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
     size_t all; /* words of data */
     size_t words; /* of them in the parameter part */
     size_t at;
-    reply->response = 0U;
-    reply->width = 0U;
-    reply->value = 0U;
-    reply->error = 0U;
+    fieldscribe_uss_clear(reply);
     if ((length == 0U) || (bytes[0] != 0x02U)) {
         return FIELDSCRIBE_USS_WRONG_START;
     }
@@ -635,7 +655,7 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
     if (bytes[2] != request->unit) {
         return FIELDSCRIBE_USS_WRONG_UNIT;
     }
-    if (((reply->process == NULL) ? 0U : reply->room) < link->pzd) {
+    if (fieldscribe_uss_room(reply) < link->pzd) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
     if (link->pkw != 0U) {
@@ -678,52 +698,55 @@ fieldscribe_uss_receiver fieldscribe_uss_await(
     receiver.size = size;
     receiver.length = 0U;
     receiver.dropped = 0U;
+    receiver.next = 1U;
+    receiver.done = fieldscribe_uss_reply_length(link) > size;
     receiver.unit = request->unit;
-    receiver.least = (size_t)fieldscribe_uss_reply_length(link);
-    receiver.longer = link->pkw == FIELDSCRIBE_USS_VARIABLE;
-    receiver.done = receiver.least > size;
     return receiver;
 }
 
-/* Whether an answer may have so many bytes. */
-static bool fieldscribe_uss_expects(const fieldscribe_uss_receiver *receiver, size_t whole)
+/* How many bytes an answer has at least that so many begin; 0 where they begin none, or where its check is wrong. */
+static size_t fieldscribe_uss_begun(const fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    const bool longer = receiver->longer && (whole > receiver->least) && ((whole % 2U) == 0U);
-    return (longer && (whole <= receiver->size)) || (whole == receiver->least);
+    const size_t shortest = 4U;
+    size_t whole = (length > 1U) ? (2U + (size_t)bytes[1]) : shortest;
+    if ((bytes[0] != 0x02U) || (whole < shortest) || (whole > receiver->size) ||
+        ((length > 2U) && (bytes[2] != receiver->unit)) ||
+        ((whole <= length) && (fieldscribe_uss_check(bytes, whole) != 0U))) { /* with the check it is 0 */
+        whole = 0U;
+    } else if (length < 3U) {
+        whole = shortest; /* nobody knows yet whose it is */
+    } else {
+        /* as it says */
+    }
+    return whole;
 }
 
-/* How many bytes the answer has that begins so; 0 where none does, or where it is whole and its check is wrong. */
-static size_t fieldscribe_uss_likely(const fieldscribe_uss_receiver *receiver, const uint8_t *bytes, size_t length)
-{
-    const size_t whole = (length > 1U) ? (2U + (size_t)bytes[1]) : receiver->least;
-    bool begins = (bytes[0] == 0x02U) && fieldscribe_uss_expects(receiver, whole);
-    if (length > 2U) {
-        begins = begins && (bytes[2] == receiver->unit);
-    }
-    if (begins && (whole <= length)) {
-        begins = fieldscribe_uss_check(bytes, whole) == 0U; /* the last byte is such that all of them give 0 */
-    }
-    return begins ? whole : 0U;
-}
-
-/* Drops bytes until the rest may be the answer; whether that is whole is told, and what came behind it dropped. */
-static void fieldscribe_uss_settle(fieldscribe_uss_receiver *receiver)
+/*
+ * Drops bytes until the rest may be the answer, and what came behind it when it is whole. On a silent line a whole
+ * answer comes before one that was only begun.
+ */
+static void fieldscribe_uss_settle(fieldscribe_uss_receiver *receiver, bool silent)
 {
     const size_t length = receiver->length;
-    size_t whole = 0U;
+    size_t whole = 1U;
+    size_t begin = length;
     size_t from;
     size_t to = 0U;
-    for (from = 0U; from < length; ++from) {
-        whole = fieldscribe_uss_likely(receiver, &receiver->buffer[from], length - from);
-        if (whole != 0U) {
-            break;
+    bool settled = false;
+    for (from = 0U; (from < length) && (!settled); ++from) {
+        const size_t least = fieldscribe_uss_begun(receiver, &receiver->buffer[from], length - from);
+        settled = (least != 0U) && ((!silent) || (least <= (length - from)));
+        if (settled || ((least != 0U) && (begin == length))) {
+            begin = from;
+            whole = least;
         }
     }
-    receiver->done = (whole != 0U) && ((length - from) >= whole);
-    receiver->length = receiver->done ? whole : (length - from);
+    receiver->next = whole;
+    receiver->done = whole <= (length - begin);
+    receiver->length = receiver->done ? whole : (length - begin);
     receiver->dropped += length - receiver->length;
-    for (; (to < from) && (from < length); ++from) {
-        receiver->buffer[to] = receiver->buffer[from];
+    for (; (to < begin) && (begin < length); ++begin) {
+        receiver->buffer[to] = receiver->buffer[begin];
         ++to;
     }
 }
@@ -735,9 +758,18 @@ size_t fieldscribe_uss_receive(fieldscribe_uss_receiver *receiver, const uint8_t
         receiver->buffer[receiver->length] = bytes[taken];
         ++receiver->length;
         ++taken;
-        fieldscribe_uss_settle(receiver);
+        if (receiver->length >= receiver->next) {
+            fieldscribe_uss_settle(receiver, false);
+        }
     }
     return taken;
+}
+
+void fieldscribe_uss_silent(fieldscribe_uss_receiver *receiver)
+{
+    if (!receiver->done) {
+        fieldscribe_uss_settle(receiver, true);
+    }
 }
 
 fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
@@ -746,6 +778,10 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
     size_t length;
     fieldscribe_uss_status status =
         fieldscribe_uss_build(line->profile, line->link, request, process, line->buffer, line->size, &length);
+    fieldscribe_uss_clear(reply);
+    if ((status == FIELDSCRIBE_USS_OK) && (fieldscribe_uss_room(reply) < line->link->pzd)) {
+        status = FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
+    }
     if (status == FIELDSCRIBE_USS_OK) {
         fieldscribe_uss_receiver receiver = fieldscribe_uss_await(line->link, request, line->buffer, line->size);
         uint8_t byte = 0U;
@@ -755,11 +791,10 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
             (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
             --left;
         }
-        status =
-            fieldscribe_uss_parse(line->profile, line->link, request, line->buffer, receiver.length, reply);
-        if ((!receiver.done) && (receiver.dropped > 0U)) {
-            status = FIELDSCRIBE_USS_NOISE;
-        }
+        fieldscribe_uss_silent(&receiver);
+        status = ((!receiver.done) && (receiver.dropped > 0U))
+            ? FIELDSCRIBE_USS_NOISE
+            : fieldscribe_uss_parse(line->profile, line->link, request, line->buffer, receiver.length, reply);
     }
     return status;
 }

@@ -20,7 +20,7 @@
 #error "fieldscribe.h is of another version: take the one that was generated with this header."
 #endif
 #if !defined(FIELDSCRIBE_NO_FLOAT) && !defined(FIELDSCRIBE_DOUBLE)
-#error "A double has not 53 bits here, and values need them: define FIELDSCRIBE_NO_FLOAT."
+#error "A double has not 53 bits here, and values do not all fit a float: define FIELDSCRIBE_NO_FLOAT."
 #endif
 
 #define SIEMENS_MM4_DESCRIPTION_VERSION "1.0.0"

@@ -16,7 +16,7 @@ static const fieldscribe_can_message *const messages[] = {
 static void hear(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint16_t position)
 {
     uint16_t word = 0U;
-    const bool taken = fieldscribe_can_take(receiver, frame);
+    const bool taken = fieldscribe_can_take(receiver, frame, 0U);
     const fieldscribe_can_status status = fieldscribe_can_word(receiver, position, &word);
     printf(" %d %s %u", taken, names[status], word);
 }

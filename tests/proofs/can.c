@@ -16,6 +16,7 @@ static fieldscribe_can_message message;
 static fieldscribe_can_profile profile;
 static fieldscribe_can_frame frame;
 static fieldscribe_can_slot slots[SLOTS];
+static fieldscribe_can_slot slot;
 static fieldscribe_can_telegram telegram;
 static fieldscribe_can_receiver receiver;
 static fieldscribe_can_content content;
@@ -28,7 +29,10 @@ static fieldscribe_can_heard where;
 static fieldscribe_can_text_heard text_where;
 static uint16_t text[WORDS];
 static uint16_t positions[WORDS];
+static uint16_t pair[2];
+static uint32_t times[2];
 static volatile uint8_t number;
+static volatile uint32_t time;
 
 /* A telegram of so many words, and a receiver that heard anything. */
 static void hear(uint16_t words, uint8_t per_frame)
@@ -191,10 +195,10 @@ void prove_listen__too_few(size_t count)
         //@ split count;
         hear(WORDS, 1U);
         receiver = fieldscribe_can_listen(&telegram, receiver.unit, EXACTLY(count, slots), count);
-        (void)fieldscribe_can_take(&receiver, &frame);
-        (void)fieldscribe_can_heard_slot(&receiver, where.low);
+        (void)fieldscribe_can_take(&receiver, &frame, time);
+        (void)fieldscribe_can_heard_slot(&receiver, where.low, &slot);
         receiver = fieldscribe_can_listen(&telegram, receiver.unit, NULL, SLOTS);
-        (void)fieldscribe_can_take(&receiver, &frame);
+        (void)fieldscribe_can_take(&receiver, &frame, time);
     }
 }
 
@@ -204,7 +208,7 @@ void prove_take(uint16_t words, uint8_t per_frame)
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_take(&receiver, &frame);
+        (void)fieldscribe_can_take(&receiver, &frame, time);
     }
 }
 
@@ -214,7 +218,7 @@ void prove_heard_slot(uint16_t words, uint8_t per_frame, uint16_t position)
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_heard_slot(&receiver, position);
+        (void)fieldscribe_can_heard_slot(&receiver, position, &slot);
     }
 }
 
@@ -239,6 +243,38 @@ void prove_received(uint16_t words, uint8_t per_frame)
         (void)fieldscribe_can_received(&receiver, &where, EXACTLY(0U, word), 0U);
         (void)fieldscribe_can_received(&receiver, &where, NULL, 2U);
     }
+}
+
+void prove_pair(uint16_t words, uint8_t per_frame)
+{
+    if (words <= WORDS && per_frame <= 5U) {
+        //@ split words;
+        //@ split per_frame;
+        hear(words, per_frame);
+        (void)fieldscribe_can_pair(&receiver, &where, pair, times);
+    }
+}
+
+void prove_since(uint32_t now)
+{
+    (void)fieldscribe_can_since(time, now);
+}
+
+void prove_age(uint16_t words, uint8_t per_frame, uint32_t now)
+{
+    if (words <= WORDS && per_frame <= 5U) {
+        uint32_t age;
+        //@ split words;
+        //@ split per_frame;
+        hear(words, per_frame);
+        (void)fieldscribe_can_age(&receiver, &where, now, &age);
+    }
+}
+
+void prove_words(void)
+{
+    uint16_t words[FIELDSCRIBE_CAN_WORDS];
+    fieldscribe_can_words(&message, &frame, words);
 }
 
 void prove_around(uint8_t place)
@@ -271,7 +307,7 @@ void prove_listen__long(uint8_t unit)
 void prove_take__long(void)
 {
     hear_long();
-    (void)fieldscribe_can_take(&receiver, &frame);
+    (void)fieldscribe_can_take(&receiver, &frame, time);
 }
 
 void prove_word__long(uint16_t position)

@@ -26,7 +26,6 @@ static fieldscribe_modbus_reading reading;
 static fieldscribe_modbus_writing writing;
 static fieldscribe_modbus_command command;
 static fieldscribe_modbus_receiver receiver;
-static fieldscribe_modbus_beginning beginning;
 static fieldscribe_modbus_line line;
 static volatile uint8_t number;
 
@@ -539,13 +538,6 @@ void prove_words_in(uint16_t count)
     }
 }
 
-void prove_begin(uint8_t function, uint32_t whole)
-{
-    ask_any();
-    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_RTU, &request, function, whole);
-    fieldscribe_modbus_begin(&beginning, FIELDSCRIBE_MODBUS_TCP, &request, function, whole);
-}
-
 void prove_await(size_t size)
 {
     ask_any();
@@ -553,16 +545,25 @@ void prove_await(size_t size)
     receiver = fieldscribe_modbus_await(&profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, size);
 }
 
-void prove_begun(size_t length)
+void prove_await_rtu(size_t size)
 {
-    if (length <= FRAMES && beginning.known <= sizeof beginning.head) {
-        //@ split length;
-        (void)fieldscribe_modbus_begun(&beginning, EXACTLY(length, frame), length);
-    }
+    receiver = fieldscribe_modbus_await_rtu(&profile, &request, frame, size);
 }
 
-/* As fieldscribe_modbus_begin makes them: no more of the head is known than there is. */
-#define KNOWN_HEADS (receiver.answer.known <= 9U && receiver.refusal.known <= 9U)
+void prove_await_tcp(size_t size)
+{
+    receiver = fieldscribe_modbus_await_tcp(&profile, &request, frame, size);
+}
+
+void prove_await_any(uint32_t whole, size_t size)
+{
+    receiver = fieldscribe_modbus_await_any(&request, whole, frame, size);
+}
+
+void prove_pdu(uint8_t function, uint8_t code, uint8_t count)
+{
+    (void)fieldscribe_modbus_pdu(function, code, count);
+}
 
 /* A receiver of any kind, which so many bytes have come to. */
 static void has(uint8_t *buffer, size_t size, size_t length)
@@ -571,30 +572,48 @@ static void has(uint8_t *buffer, size_t size, size_t length)
     receiver.size = size;
     receiver.length = length;
     receiver.done = number % 2U != 0U;
-    receiver.framing = number % 2U != 0U ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
+    receiver.begun = number % 2U != 0U ? &fieldscribe_modbus_begun_tcp : &fieldscribe_modbus_begun_rtu;
 }
 
-void prove_likely(size_t size, size_t length)
+void prove_begun_rtu(size_t size, size_t length)
 {
-    if (length > 0U && length <= SHORT && KNOWN_HEADS) {
+    if (length > 0U && length <= SHORT) {
         //@ split length;
         has(frame, size, length);
-        (void)fieldscribe_modbus_likely(&receiver, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_begun_rtu(&receiver, EXACTLY(length, frame), length);
+    }
+}
+
+void prove_begun_tcp(size_t size, size_t length)
+{
+    if (length > 0U && length <= SHORT) {
+        //@ split length;
+        has(frame, size, length);
+        (void)fieldscribe_modbus_begun_tcp(&receiver, EXACTLY(length, frame), length);
     }
 }
 
 void prove_settle(size_t size, size_t length)
 {
-    if (length <= STEPS && KNOWN_HEADS) {
+    if (length <= STEPS) {
         //@ split length;
         has(EXACTLY(length, frame), size, length);
-        fieldscribe_modbus_settle(&receiver);
+        fieldscribe_modbus_settle(&receiver, number % 2U != 0U);
+    }
+}
+
+void prove_silent(size_t size, size_t length)
+{
+    if (length <= STEPS) {
+        //@ split length;
+        has(EXACTLY(length, frame), size, length);
+        fieldscribe_modbus_silent(&receiver);
     }
 }
 
 void prove_receive(size_t size, size_t length, size_t count)
 {
-    if (size <= STEPS && length <= STEPS && count <= 2U && KNOWN_HEADS) {
+    if (size <= STEPS && length <= STEPS && count <= 2U) {
         //@ split size;
         //@ split length;
         //@ split count;
@@ -632,21 +651,19 @@ static void link(uint8_t *buffer, size_t size)
     request.take = &fieldscribe_modbus_take_words;
 }
 
-void prove_heard(uint8_t done, size_t dropped, uint8_t fine)
+void prove_clear(void)
 {
-    fieldscribe_modbus_receiver receiver;
-    receiver.done = (done != 0U);
-    receiver.dropped = dropped;
-    (void)fieldscribe_modbus_heard(&receiver, (fine != 0U) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_SHORT_FRAME);
+    fieldscribe_modbus_clear(&reply);
 }
 
-void prove_exchange(size_t size, size_t length)
+void prove_exchange(size_t size, size_t length, size_t room)
 {
     if (size <= SHORT) {
         //@ split size;
         link(EXACTLY(size, frame), size);
-        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_RTU, &request, length);
-        (void)fieldscribe_modbus_exchange(&line, FIELDSCRIBE_MODBUS_TCP, &request, length);
+        into(items, room);
+        receiver = fieldscribe_modbus_await_rtu(&profile, &request, line.buffer, size);
+        (void)fieldscribe_modbus_exchange(&line, &request, length, &receiver, &reply);
     }
 }
 

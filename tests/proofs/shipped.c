@@ -80,7 +80,7 @@ void prove_woodward_mpu2s(uint8_t unit)
     for (heard = 0; heard < 100; ++heard) {
         frame.data[1] = number;
         frame.data[2] = number;
-        (void)fieldscribe_can_take(&receiver, &frame);
+        (void)fieldscribe_can_take(&receiver, &frame, number);
         (void)fieldscribe_can_received(&receiver, &where, words, 2U);
     }
 }

@@ -138,22 +138,15 @@ static void has(uint8_t *buffer, size_t size, size_t length)
     receiver.buffer = buffer;
     receiver.size = size;
     receiver.length = length;
-    receiver.longer = number % 2U != 0U;
     receiver.done = number % 2U != 0U;
 }
 
-void prove_expects(size_t size, size_t whole)
+void prove_begun(size_t size, size_t length)
 {
-    has(frame, size, 0U);
-    (void)fieldscribe_uss_expects(&receiver, whole);
-}
-
-void prove_likely(size_t size, size_t length)
-{
-    if (length > 0U && length <= SHORT) {
+    if (length > 0U && length <= FRAMES) {
         //@ split length;
         has(frame, size, length);
-        (void)fieldscribe_uss_likely(&receiver, EXACTLY(length, frame), length);
+        (void)fieldscribe_uss_begun(&receiver, EXACTLY(length, frame), length);
     }
 }
 
@@ -162,8 +155,28 @@ void prove_settle(size_t size, size_t length)
     if (length <= STEPS) {
         //@ split length;
         has(EXACTLY(length, frame), size, length);
-        fieldscribe_uss_settle(&receiver);
+        fieldscribe_uss_settle(&receiver, number % 2U != 0U);
     }
+}
+
+void prove_silent(size_t size, size_t length)
+{
+    if (length <= STEPS) {
+        //@ split length;
+        has(EXACTLY(length, frame), size, length);
+        fieldscribe_uss_silent(&receiver);
+    }
+}
+
+void prove_clear(void)
+{
+    fieldscribe_uss_clear(&reply);
+}
+
+void prove_room(size_t room)
+{
+    into(number % 2U != 0U ? NULL : words, room);
+    (void)fieldscribe_uss_room(&reply);
 }
 
 void prove_receive(size_t size, size_t length, size_t count)

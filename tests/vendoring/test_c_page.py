@@ -30,6 +30,7 @@ BUS = """
 #include "woodward_mpu2s_can.h"
 void can_send(const fieldscribe_can_frame *frame);
 bool can_receive(fieldscribe_can_frame *frame);
+uint32_t milliseconds(void);
 """
 
 
@@ -217,6 +218,7 @@ MODBUS = """
 int main(void)
 {
     static const uint8_t noise[] = {0x05U, 0x03U, 0x05U};
+    static const uint8_t longer[] = {0x05U, 0x03U, 0xC8U}; /* as of an answer with 200 bytes */
     uint16_t frequency;
     uint16_t current;
     fieldscribe_modbus_request request;
@@ -232,6 +234,9 @@ int main(void)
     CHECK(!came(noise, sizeof noise, &frequency));
     CHECK(!came(script[-1].answer, 3U, &frequency));
     CHECK(came(script[-1].answer + 3, 4U, &frequency) && frequency == 257U && receiver.dropped == 3U);
+    begin();
+    CHECK(!came(longer, sizeof longer, &frequency) && !came(script[-1].answer, 7U, &frequency));
+    CHECK(came(NULL, 0U, &frequency) && frequency == 257U && receiver.dropped == 3U);
     CHECK(script == steps + FIELDSCRIBE_COUNT(steps));
     return 0;
 }
@@ -245,7 +250,7 @@ def test_blocks_on_modbus(page: Page) -> None:
         (READ, crc("05 83 21")),
         (BLOCK, crc("05 03 06 01 2C 02 00 00 01")),
         *((LIMIT, LIMIT), (NO_LIMIT, NO_LIMIT), (ENTER, ENTER)),
-        (READ, crc("05 03 02 01 01")),
+        *[(READ, crc("05 03 02 01 01"))] * 2,
     ]
     run_here(page, f'#include "host.h"\n{page.modbus}{script_of(steps)}{MODBUS}', board=True)
 
@@ -298,6 +303,11 @@ static uint16_t words[0x200];
 static fieldscribe_can_frame answer;
 static size_t left;
 static bool babbles; /* another's telegrams, without an end */
+static uint32_t clock_now;
+uint32_t milliseconds(void)
+{
+    return clock_now;
+}
 void can_send(const fieldscribe_can_frame *asked)
 {
     const size_t address = ((size_t)asked->data[2] << 8) | asked->data[3];
@@ -341,7 +351,12 @@ int main(void)
     babbles = true;
     CHECK(!rated_voltage(7U, &millivolts) && !switch_frequency_controller(7U, true));
     listen(7U);
-    CHECK(heard_frequency(&first, &hundredths) && hundredths == 5000);
+    CHECK(!frequency(&hundredths));
+    can_interrupt(&first);
+    clock_now += 1000U;
+    CHECK(frequency(&hundredths) && hundredths == 5000);
+    ++clock_now;
+    CHECK(!frequency(&hundredths));
     return 0;
 }
 """

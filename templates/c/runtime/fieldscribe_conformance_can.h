@@ -185,6 +185,19 @@ static inline void fieldscribe_writes_to(
         fieldscribe_agree(v, fieldscribe_can_word_to_write(&(frame).write, at, &one) == FIELDSCRIBE_CAN_BAD_ADDRESS); \
     }
 
+/* The frames of what was received came at times from 0 on; a clock that runs over is no matter. */
+static inline void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can_heard *what)
+{
+    const fieldscribe_can_receiver *const receiver = (const fieldscribe_can_receiver *)v->receiver;
+    uint32_t age = 0U;
+    uint32_t later = 0U;
+    fieldscribe_agree(v, fieldscribe_can_age(receiver, what, 1000U, &age) == FIELDSCRIBE_CAN_OK && age <= 1000U &&
+        fieldscribe_can_age(receiver, what, UINT32_MAX, &later) == FIELDSCRIBE_CAN_OK &&
+        later - age == UINT32_MAX - 1000U);
+    fieldscribe_agree(v, what->high / receiver->telegram->per_frame != what->low / receiver->telegram->per_frame ||
+        1000U - age == receiver->slots[what->high / receiver->telegram->per_frame].time_now);
+}
+
 /* A point of a telegram, out of what was received. */
 #define FIELDSCRIBE_RECEIVED(frame, kind, raw_type)                                              \
     if (fieldscribe_asks(v, "can_telegram")) {                                                   \
@@ -199,6 +212,7 @@ static inline void fieldscribe_writes_to(
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
             FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, words)                             \
+            fieldscribe_ages(v, &(frame).heard);                                                 \
         } else {                                                                                 \
             fieldscribe_untouched(v, words, sizeof words);                                       \
             fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
@@ -320,13 +334,13 @@ static void fieldscribe_has_no_such_unit(
     if (fieldscribe_can_slots(&telegram) <= 256U && receiver->unit > 0U && receiver->unit < 255U) {
         telegram.profile = &profile;
         other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, fieldscribe_can_slots(&telegram) - 1U);
-        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame) && fieldscribe_hears_nothing(&other));
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame, 0U) && fieldscribe_hears_nothing(&other));
         other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, fieldscribe_can_slots(&telegram));
         profile.first_unit = (uint8_t)(receiver->unit + 1U);
-        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame));
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame, 0U));
         profile.first_unit = 0U;
         profile.last_unit = (uint8_t)(receiver->unit - 1U);
-        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame));
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame, 0U));
     }
 }
 
@@ -353,7 +367,8 @@ static void fieldscribe_finds_the_frame(
     turned.data[at] = frame->data[0];
     telegram.message = &message;
     other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all, 256U);
-    fieldscribe_agree(v, fieldscribe_can_take(&other, &turned) && slots.all[frame->data[at]].now == 1U);
+    fieldscribe_agree(v, fieldscribe_can_take(&other, &turned, 9U) && slots.all[frame->data[at]].now == 1U &&
+        slots.all[frame->data[at]].time_now == 9U);
 }
 
 /* Feeds the frames of a line to a receiver, which takes those that it should. */
@@ -368,7 +383,7 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
         const char *const data = strchr(at, '=');
         const fieldscribe_can_frame frame =
             fieldscribe_read_frame(fieldscribe_pattern(at), data != NULL ? data + 1 : "");
-        taken[fed] = fieldscribe_can_take(receiver, &frame) ? 1U : 0U;
+        taken[fed] = fieldscribe_can_take(receiver, &frame, (uint32_t)fed) ? 1U : 0U;
         if (taken[fed] != 0U) {
             fieldscribe_has_no_such_unit(v, receiver, &frame);
             fieldscribe_finds_the_frame(v, receiver, &frame);

@@ -20,6 +20,7 @@
  *     while ((!receiver.done) && receive(&byte)) {      (noise before the answer is dropped)
  *         (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
  *     }
+ *     fieldscribe_modbus_silent(&receiver);      (the answer may stand behind noise that looks like a longer one)
  *     status = fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, buffer, receiver.length, &reply);
  *     fits = fieldscribe_take_u16(point->layout, words, reply.count, &raw);
  *
@@ -269,41 +270,45 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_pr
     fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *buffer, size_t size,
     size_t length);
 
-/* How an answer begins, as far as that is known before it comes, and how many bytes it has. */
-typedef struct fieldscribe_modbus_beginning {
-    uint8_t head[9];
-    uint8_t known;
-    uint16_t whole;
-} fieldscribe_modbus_beginning;
-
 /*
  * What picks the answer to one request out of bytes as they come. The answer so far is in the first `length` bytes of
  * the caller's `buffer`, all of it when it is `done`. `dropped` counts bytes that were no part of it: noise, an answer
- * to something else or of another length, a wrong checksum. If nothing came and nothing was dropped, nobody answers.
+ * to something else, a wrong checksum. If nothing came and nothing was dropped, nobody answers. An answer of another
+ * length than was asked for is received, too, where it fits into the buffer; parsing says what is wrong with it.
  */
 typedef struct fieldscribe_modbus_receiver {
     uint8_t *buffer;
     size_t size;
     size_t length;
     size_t dropped;
+    size_t next; /* so many bytes say more about the answer */
     bool done;
-    fieldscribe_modbus_framing framing;
-    fieldscribe_modbus_beginning answer;
-    fieldscribe_modbus_beginning refusal;
+    uint8_t unit;
+    uint8_t function;
+    uint16_t transaction;
+    size_t (*begun)(const struct fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length);
 } fieldscribe_modbus_receiver;
 
 /*
  * A receiver for the answer to a request, which it does not need again. It is done at once where nobody answers, and
  * where `size` bytes are too few for the answer; parsing then says SHORT_FRAME.
  */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size);
 
 /*
  * Gives a receiver bytes, one or many, and says how many of them it took: all, but for those that came behind the whole
  * answer. Those belong to the next one.
  */
 size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count);
+
+/*
+ * Tells a receiver that the line is silent: an answer that is not done may stand behind noise that looked like the
+ * beginning of a longer one.
+ */
+void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver);
 
 /* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
@@ -317,7 +322,7 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
 
-/* Both by framing: one that is constant links its own functions alone. */
+/* The same by framing: one that is constant links its own functions alone. */
 FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
     const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
     const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
@@ -332,6 +337,14 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_p
 {
     return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_parse_tcp(request, bytes, length, reply)
                                                : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
+}
+
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_receiver fieldscribe_modbus_await(
+    const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
+{
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_await_tcp(profile, request, buffer, size)
+                                               : fieldscribe_modbus_await_rtu(profile, request, buffer, size);
 }
 
 /*
@@ -351,8 +364,9 @@ typedef struct fieldscribe_modbus_line {
 /*
  * Sends a request and waits for its answer: building, sending, receiving and parsing in one. SHORT_FRAME says that none
  * came, or its beginning alone; NOISE that other bytes came (an answer with a wrong checksum, of another unit, at
- * another baud rate), or ASK_MOST bytes with no answer in them. What goes to all units is OK when it is sent, as nobody
- * answers. Over TCP give each request another `transaction`: by that a late answer is told from the one waited for.
+ * another baud rate), or ASK_MOST bytes with no answer in them. Nothing is sent where `buffer` or the reply is too
+ * small for the answer (BUFFER_TOO_SMALL). What goes to all units is OK when it is sent, as nobody answers. Over TCP
+ * give each request another `transaction`: by that a late answer is told from the one waited for.
  */
 FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
     const fieldscribe_modbus_request *request, fieldscribe_modbus_reply *reply);
@@ -409,6 +423,20 @@ static void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
 static bool fieldscribe_modbus_reads(uint8_t function)
 {
     return (function >= 0x01U) && (function <= 0x04U);
+}
+
+/* The bytes of an answer that begins with this code and this byte, from its code on; 0 if it answers something else. */
+static size_t fieldscribe_modbus_pdu(uint8_t function, uint8_t code, uint8_t count)
+{
+    size_t bytes = 0U;
+    if (code == (function | 0x80U)) {
+        bytes = 2U;
+    } else if (code == function) {
+        bytes = fieldscribe_modbus_reads(function) ? (2U + (size_t)count) : 5U;
+    } else {
+        /* none */
+    }
+    return bytes;
 }
 
 /* 05h carries FF00h for on; every other single value travels as it is. */
@@ -700,59 +728,53 @@ fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer from its function on. */
+/* Reads an answer from its function on, which is that of the request, or refuses it. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
+    if (pdu[0] != request->function) {
+        reply->exception = pdu[1];
+        return FIELDSCRIBE_MODBUS_EXCEPTION;
+    }
     return (request->take == NULL) ? FIELDSCRIBE_MODBUS_WRONG_FUNCTION : request->take(request, pdu, size, reply);
+}
+
+/* Nothing has come yet. */
+static void fieldscribe_modbus_clear(fieldscribe_modbus_reply *reply)
+{
+    reply->count = 0U;
+    reply->exception = 0U;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
-    size_t expected = length;
-    uint16_t crc;
-    bool known = true;
-    bool refused = false;
-    reply->count = 0U;
-    reply->exception = 0U;
+    size_t pdu;
+    fieldscribe_modbus_clear(reply);
     if (length < 5U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
-    if (bytes[1] == (request->function | 0x80U)) {
-        refused = true;
-        expected = 5U;
-    } else if (bytes[1] != request->function) {
-        known = false; /* nobody knows how long it ought to be */
-    } else {
-        expected = fieldscribe_modbus_reads(request->function) ? (5U + (size_t)bytes[2]) : 8U;
+    pdu = fieldscribe_modbus_pdu(request->function, bytes[1], bytes[2]);
+    if ((pdu != 0U) && (length != (pdu + 3U))) {
+        return (length < (pdu + 3U)) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (length != expected) {
-        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
-    }
-    crc = (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U]);
-    if (fieldscribe_modbus_crc(bytes, length - 2U) != crc) {
+    if (fieldscribe_modbus_crc(bytes, length) != 0U) { /* with its checksum behind it, every frame has the checksum 0 */
         return FIELDSCRIBE_MODBUS_BAD_CRC;
     }
     if (bytes[0] != request->unit) {
         return FIELDSCRIBE_MODBUS_WRONG_UNIT;
     }
-    if (!known) {
+    if (pdu == 0U) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    if (refused) {
-        reply->exception = bytes[2];
-        return FIELDSCRIBE_MODBUS_EXCEPTION;
-    }
-    return fieldscribe_modbus_take_answer(request, bytes + 1, length - 3U, reply);
+    return fieldscribe_modbus_take_answer(request, &bytes[1], pdu, reply);
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
-    reply->count = 0U;
-    reply->exception = 0U;
+    fieldscribe_modbus_clear(reply);
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -769,17 +791,13 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     if (bytes[6] != request->unit) {
         return FIELDSCRIBE_MODBUS_WRONG_UNIT;
     }
-    if (bytes[7] == (request->function | 0x80U)) {
-        if (length > 9U) {
-            return FIELDSCRIBE_MODBUS_LONG_FRAME;
-        }
-        reply->exception = bytes[8];
-        return FIELDSCRIBE_MODBUS_EXCEPTION;
-    }
-    if (bytes[7] != request->function) {
+    if (fieldscribe_modbus_pdu(request->function, bytes[7], bytes[8]) == 0U) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    return fieldscribe_modbus_take_answer(request, bytes + 7, length - 7U, reply);
+    if ((bytes[7] != request->function) && (length > 9U)) {
+        return FIELDSCRIBE_MODBUS_LONG_FRAME; /* of a refusal */
+    }
+    return fieldscribe_modbus_take_answer(request, &bytes[7], length - 7U, reply);
 }
 
 /* The bytes of an answer, from the unit to the end of what it is about. */
@@ -810,13 +828,13 @@ uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profi
 static uint32_t fieldscribe_modbus_told(
     fieldscribe_modbus_framing framing, uint8_t function, const uint8_t *buffer, uint32_t expected)
 {
+    const uint8_t code = buffer[1];
+    const bool refused = (code & 0x80U) != 0U; /* whatever it answers */
     uint32_t whole = expected;
     if (framing == FIELDSCRIBE_MODBUS_TCP) {
         whole = 6U + (uint32_t)fieldscribe_modbus_get(buffer + 4);
-    } else if ((buffer[1] & 0x80U) != 0U) {
-        whole = 5U;
-    } else if ((buffer[1] == function) && fieldscribe_modbus_reads(function)) {
-        whole = 5U + (uint32_t)buffer[2];
+    } else if (refused || (code == function)) {
+        whole = 3U + (uint32_t)fieldscribe_modbus_pdu(refused ? (code & 0x7FU) : function, code, buffer[2]);
     } else {
         /* as long as what was written asks for */
     }
@@ -837,86 +855,107 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
 }
 
-/* How the answer with that function, of so many bytes, begins. */
-static void fieldscribe_modbus_begin(fieldscribe_modbus_beginning *beginning, fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, uint8_t function, uint32_t whole)
+/* How many bytes an answer has at least that so many begin; 0 where they begin none, or its checksum is wrong. */
+static size_t fieldscribe_modbus_begun_rtu(
+    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    uint8_t *const head = beginning->head;
-    uint8_t at = 0U;
-    if (framing == FIELDSCRIBE_MODBUS_TCP) {
-        fieldscribe_modbus_put(&head[0], request->transaction);
-        fieldscribe_modbus_put(&head[2], 0U);
-        fieldscribe_modbus_put(&head[4], (uint16_t)((whole - 6U) & 0xFFFFU));
-        at = 6U;
+    size_t whole = 5U; /* the shortest */
+    if (length > 1U) {
+        const size_t pdu = fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
+        whole = (pdu != 0U) ? (3U + pdu) : 0U;
     }
-    head[at] = request->unit;
-    head[at + 1U] = function;
-    head[at + 2U] = (uint8_t)((whole - fieldscribe_modbus_around(framing) - 3U) & 0xFFU);
-    beginning->known = (uint8_t)(at + (fieldscribe_modbus_reads(function) ? 3U : 2U));
-    beginning->whole = (uint16_t)(whole & 0xFFFFU);
+    if ((bytes[0] != receiver->unit) || (whole > receiver->size) ||
+        ((whole <= length) && (fieldscribe_modbus_crc(bytes, whole) != 0U))) {
+        whole = 0U;
+    }
+    return whole;
 }
 
-fieldscribe_modbus_receiver fieldscribe_modbus_await(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
+static size_t fieldscribe_modbus_begun_tcp(
+    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    const uint32_t whole = fieldscribe_modbus_reply_length(profile, framing, request);
-    const uint32_t refusal = fieldscribe_modbus_around(framing) + 3U;
+    const uint8_t head[4] = {
+        (uint8_t)(receiver->transaction >> 8), (uint8_t)(receiver->transaction & 0xFFU), 0U, 0U};
+    const size_t shortest = 9U;
+    size_t whole = (length > 5U) ? (6U + (size_t)fieldscribe_modbus_get(&bytes[4])) : shortest;
+    size_t at = 0U;
+    while ((at < length) && (at < 4U) && (bytes[at] == head[at])) {
+        ++at;
+    }
+    if (((at < length) && (at < 4U)) || (whole < shortest) || (whole > receiver->size) ||
+        ((length > 6U) && (bytes[6] != receiver->unit)) ||
+        ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U))) {
+        whole = 0U;
+    } else if (length < 8U) {
+        whole = shortest; /* nobody knows yet what it is about */
+    } else {
+        /* as it says */
+    }
+    return whole;
+}
+
+/* A receiver, without what tells how an answer begins. */
+static fieldscribe_modbus_receiver fieldscribe_modbus_await_any(
+    const fieldscribe_modbus_request *request, uint32_t whole, uint8_t *buffer, size_t size)
+{
     fieldscribe_modbus_receiver receiver;
     receiver.buffer = buffer;
     receiver.size = size;
     receiver.length = 0U;
     receiver.dropped = 0U;
+    receiver.next = 1U;
     receiver.done = (whole == 0U) || (whole > size);
-    receiver.framing = framing;
-    fieldscribe_modbus_begin(&receiver.answer, framing, request, request->function, whole);
-    fieldscribe_modbus_begin(&receiver.refusal, framing, request, (uint8_t)(request->function | 0x80U), refusal);
+    receiver.unit = request->unit;
+    receiver.function = request->function;
+    receiver.transaction = request->transaction;
+    receiver.begun = NULL;
     return receiver;
 }
 
-/* How many bytes the answer has that so many begin; 0 where it begins in another way. */
-static size_t fieldscribe_modbus_begun(
-    const fieldscribe_modbus_beginning *beginning, const uint8_t *bytes, size_t length)
+fieldscribe_modbus_receiver fieldscribe_modbus_await_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    size_t at = 0U;
-    while ((at < length) && (at < beginning->known) && (bytes[at] == beginning->head[at])) {
-        ++at;
-    }
-    return ((at == length) || (at == beginning->known)) ? beginning->whole : 0U;
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_any(
+        request, fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, request), buffer, size);
+    receiver.begun = &fieldscribe_modbus_begun_rtu;
+    return receiver;
 }
 
-/* How many bytes the answer has that begins so; 0 where none does, or where it is whole and its checksum is wrong. */
-static size_t fieldscribe_modbus_likely(
-    const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
+fieldscribe_modbus_receiver fieldscribe_modbus_await_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size)
 {
-    size_t whole = fieldscribe_modbus_begun(&receiver->answer, bytes, length);
-    if (whole == 0U) {
-        whole = fieldscribe_modbus_begun(&receiver->refusal, bytes, length);
-    }
-    if ((receiver->framing == FIELDSCRIBE_MODBUS_RTU) && (whole <= length) &&
-        (fieldscribe_modbus_crc(bytes, whole) != 0U)) {
-        whole = 0U; /* with its checksum behind it, every frame has the checksum 0 */
-    }
-    return whole;
+    fieldscribe_modbus_receiver receiver = fieldscribe_modbus_await_any(
+        request, fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, request), buffer, size);
+    receiver.begun = &fieldscribe_modbus_begun_tcp;
+    return receiver;
 }
 
-/* Drops bytes until the rest may be the answer; whether that is whole is told, and what came behind it dropped. */
-static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver)
+/*
+ * Drops bytes until the rest may be the answer, and what came behind it when it is whole. On a silent line a whole
+ * answer comes before one that was only begun.
+ */
+static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, bool silent)
 {
     const size_t length = receiver->length;
-    size_t whole = 0U;
+    size_t whole = 1U;
+    size_t begin = length;
     size_t from;
     size_t to = 0U;
-    for (from = 0U; from < length; ++from) {
-        whole = fieldscribe_modbus_likely(receiver, &receiver->buffer[from], length - from);
-        if (whole != 0U) {
-            break;
+    bool settled = false;
+    for (from = 0U; (from < length) && (!settled); ++from) {
+        const size_t least = receiver->begun(receiver, &receiver->buffer[from], length - from);
+        settled = (least != 0U) && ((!silent) || (least <= (length - from)));
+        if (settled || ((least != 0U) && (begin == length))) {
+            begin = from;
+            whole = least;
         }
     }
-    receiver->done = (whole != 0U) && ((length - from) >= whole);
-    receiver->length = receiver->done ? whole : (length - from);
+    receiver->next = whole;
+    receiver->done = whole <= (length - begin);
+    receiver->length = receiver->done ? whole : (length - begin);
     receiver->dropped += length - receiver->length;
-    for (; (to < from) && (from < length); ++from) {
-        receiver->buffer[to] = receiver->buffer[from];
+    for (; (to < begin) && (begin < length); ++begin) {
+        receiver->buffer[to] = receiver->buffer[begin];
         ++to;
     }
 }
@@ -928,32 +967,45 @@ size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const u
         receiver->buffer[receiver->length] = bytes[taken];
         ++receiver->length;
         ++taken;
-        fieldscribe_modbus_settle(receiver);
+        if (receiver->length >= receiver->next) {
+            fieldscribe_modbus_settle(receiver, false);
+        }
     }
     return taken;
 }
 
-/* Sends the `length` bytes of a request, and receives its answer; a line that is never silent comes to an end, too. */
-static fieldscribe_modbus_receiver fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, size_t length)
+void fieldscribe_modbus_silent(fieldscribe_modbus_receiver *receiver)
 {
-    fieldscribe_modbus_receiver receiver =
-        fieldscribe_modbus_await(line->profile, framing, request, line->buffer, line->size);
-    uint8_t byte = 0U;
-    uint16_t left = FIELDSCRIBE_MODBUS_ASK_MOST;
-    line->send(line->context, line->buffer, length);
-    while ((!receiver.done) && (left > 0U) && line->receive(line->context, &byte)) {
-        (void)fieldscribe_modbus_receive(&receiver, &byte, 1U);
-        --left;
+    if (!receiver->done) {
+        fieldscribe_modbus_settle(receiver, true);
     }
-    return receiver;
 }
 
-/* What parsing says, but for an answer that is not whole where other bytes came. */
-static fieldscribe_modbus_status fieldscribe_modbus_heard(
-    const fieldscribe_modbus_receiver *receiver, fieldscribe_modbus_status parsed)
+/*
+ * Sends the `length` bytes of a request, and receives its answer; a line that is never silent comes to an end, too. OK
+ * says that the receiver has an answer to parse, or none because nobody answers.
+ */
+static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_modbus_line *line,
+    const fieldscribe_modbus_request *request, size_t length, fieldscribe_modbus_receiver *receiver,
+    const fieldscribe_modbus_reply *reply)
 {
-    return ((!receiver->done) && (receiver->dropped > 0U)) ? FIELDSCRIBE_MODBUS_NOISE : parsed;
+    const bool answered = request->unit != line->profile->broadcast;
+    const size_t needed = fieldscribe_modbus_reads(request->function) ? request->count : 0U;
+    uint16_t left = FIELDSCRIBE_MODBUS_ASK_MOST;
+    uint8_t byte = 0U;
+    if (answered && (receiver->done || (fieldscribe_modbus_room(reply) < needed))) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    line->send(line->context, line->buffer, length);
+    while ((!receiver->done) && (left > 0U) && line->receive(line->context, &byte)) {
+        (void)fieldscribe_modbus_receive(receiver, &byte, 1U);
+        --left;
+    }
+    fieldscribe_modbus_silent(receiver);
+    if (!receiver->done) {
+        return (receiver->dropped > 0U) ? FIELDSCRIBE_MODBUS_NOISE : FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    return FIELDSCRIBE_MODBUS_OK;
 }
 
 fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_line *line,
@@ -962,12 +1014,13 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_li
     size_t length;
     fieldscribe_modbus_status status =
         fieldscribe_modbus_build_rtu(line->profile, request, line->buffer, line->size, &length);
+    fieldscribe_modbus_clear(reply);
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        const fieldscribe_modbus_receiver receiver =
-            fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_RTU, request, length);
-        if (request->unit != line->profile->broadcast) {
+        fieldscribe_modbus_receiver receiver =
+            fieldscribe_modbus_await_rtu(line->profile, request, line->buffer, line->size);
+        status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
+        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) {
             status = fieldscribe_modbus_parse_rtu(request, line->buffer, receiver.length, reply);
-            status = fieldscribe_modbus_heard(&receiver, status);
         }
     }
     return status;
@@ -979,12 +1032,13 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
     size_t length;
     fieldscribe_modbus_status status =
         fieldscribe_modbus_build_tcp(line->profile, request, line->buffer, line->size, &length);
+    fieldscribe_modbus_clear(reply);
     if (status == FIELDSCRIBE_MODBUS_OK) {
-        const fieldscribe_modbus_receiver receiver =
-            fieldscribe_modbus_exchange(line, FIELDSCRIBE_MODBUS_TCP, request, length);
-        if (request->unit != line->profile->broadcast) {
+        fieldscribe_modbus_receiver receiver =
+            fieldscribe_modbus_await_tcp(line->profile, request, line->buffer, line->size);
+        status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
+        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) {
             status = fieldscribe_modbus_parse_tcp(request, line->buffer, receiver.length, reply);
-            status = fieldscribe_modbus_heard(&receiver, status);
         }
     }
     return status;

@@ -1,6 +1,7 @@
 /*
  * Streams of bytes through the receivers in C. Each case says what was asked, how large the buffer is, how many bytes
- * come at once, and the bytes; each answer is printed as it is found, and what was dropped before it.
+ * come at once, and the bytes; each answer is printed as it is found, and what was dropped before it. Then the line is
+ * silent.
  */
 #define FIELDSCRIBE_IMPLEMENTATION
 #include "cases.h"
@@ -28,6 +29,23 @@ static void await(bool modbus, const uint8_t *asked, uint8_t *buffer, size_t siz
         const fieldscribe_uss_request request = fieldscribe_uss_exchange(asked[1]);
         receiver->uss = fieldscribe_uss_await(&link, &request, buffer, size);
     }
+}
+
+/* What was dropped, and the answer; or how many bytes of it have come. */
+static void print(bool modbus, const either *receiver)
+{
+    const uint8_t *const buffer = modbus ? receiver->modbus.buffer : receiver->uss.buffer;
+    const size_t length = modbus ? receiver->modbus.length : receiver->uss.length;
+    size_t at;
+    printf("%u:", (unsigned)(modbus ? receiver->modbus.dropped : receiver->uss.dropped));
+    if (!(modbus ? receiver->modbus.done : receiver->uss.done)) {
+        printf("%u", (unsigned)length);
+        return;
+    }
+    for (at = 0U; at < length; ++at) {
+        printf("%02x", buffer[at]);
+    }
+    printf(" ");
 }
 
 int main(void)
@@ -63,13 +81,7 @@ int main(void)
                                             : fieldscribe_uss_receive(&receiver.uss, bytes + used, some - used);
                 used += taken;
                 if (modbus ? receiver.modbus.done : receiver.uss.done) {
-                    const size_t length = modbus ? receiver.modbus.length : receiver.uss.length;
-                    size_t at;
-                    printf("%u:", (unsigned)(modbus ? receiver.modbus.dropped : receiver.uss.dropped));
-                    for (at = 0U; at < length; ++at) {
-                        printf("%02x", buffer[at]);
-                    }
-                    printf(" ");
+                    print(modbus, &receiver);
                     await(modbus, asked, buffer, size, &receiver);
                 } else if (taken == 0U) {
                     abort(); /* nothing was taken, and nothing is done */
@@ -78,6 +90,14 @@ int main(void)
                 }
             }
             free(bytes);
+        }
+        if (!done) {
+            if (modbus) {
+                fieldscribe_modbus_silent(&receiver.modbus);
+            } else {
+                fieldscribe_uss_silent(&receiver.uss);
+            }
+            print(modbus, &receiver);
         }
         printf("\n");
         free(buffer);

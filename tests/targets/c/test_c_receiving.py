@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from fieldscribe.resources import templates_dir
 from support.c_device import SANITIZING, WARNINGS, program, run_program, write_headers
 from support.described import made, shipped
+from support.places import ROOT
 from support.toolchains import compiled, run, succeed, tool
 
 KITCHENS = {"modbus": "kitchen_sink", "can": "kitchen_can", "uss": "kitchen_uss"}
@@ -134,6 +136,14 @@ def test_headers_of_two_descriptions_do_not_compile_together(family: str, tmp_pa
     done = run(check)
     assert done.returncode != 0
     assert f"{name}.h is of another description" in done.stderr
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="steps through instructions of x86")
+@pytest.mark.parametrize("level", ["-O0", "-O2"])
+def test_words_of_a_telegram_are_of_one_moment_in_interrupts(level: str, tmp_path: Path) -> None:
+    source = ROOT / "tests/targets/c/programs/can_interrupts.c"
+    flags = ("-std=gnu99", level, *WARNINGS, f"-I{templates_dir() / 'c' / 'runtime'}")
+    succeed([compiled("gcc", flags, source, tmp_path / "interrupts")])
 
 
 READS = program("modbus_reads")

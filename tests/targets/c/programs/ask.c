@@ -28,22 +28,43 @@ int main(void)
     uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
     const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, &sent};
     const fieldscribe_modbus_line narrow = {&profile, buffer, 11U, &send, &receive, &sent};
-    uint16_t word = 0U;
-    fieldscribe_modbus_reply reply = {&word, 1U, 0U, 0U};
-    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
+    uint16_t words[2] = {0U, 0U};
+    fieldscribe_modbus_reply reply = {words, 1U, 0U, 0U};
+    const fieldscribe_modbus_line short_line = {&profile, buffer, 8U, &send, &receive, &sent};
+    static const fieldscribe_modbus_reading two = {3U, 100U, 2U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &two);
+    if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL || sent != 0U) {
+        return 5; /* the reply has no room */
+    }
+    reply.values = NULL;
+    request = fieldscribe_modbus_read(1U, &what);
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL || sent != 0U) {
+        return 6;
+    }
+    reply.values = words;
+    reply.room = 2U;
+    request = fieldscribe_modbus_read(1U, &two);
+    if (fieldscribe_modbus_ask_rtu(&short_line, &request, &reply) != FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL ||
+        sent != 0U) {
+        return 7; /* the request fits, its answer does not */
+    }
+    request = fieldscribe_modbus_read(1U, &what);
     request.transaction = 2U;
     if (fieldscribe_modbus_ask_tcp(&narrow, &request, &reply) != FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL || sent != 0U) {
         return 1;
     }
-    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || word != 258U || sent != 12U) {
+    if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || words[0] != 258U || sent != 12U) {
         return 2;
     }
     if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_SHORT_FRAME) {
         return 3;
     }
     heard = 0U;
-    request = fieldscribe_modbus_write(0U, &to_all, &word, 1U);
-    if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || sent != 8U || heard != 0U) {
+    reply.count = 1U;
+    reply.exception = 0x22U; /* of an earlier answer */
+    request = fieldscribe_modbus_write(0U, &to_all, words, 1U);
+    if (fieldscribe_modbus_ask_rtu(&short_line, &request, &reply) != FIELDSCRIBE_MODBUS_OK || sent != 8U ||
+        heard != 0U || reply.count != 0U || reply.exception != 0U) {
         return 4;
     }
     return 0;

@@ -37,8 +37,12 @@ int main(void)
     static const uint8_t good[] = {1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t wrong_crc[] = {1, 3, 2, 0, 1, 0x79, 0x85};
     static const uint8_t other_unit[] = {2, 3, 2, 0, 1, 0x3D, 0x84};
+    static const uint8_t two_words[] = {1, 3, 4, 0, 1, 0, 2, 0x2A, 0x32};
+    static const uint8_t no_words[] = {1, 3, 0, 0x20, 0xF0};
+    static const uint8_t behind_noise[] = {1, 3, 200, 1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t tcp[] = {0, 0, 0, 0, 0, 5, 2, 3, 2, 0, 1};
     static const uint8_t wrong_check[] = {2, 12, 3, 0x14, 0x3A, 0, 0, 0, 0, 0, 1, 0, 0, 0x23};
+    static const uint8_t longer[] = {2, 14, 3, 0x14, 0x3A, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0x20};
     static const struct {
         const uint8_t *bytes;
         size_t length;
@@ -49,6 +53,11 @@ int main(void)
         {good, sizeof good, 0U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
         {good, 3U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
         {wrong_crc, sizeof wrong_crc, 1U, FIELDSCRIBE_MODBUS_NOISE},
+        {two_words, sizeof two_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT},
+        {no_words, sizeof no_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT},
+        {behind_noise, sizeof behind_noise, 1U, FIELDSCRIBE_MODBUS_OK},
+        {behind_noise, 4U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
+        {other_unit, 1U, 1U, FIELDSCRIBE_MODBUS_NOISE},
         {other_unit, sizeof other_unit, 1U, FIELDSCRIBE_MODBUS_NOISE},
         {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE},
     };
@@ -72,25 +81,41 @@ int main(void)
         }
     }
     if (heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
-        return 10;
+        return 20;
     }
     say(tcp, sizeof tcp, 1000U);
     if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE ||
         heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
-        return 11;
+        return 21;
     }
     say(wrong_check, sizeof wrong_check, 1U);
     if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_NOISE) {
-        return 12;
+        return 22;
     }
     say(wrong_check, sizeof wrong_check, 1000U);
     if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_NOISE ||
         heard != FIELDSCRIBE_USS_ASK_MOST) {
-        return 13;
+        return 23;
     }
     say(wrong_check, sizeof wrong_check, 0U);
     if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_WRONG_START) {
-        return 14;
+        return 24;
+    }
+    answer.error = 9U; /* of an earlier answer */
+    answer.room = 0U;
+    heard = 7U;
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_BUFFER_TOO_SMALL || heard != 7U ||
+        answer.error != 0U) {
+        return 25; /* nothing was sent */
+    }
+    answer.room = 1U;
+    say(longer, sizeof longer, 1U);
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_WRONG_LENGTH) {
+        return 26;
+    }
+    say(longer, 15U, 1U);
+    if (fieldscribe_uss_ask(&other, &task, &process, &answer) != FIELDSCRIBE_USS_WRONG_LENGTH) {
+        return 27; /* it broke off */
     }
     return 0;
 }

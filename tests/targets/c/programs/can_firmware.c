@@ -16,7 +16,7 @@ void start(void)
     result += (int32_t)fieldscribe_put_u16(kitchen_can_voltage_setpoint_100v_frame.layout, raw, words, 2U);
     result += (int32_t)fieldscribe_can_write(
         &kitchen_can_can_dialogue, 1U, &kitchen_can_voltage_setpoint_100v_frame.write, words[0], &frame);
-    result += (int32_t)fieldscribe_can_take(&receiver, &frame);
+    result += (int32_t)fieldscribe_can_take(&receiver, &frame, 0U);
     result += (int32_t)fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U);
     for (;;) {
     }

@@ -32,7 +32,7 @@ int main(void)
             (content.address != 0U || content.raw != 0U)) {
             return 2;
         }
-        taken += fieldscribe_can_take(&receiver, &frame) ? 1U : 0U;
+        taken += fieldscribe_can_take(&receiver, &frame, 0U) ? 1U : 0U;
         torn += fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words, 2U) ==
                 FIELDSCRIBE_CAN_TORN
             ? 1U

@@ -19,13 +19,13 @@ int main(void)
     for (at = 0U; at < sizeof wrong / sizeof wrong[0]; ++at) {
         memcpy(frame.data, right, 8U);
         frame.data[wrong[at].place] = (uint8_t)(frame.data[wrong[at].place] ^ 0x20U);
-        if (fieldscribe_can_take(&receiver, &frame) ||
+        if (fieldscribe_can_take(&receiver, &frame, 0U) ||
             fieldscribe_can_parse(&kitchen_can_message_heartbeat, &frame, &content) != wrong[at].reason) {
             return 1 + (int)at;
         }
     }
     memcpy(frame.data, right, 8U);
-    if (!fieldscribe_can_take(&receiver, &frame) ||
+    if (!fieldscribe_can_take(&receiver, &frame, 0U) ||
         fieldscribe_can_received(&receiver, &kitchen_can_beats_frame.heard, &beats, 1U) != FIELDSCRIBE_CAN_OK ||
         beats != 0x1234U) {
         return 20;
@@ -35,5 +35,5 @@ int main(void)
         &kitchen_can_telegram_heartbeat, 31U, slots, KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS);
     frame.id = 0x71FU;
     memcpy(frame.data, nobody, 8U);
-    return fieldscribe_can_take(&receiver, &frame) ? 21 : 0;
+    return fieldscribe_can_take(&receiver, &frame, 0U) ? 21 : 0;
 }

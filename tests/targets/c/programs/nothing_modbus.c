@@ -12,6 +12,7 @@
     uint8_t bytes[FIELDSCRIBE_MODBUS_RTU_MOST];
     uint16_t words[2] = {0U, 0U};
     uint16_t raw;
+    int64_t wide;
     size_t length;
     if (fieldscribe_modbus_build(profile, FIELDSCRIBE_MODBUS_RTU, &request, bytes, sizeof bytes, &length) !=
         FIELDSCRIBE_MODBUS_BAD_COUNT) {
@@ -43,7 +44,9 @@
         reply.count != 0U) {
         return 6;
     }
-    return fieldscribe_take_u16(NULL, words, 2U, &raw) || fieldscribe_put_u16(NULL, 1U, words, 2U) ||
+    return fieldscribe_take_u16(NULL, words, 2U, &raw) || fieldscribe_take_s64(NULL, words, 2U, &wide) ||
+            fieldscribe_put_s64(NULL, 1, words, 2U) || fieldscribe_take_text(NULL, words, 2U, words, 2U) ||
+            fieldscribe_put_text(NULL, words, 2U, words, 2U) || fieldscribe_put_u16(NULL, 1U, words, 2U) ||
             fieldscribe_take_text(&text, NULL, 2U, words, 2U) || fieldscribe_take_text(&text, words, 2U, NULL, 2U) ||
             fieldscribe_put_text(&text, NULL, 2U, words, 2U) || fieldscribe_put_text(&text, words, 2U, NULL, 2U)
         ? 7

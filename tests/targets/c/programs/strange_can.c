@@ -17,7 +17,7 @@ int main(void)
         fieldscribe_can_parse(&message, &frame, &content) != FIELDSCRIBE_CAN_OK || content.raw != 0xFE00U) {
         return 1;
     }
-    return fieldscribe_can_take(&receiver, &frame) &&
+    return fieldscribe_can_take(&receiver, &frame, 0U) &&
             fieldscribe_can_word(&receiver, 0U, &raw) == FIELDSCRIBE_CAN_OK && raw == 0x0203U &&
             fieldscribe_can_word(&receiver, 4U, &raw) == FIELDSCRIBE_CAN_MISSING
         ? 0
