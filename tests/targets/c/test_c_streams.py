@@ -78,9 +78,9 @@ class Asked(NamedTuple):
         """How many bytes an answer has that begins with these, or 0."""
         known, length = self._beginning(data)
         begins = all(byte in allowed for byte, allowed in zip(data, known, strict=False)) and length <= self.size
-        check = {RTU: lambda: crc(data[: length - 2]) == data[length - 2 : length], TCP: lambda: True}
-        good = len(data) < length or check.get(self.line, lambda: not any(bcc(data[:length])))()
-        return length if begins and good else 0
+        frame = data[:length]
+        good = {RTU: crc(frame[:-2]) == frame[-2:], TCP: True, USS: bcc(frame) == b"\0"}[self.line]
+        return length if begins and (good or len(data) < length) else 0
 
     def _beginning(self, data: bytes) -> tuple[list[Collection[int]], int]:
         """What the first bytes of an answer may be, and how many bytes it has as far as these say."""
