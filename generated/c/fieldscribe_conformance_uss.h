@@ -336,7 +336,7 @@ static inline fieldscribe_uss_status fieldscribe_asks_line(fieldscribe_vector *v
     static const uint16_t nothing[FIELDSCRIBE_BYTES_MOST] = {0U};
     const fieldscribe_uss_words process = {nothing, link->pzd};
     const fieldscribe_uss_line line = {fieldscribe_tables_of(v)->profile, link, buffer, sizeof buffer,
-        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream};
+        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream, FIELDSCRIBE_ANSWER_MS, FIELDSCRIBE_PAUSE_MS};
     return fieldscribe_uss_ask(&line, request, &process, reply);
 }
 
@@ -356,8 +356,8 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_li
         return;
     }
     memset(&stream, 0, sizeof stream);
-    fieldscribe_agree(
-        v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_WRONG_START);
+    fieldscribe_agree(v, fieldscribe_asks_line(v, link, request, &stream, &reply) == FIELDSCRIBE_USS_WRONG_START &&
+        stream.waited == FIELDSCRIBE_ANSWER_MS);
     fieldscribe_agree(v, stream.sent_count == sent && stream.sent[0] == built[0] && stream.sent[2] == built[2]);
     for (kind = 0U; kind < 4U; ++kind) {
         (void)fieldscribe_stream_noise(&stream, kind, bytes, length, length - 1U);
@@ -369,6 +369,7 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, const fieldscribe_uss_li
         fieldscribe_stream_add(&stream, bytes, length - 1U); /* the last byte does not come */
         fieldscribe_agree(v, kind == 2U || fieldscribe_asks_line(v, link, request, &stream, &reply) ==
             (kind == 0U ? FIELDSCRIBE_USS_WRONG_LENGTH : FIELDSCRIBE_USS_NOISE));
+        fieldscribe_agree(v, kind != 0U || stream.waited == FIELDSCRIBE_PAUSE_MS);
     }
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
     stream.endless = true;

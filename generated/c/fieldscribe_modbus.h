@@ -349,16 +349,18 @@ FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_receiver fieldscribe_modbus
 
 /*
  * A line that requests go over. `send` waits until the line is silent (over RTU for 3.5 characters, or the device takes
- * no notice of the request), drops what has come in and sends; `receive` waits for a byte, and is false when the line
- * stays silent. Both are yours and get `context`. `buffer` has room for the longest request and answer.
+ * no notice of the request), drops what has come in and sends; `receive` waits for a byte, and is false when none comes
+ * within so many milliseconds. Both are yours and get `context`. `buffer` has room for the longest request and answer.
  */
 typedef struct fieldscribe_modbus_line {
     const fieldscribe_modbus_profile *profile;
     uint8_t *buffer;
     size_t size;
     void (*send)(void *context, const uint8_t *bytes, size_t length);
-    bool (*receive)(void *context, uint8_t *byte);
+    bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
+    uint32_t answer_ms; /* how long an answer may take to begin */
+    uint32_t pause_ms;  /* how long a pause within an answer may be */
 } fieldscribe_modbus_line;
 
 /*
@@ -859,7 +861,7 @@ uint32_t fieldscribe_modbus_left(const fieldscribe_modbus_profile *profile, fiel
 static size_t fieldscribe_modbus_begun_rtu(
     const fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t length)
 {
-    size_t whole = 5U; /* the shortest */
+    size_t whole = length + 1U; /* the next byte says more */
     if (length > 1U) {
         const size_t pdu = fieldscribe_modbus_pdu(receiver->function, bytes[1], (length > 2U) ? bytes[2] : 0U);
         whole = (pdu != 0U) ? (3U + pdu) : 0U;
@@ -887,7 +889,7 @@ static size_t fieldscribe_modbus_begun_tcp(
         ((length > 7U) && (fieldscribe_modbus_pdu(receiver->function, bytes[7], 0U) == 0U))) {
         whole = 0U;
     } else if (length < 8U) {
-        whole = shortest; /* nobody knows yet what it is about */
+        whole = length + 1U; /* the next byte says more */
     } else {
         /* as it says */
     }
@@ -997,7 +999,8 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_m
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    while ((!receiver->done) && (left > 0U) && line->receive(line->context, &byte)) {
+    while ((!receiver->done) && (left > 0U) &&
+        line->receive(line->context, (receiver->length > 0U) ? line->pause_ms : line->answer_ms, &byte)) {
         (void)fieldscribe_modbus_receive(receiver, &byte, 1U);
         --left;
     }

@@ -15,8 +15,7 @@
 #define TIMER_BITS REGISTER(0x40008508U)
 #define TIMER_PRESCALER REGISTER(0x40008510U)
 #define TIMER_NOW REGISTER(0x40008540U)
-#define SILENCE 1000000U /* microseconds */
-#define BETWEEN 4011U    /* likewise, 3.5 characters of 11 bits at 9600 baud */
+#define BETWEEN 4011U    /* microseconds, 3.5 characters of 11 bits at 9600 baud */
 #define BYTES_MOST 1024U /* for which a line that is never silent is waited for */
 
 extern uint32_t _stack, _data_from, _data, _data_end, _bss, _bss_end;
@@ -89,8 +88,8 @@ void uart_send(void *context, const uint8_t *bytes, size_t length)
     }
 }
 
-bool uart_receive(void *context, uint8_t *byte)
+bool uart_receive(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     (void)context;
-    return comes(SILENCE, byte);
+    return comes(1000U * milliseconds, byte);
 }

@@ -32,10 +32,11 @@ void uart_send(void *context, const uint8_t *bytes, size_t length)
     ++script;
 }
 
-bool uart_receive(void *context, uint8_t *byte)
+bool uart_receive(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     const step *const now = script - 1;
     (void)context;
+    (void)milliseconds;
     if (said == now->answer_length) {
         return false;
     }

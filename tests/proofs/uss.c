@@ -418,9 +418,10 @@ static void send_nothing(void *context, const uint8_t *bytes, size_t length)
     (void)length;
 }
 
-static bool receive_nothing(void *context, uint8_t *byte)
+static bool receive_nothing(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     (void)context;
+    (void)milliseconds;
     *byte = number;
     return false;
 }

@@ -263,12 +263,16 @@ static void fieldscribe_agree(fieldscribe_vector *v, bool same)
     v->differs = v->differs || !same;
 }
 
+#define FIELDSCRIBE_ANSWER_MS 900U
+#define FIELDSCRIBE_PAUSE_MS 40U
+
 /* The other end of a line: the bytes that come from it, the last one for ever if it is `endless`, and what was sent. */
 typedef struct fieldscribe_stream {
     uint8_t bytes[4 * FIELDSCRIBE_BYTES_MOST];
     size_t count;
     size_t given;
     bool endless;
+    uint32_t waited; /* for the last byte, or for one that did not come */
     uint8_t sent[FIELDSCRIBE_BYTES_MOST];
     size_t sent_count;
 } fieldscribe_stream;
@@ -312,10 +316,11 @@ static inline void fieldscribe_stream_send(void *context, const uint8_t *bytes, 
     memcpy(stream->sent, bytes, length < sizeof stream->sent ? length : sizeof stream->sent);
 }
 
-static inline bool fieldscribe_stream_receive(void *context, uint8_t *byte)
+static inline bool fieldscribe_stream_receive(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     fieldscribe_stream *const stream = (fieldscribe_stream *)context;
     const bool more = stream->given < stream->count;
+    stream->waited = milliseconds;
     if (more || stream->endless) {
         *byte = stream->bytes[more ? stream->given : stream->count - 1U];
         ++stream->given;

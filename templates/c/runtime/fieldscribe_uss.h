@@ -299,7 +299,8 @@ FIELDSCRIBE_CHECKED fieldscribe_uss_status fieldscribe_uss_parse(const fieldscri
 
 /*
  * A line that telegrams go over. `send` waits until the line is silent for two characters, drops what has come in and
- * sends; `receive` waits for a byte, and says false when the line stays silent. Both are yours and get `context`.
+ * sends; `receive` waits for a byte, and is false when none comes within so many milliseconds. Both are yours and get
+ * `context`.
  * `buffer` has room for the longest telegram.
  */
 typedef struct fieldscribe_uss_line {
@@ -308,8 +309,10 @@ typedef struct fieldscribe_uss_line {
     uint8_t *buffer;
     size_t size;
     void (*send)(void *context, const uint8_t *bytes, size_t length);
-    bool (*receive)(void *context, uint8_t *byte);
+    bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
+    uint32_t answer_ms; /* how long an answer may take to begin */
+    uint32_t pause_ms;  /* how long a pause within an answer may be */
 } fieldscribe_uss_line;
 
 /*
@@ -714,7 +717,7 @@ static size_t fieldscribe_uss_begun(const fieldscribe_uss_receiver *receiver, co
         ((whole <= length) && (fieldscribe_uss_check(bytes, whole) != 0U))) { /* with the check it is 0 */
         whole = 0U;
     } else if (length < 3U) {
-        whole = shortest; /* nobody knows yet whose it is */
+        whole = length + 1U; /* the next byte says more */
     } else {
         /* as it says */
     }
@@ -787,7 +790,8 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
         uint8_t byte = 0U;
         uint16_t left = FIELDSCRIBE_USS_ASK_MOST;
         line->send(line->context, line->buffer, length);
-        while ((!receiver.done) && (left > 0U) && line->receive(line->context, &byte)) {
+        while ((!receiver.done) && (left > 0U) &&
+            line->receive(line->context, (receiver.length > 0U) ? line->pause_ms : line->answer_ms, &byte)) {
             (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
             --left;
         }

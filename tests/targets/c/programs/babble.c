@@ -5,6 +5,7 @@
 static const uint8_t *said;
 static size_t length;
 static size_t heard;
+static uint32_t waits; /* as it was told last */
 static size_t most;
 static void send(void *context, const uint8_t *bytes, size_t count)
 {
@@ -13,9 +14,10 @@ static void send(void *context, const uint8_t *bytes, size_t count)
     (void)count;
     heard = 0U;
 }
-static bool receive(void *context, uint8_t *byte)
+static bool receive(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     (void)context;
+    waits = milliseconds;
     if (heard == most) {
         return false;
     }
@@ -48,26 +50,27 @@ int main(void)
         size_t length;
         size_t times;
         fieldscribe_modbus_status status;
+        uint32_t waits;
     } rows[] = {
-        {good, sizeof good, 1U, FIELDSCRIBE_MODBUS_OK},
-        {good, sizeof good, 0U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
-        {good, 3U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
-        {wrong_crc, sizeof wrong_crc, 1U, FIELDSCRIBE_MODBUS_NOISE},
-        {two_words, sizeof two_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT},
-        {no_words, sizeof no_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT},
-        {behind_noise, sizeof behind_noise, 1U, FIELDSCRIBE_MODBUS_OK},
-        {behind_noise, 4U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME},
-        {other_unit, 1U, 1U, FIELDSCRIBE_MODBUS_NOISE},
-        {other_unit, sizeof other_unit, 1U, FIELDSCRIBE_MODBUS_NOISE},
-        {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE},
+        {good, sizeof good, 1U, FIELDSCRIBE_MODBUS_OK, 40U},
+        {good, sizeof good, 0U, FIELDSCRIBE_MODBUS_SHORT_FRAME, 900U},
+        {good, 3U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME, 40U},
+        {wrong_crc, sizeof wrong_crc, 1U, FIELDSCRIBE_MODBUS_NOISE, 900U},
+        {two_words, sizeof two_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, 40U},
+        {no_words, sizeof no_words, 1U, FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, 40U},
+        {behind_noise, sizeof behind_noise, 1U, FIELDSCRIBE_MODBUS_OK, 40U},
+        {behind_noise, 4U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME, 40U},
+        {other_unit, 1U, 1U, FIELDSCRIBE_MODBUS_NOISE, 900U},
+        {other_unit, sizeof other_unit, 1U, FIELDSCRIBE_MODBUS_NOISE, 900U},
+        {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE, 900U},
     };
     const fieldscribe_uss_link link = {4U, 1U, false};
     uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
     uint16_t word = 0U;
     uint16_t sent = 0U;
-    const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, NULL};
+    const fieldscribe_modbus_line line = {&profile, buffer, sizeof buffer, &send, &receive, NULL, 900U, 40U};
     const fieldscribe_uss_line other = {
-        &kitchen_uss_uss_profile, &link, buffer, sizeof buffer, &send, &receive, NULL};
+        &kitchen_uss_uss_profile, &link, buffer, sizeof buffer, &send, &receive, NULL, 900U, 40U};
     const fieldscribe_uss_words process = {&sent, 1U};
     fieldscribe_modbus_reply reply = {&word, 1U, 7U, 7U};
     fieldscribe_uss_reply answer = {&word, 1U, 0U, 0U, 0U, 0U};
@@ -76,7 +79,8 @@ int main(void)
     size_t at;
     for (at = 0U; at < FIELDSCRIBE_COUNT(rows); ++at) {
         say(rows[at].bytes, rows[at].length, rows[at].times);
-        if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != rows[at].status || reply.exception != 0U) {
+        if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != rows[at].status || reply.exception != 0U ||
+            waits != rows[at].waits) {
             return (int)at + 1;
         }
     }
