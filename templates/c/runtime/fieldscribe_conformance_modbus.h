@@ -381,7 +381,8 @@ static inline fieldscribe_modbus_status fieldscribe_asks_line(fieldscribe_vector
 {
     uint8_t buffer[FIELDSCRIBE_BYTES_MOST];
     const fieldscribe_modbus_line line = {fieldscribe_tables_of(v)->profile, buffer, sizeof buffer,
-        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream, FIELDSCRIBE_ANSWER_MS, FIELDSCRIBE_PAUSE_MS};
+        &fieldscribe_stream_send, &fieldscribe_stream_receive, stream, FIELDSCRIBE_ANSWER_MS,
+        FIELDSCRIBE_PAUSE_MS};
     return framing == FIELDSCRIBE_MODBUS_TCP ? fieldscribe_modbus_ask_tcp(&line, request, reply)
                                              : fieldscribe_modbus_ask_rtu(&line, request, reply);
 }
@@ -418,8 +419,9 @@ static void fieldscribe_is_asked(fieldscribe_vector *v, fieldscribe_modbus_frami
         fieldscribe_agree(v, kind != 0U || stream.waited == FIELDSCRIBE_PAUSE_MS);
     }
     memset(&stream, 0, sizeof stream);
-    fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
-        stream.waited == FIELDSCRIBE_ANSWER_MS);
+    fieldscribe_agree(
+        v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_SHORT_FRAME &&
+            stream.waited == FIELDSCRIBE_ANSWER_MS);
     (void)fieldscribe_stream_noise(&stream, 1U, bytes, length, 0U);
     stream.endless = true;
     fieldscribe_agree(v, fieldscribe_asks_line(v, framing, request, &stream, &reply) == FIELDSCRIBE_MODBUS_NOISE &&
