@@ -10,7 +10,7 @@ from audit_power.measure import measure
 from fieldscribe.resources import descriptions_dir
 
 DEVICES = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
-SAMPLE = 8
+SAMPLE = 5
 
 
 @pytest.mark.full(seconds=60)
@@ -20,5 +20,5 @@ def test_nearly_all_changed_facts_are_reported_and_all_are_listed() -> None:
         pytest.skip("set FIELDSCRIBE_MANUALS to the folder with the manuals' texts")
     powers = [measure(device, Path(manuals), 7, SAMPLE) for device in DEVICES]
     assert [change for power in powers for change in power.unlisted] == []
-    assert len([change for power in powers for change in power.missed]) <= 4
-    assert len([change for power in powers for change in power.without_fact]) <= 2
+    assert len([change for power in powers for change in power.missed]) <= 2
+    assert len([change for power in powers for change in power.without_fact]) <= 1

@@ -105,7 +105,7 @@ def builds(project: Project, words: list[str]) -> bool:
 @pytest.mark.parametrize(
     ("command", "builder"),
     [
-        *(("generate", builder) for builder in ("make", "ninja", "Ninja", "Unix Makefiles")),
+        *(("generate", builder) for builder in ("make", "ninja", "Ninja")),
         *(("vendor", "ninja"), ("project", "make")),
     ],
 )

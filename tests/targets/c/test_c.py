@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import platform
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
@@ -39,7 +38,6 @@ from support.vector_file import counts_of, spoil
 GENERATED = ROOT / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
-CORE = ("c99", "c++17")
 COMPILERS = ("gcc", "clang")
 
 
@@ -47,8 +45,8 @@ class Build(NamedTuple):
     """One way to compile a conformance program."""
 
     compiler: str
-    standard: str
     floats: str
+    standard: str
     optimize: str
     sanitized: bool
 
@@ -58,34 +56,29 @@ class Build(NamedTuple):
         return (*STANDARDS[self.standard], *WARNINGS, *FLOATS[self.floats], self.optimize, *sanitizers)
 
 
-def builds(standards: Iterable[str], sanitized: Iterable[str]) -> list[Build]:
-    """Both compilers with and without floating point, for those standards, as quickly as they compile."""
-    of_all = product(COMPILERS, standards, FLOATS)
-    return [Build(*one, "-O0", one[1] in sanitized) for one in of_all]
+WAYS = (("gcc", "float"), ("clang", "no_float"), ("clang", "float"), ("gcc", "no_float"))
 
 
-def optimized(devices: Iterable[str], *standards: str) -> list[ParameterSet]:
-    """Return each device built by both compilers with and without floating point.
+def in_turn(
+    devices: Iterable[str], standards: Sequence[str], optimize: str, *, each: int, sanitized: bool = False
+) -> list[ParameterSet]:
+    """Return each device built in so many ways.
 
-    The standards take turns, so each of them is built in each of these ways for some device.
+    Ways and standards take turns: with four builds each, six devices are built in all ways for all standards.
     """
     found = []
-    for (turn, device), (way, (compiler, floats)) in product(enumerate(devices), enumerate(product(COMPILERS, FLOATS))):
-        build = Build(compiler, standards[(turn + way) % len(standards)], floats, "-O2", False)
-        found.append(pytest.param(device, build, id=f"{device}-{named(build)}"))
+    for turn, device in enumerate(device for device in devices for _ in range(each)):
+        build = Build(*WAYS[turn % 4], standards[(turn + turn // 4) % len(standards)], optimize, sanitized)
+        found.append(pytest.param(device, build, id=f"{device}-{named(build)}", marks=pytest.mark.full(seconds=4)))
     return found
 
 
-QUICKEST = Build("clang", "c99", "float", "-O0", sanitized=False)
-
-
-def quick_first(of_all: list[Build]) -> list[Build | ParameterSet]:
-    """The core suite takes the build that compiles quickest: the sanitizers cost three times as much."""
-    return [QUICKEST, *(pytest.param(one, marks=pytest.mark.full(seconds=1)) for one in of_all)]
-
-
 def named(build: Build) -> str:
-    return "quickest" if build is QUICKEST else "-".join(map(str, build[:4]))
+    return "-".join(map(str, build[:4]))
+
+
+QUICKEST = Build("clang", "float", "c99", "-O0", sanitized=False)
+"""The core suite takes the build that compiles quickest: the sanitizers cost three times as much."""
 
 
 @pytest.fixture(scope="session")
@@ -116,17 +109,12 @@ def passed(output: str) -> dict[str, int]:
     return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
 
 
-@pytest.mark.full(seconds=1)
-@pytest.mark.parametrize("build", builds(STANDARDS, STANDARDS), ids=named)
-@pytest.mark.parametrize("device", MADE)
+@pytest.mark.parametrize(
+    ("device", "build"),
+    # the sanitizers see most where nothing is optimized away
+    in_turn(MADE, tuple(STANDARDS), "-O0", each=4, sanitized=True) + in_turn(MADE, tuple(STANDARDS), "-O2", each=2),
+)
 def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
-    """The sanitizers see most where nothing is optimized away."""
-    conforms(folders[device], device, build, tmp_path)
-
-
-@pytest.mark.full(seconds=4)
-@pytest.mark.parametrize(("device", "build"), optimized(MADE, *STANDARDS))
-def test_models_conform_optimized(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
 
 
@@ -142,15 +130,15 @@ def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Pat
     assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
 
 
-@pytest.mark.parametrize("build", quick_first(builds(CORE, ["c99"])), ids=named)
-@pytest.mark.parametrize("device", SHIPPED)
+@pytest.mark.parametrize(
+    ("device", "build"),
+    [
+        *(pytest.param(device, QUICKEST, id=device) for device in SHIPPED),
+        *in_turn(SHIPPED, ("c99",), "-O0", each=2, sanitized=True),
+        *in_turn(SHIPPED, ("c17", "c++20"), "-O2", each=1),
+    ],
+)
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
-    conforms(GENERATED, device, build, tmp_path)
-
-
-@pytest.mark.full(seconds=10)
-@pytest.mark.parametrize(("device", "build"), optimized(SHIPPED, "c17", "c++20"))
-def test_shipped_devices_conform_optimized(device: str, build: Build, tmp_path: Path) -> None:
     """The made devices have every mechanism and are built in more ways; the shipped ones take long to compile."""
     conforms(GENERATED, device, build, tmp_path)
 
@@ -349,15 +337,23 @@ def test_parts_of_fast_math_are_refused(flag: str, sample: Path) -> None:
 
 
 @pytest.mark.full(seconds=4)
-@pytest.mark.parametrize("flag", ["-freciprocal-math", "-fassociative-math"])
-def test_parts_of_fast_math_are_kept_off(flag: str, sample: Path, tmp_path: Path) -> None:
+def test_parts_of_fast_math_are_kept_off(sample: Path, tmp_path: Path) -> None:
     """clang does not tell, and takes them back for the functions that compute.
 
     With -funsafe-math-optimizations its start-up file makes the whole program flush subnormal numbers: no header can
     see or undo that.
     """
     source = sample / "c/conformance/sample_drive_conformance.c"
-    words = ("-std=c99", "-O2", *WARNINGS, flag, *UNSIGNED, "-I", str(sample / "c"))
+    words = (
+        "-std=c99",
+        "-O2",
+        *WARNINGS,
+        "-freciprocal-math",
+        "-fassociative-math",
+        *UNSIGNED,
+        "-I",
+        str(sample / "c"),
+    )
     succeed([compiled("clang", words, source, tmp_path / "run"), sample / "vectors/sample_drive.txt"])
 
 
