@@ -64,7 +64,7 @@ def in_turn(
 ) -> list[ParameterSet]:
     """Return each device built in so many ways.
 
-    Ways and standards take turns: with four builds each, six devices are built in all ways for all standards.
+    Ways and standards take turns, so that each standard is built by both compilers, with floating point and without.
     """
     found = []
     for turn, device in enumerate(device for device in devices for _ in range(each)):
@@ -112,7 +112,7 @@ def passed(output: str) -> dict[str, int]:
 @pytest.mark.parametrize(
     ("device", "build"),
     # the sanitizers see most where nothing is optimized away
-    in_turn(MADE, tuple(STANDARDS), "-O0", each=4, sanitized=True) + in_turn(MADE, tuple(STANDARDS), "-O2", each=2),
+    in_turn(MADE, tuple(STANDARDS), "-O0", each=2, sanitized=True) + in_turn(MADE, tuple(STANDARDS), "-O2", each=1),
 )
 def test_models_conform(device: str, build: Build, folders: Folders, tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
@@ -134,7 +134,7 @@ def test_models_conform_in_binary32(device: str, folders: Folders, tmp_path: Pat
     ("device", "build"),
     [
         *(pytest.param(device, QUICKEST, id=device) for device in SHIPPED),
-        *in_turn(SHIPPED, ("c99",), "-O0", each=2, sanitized=True),
+        *in_turn(SHIPPED, ("c99",), "-O0", each=1, sanitized=True),
         *in_turn(SHIPPED, ("c17", "c++20"), "-O2", each=1),
     ],
 )
