@@ -9,11 +9,11 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, Hears, Listener, LocalClient, LocalTransport,
-    ParseError, ReceiveError, Receiver, Transport,
+    AsyncTransport, BuildError, ClientError, Content, Frame, Hears, Listener, LocalTransport, ParseError, ReceiveError,
+    Receiver, Transport,
 };
 use fieldscribe_runtime::Text;
-use odd_can::{enums, flags, messages, points, telegrams, with, Error, PROFILE};
+use odd_can::{enums, flags, messages, points, telegrams, with, AsyncClient, Client, Error, LocalClient, PROFILE};
 
 /// A device that answers from its memory, with other frames before each answer.
 #[derive(Default)]
@@ -135,7 +135,7 @@ fn told<T: std::fmt::Debug, E: std::fmt::Debug>(found: Result<T, ClientError<E>>
 fn parameters_are_read_and_written() {
     let mut memory: Vec<(u16, u16)> = (732..740).map(|address| (address, 0)).collect();
     memory.extend([(507, 200), (10, 0x0064), (19, 0xC0F0), (404, 1050), (407, 9), (30, 0)]);
-    let mut client = Client::new(Bus::new(&memory, vec![part(0, [5000, 0, 0])]), &PROFILE, 5);
+    let mut client = Client::new(Bus::new(&memory, vec![part(0, [5000, 0, 0])]), 5);
     assert_eq!(client.read::<points::Ratio>(), Ok(200));
     assert_eq!(client.read_with::<points::Level>(with::Level { ratio: 200 }), Ok(200.0));
     assert_eq!(client.write_with::<points::Level>(400.0, with::Level { ratio: 200 }), Ok(()));
@@ -171,7 +171,7 @@ fn receivers_hear_what_others_are_told() {
     let noise = vec![part(0, [5000, 7, 0xFE00]), part(2, [0, 0, 4]), part(1, [0, 0, 1]), part(2, [9, 0, 4])];
     let later = [part(1, [0, 0, 1]), part(0, [4900, 7, 0xFE00]), part(0, [4900, 8, 0xFF00]), part(0, [0, 9, 0])];
     let bus = Bus::new(&[(407, 1)], noise).then(&later);
-    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    let mut client = Client::new(bus, 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
     // Its high word came once: nobody knows whether it was the same before the low one.
@@ -191,12 +191,12 @@ fn receivers_hear_what_others_are_told() {
 fn numbers_of_two_frames_are_waited_for() {
     let [high, low] = [part(1, [0, 0, 1]), part(2, [9, 0, 0])];
     let bus = Bus::default().then(&[low, high, low, high, low]);
-    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    let mut client = Client::new(bus, 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(client.receive::<points::Hours>(), Ok(0x0001_0009));
     let bus = client.into_transport();
     assert_eq!(bus.later.len(), 1);
     let bus = Bus::default().then(&[low, high, part(2, [9, 0, 0]), part(1, [0, 0, 2])]);
-    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
+    let mut client = Client::new(bus, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
     assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn(Some("hours")))));
 }
 
@@ -204,7 +204,7 @@ fn numbers_of_two_frames_are_waited_for() {
 fn other_numbers_are_told() {
     let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
     let bus = Bus::new(&[(507, 1)], vec![nearest]);
-    let mut client = Client::new(bus, &PROFILE, 5);
+    let mut client = Client::new(bus, 5);
     assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399, Some("ratio"))));
 }
 
@@ -212,7 +212,7 @@ fn listeners_are_lent_and_paired() {
     let mut receiver = Receiver::<telegrams::Measured>::new(5);
     let mut bus = Bus::new(&[(407, 1)], vec![part(3, [1, 2, 3]), Frame::new(1, &[0; 9])]);
     let pair = (&mut receiver, Receiver::<telegrams::Telegram>::new(5));
-    let mut client = Client::new(&mut bus, &PROFILE, 5).listening(pair);
+    let mut client = Client::new(&mut bus, 5).listening(pair);
     assert_eq!(client.read::<points::Actual>(), Ok(1));
     assert_eq!(receiver.raw::<points::Starts>(), Ok(0x0001_0002));
     assert_eq!(receiver.word(9), Ok(1));
@@ -239,14 +239,14 @@ impl Hears<telegrams::Measured> for Both {
 fn a_listener_of_several_telegrams_waits_for_each() {
     let bus = Bus::default().then(&[part(3, [1, 2, 3]), part(0, [4900, 0, 0])]);
     let both = Both(Receiver::new(5), Receiver::new(5));
-    let mut client = Client::new(bus, &PROFILE, 5).listening(both);
+    let mut client = Client::new(bus, 5).listening(both);
     assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
     let missing = client.patient(0).receive::<points::Starts>().unwrap_err();
     assert_eq!(missing.to_string(), "starts: the frame with the word never came");
 }
 
 fn units_are_checked() {
-    let mut client = Client::new(Bus::default(), &PROFILE, 31);
+    let mut client = Client::new(Bus::default(), 31);
     assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit, Some("ratio"))));
     assert!(client.into_transport().sent.is_empty());
 }
@@ -284,7 +284,7 @@ fn is_send<T: Send>(_: &T) {}
 
 fn waits_without_blocking() {
     let bus = Bus::new(&[(507, 200)], vec![]).then(&[part(0, [100, 0, 0])]);
-    let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    let mut client = AsyncClient::new(Slow(bus), 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(finish(client.read::<points::Ratio>()), Ok(200));
     assert_eq!(finish(client.write::<points::Ratio>(300)), Ok(()));
     assert_eq!(finish(client.receive_count::<points::Frequency>()), Ok(100));
@@ -317,10 +317,10 @@ impl LocalTransport for Shared {
 fn a_transport_may_stay_on_its_thread() {
     let bus = Rc::new(RefCell::new(Bus::new(&[(507, 200)], vec![])));
     let mut shared = Shared(Rc::clone(&bus));
-    let mut client = LocalClient::new(&mut shared, &PROFILE, 5);
+    let mut client = LocalClient::new(&mut shared, 5);
     assert_eq!(finish(client.read_count::<points::Ratio>()), Ok(200));
     assert_eq!(finish(client.write_raw::<points::Ratio>(300)), Ok(()));
-    assert_eq!(finish(LocalClient::new(shared, &PROFILE, 5).read::<points::Ratio>()), Ok(300));
+    assert_eq!(finish(LocalClient::new(shared, 5).read::<points::Ratio>()), Ok(300));
     assert_eq!(bus.borrow().sent.len(), 3);
 }
 
@@ -328,12 +328,12 @@ fn a_late_answer_is_not_taken_for_the_next() {
     let late = messages::READ_ANSWER.build(&PROFILE, 5, 407, 1).unwrap();
     let mut bus = Bus::new(&[(407, 2)], vec![]);
     bus.waiting.extend([late, part(0, [5000, 0, 0])]);
-    let mut client = Client::new(&mut bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    let mut client = Client::new(&mut bus, 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(client.read::<points::Actual>(), Ok(2));
     assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
     let mut bus = Bus::new(&[(407, 2)], vec![]);
     bus.waiting.push_back(late);
-    let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5);
+    let mut client = AsyncClient::new(Slow(bus), 5);
     assert_eq!(finish(client.read::<points::Actual>()), Ok(2));
 }
 

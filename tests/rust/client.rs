@@ -8,9 +8,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::client::{AsyncClient, AsyncTransport, Client, ClientError, LocalClient, LocalTransport, Transport};
+use fieldscribe_runtime::client::{AsyncTransport, ClientError, LocalTransport, Transport};
 use fieldscribe_runtime::modbus::{crc, reply_length, About, BuildError, Framing, Profile, ReplyError, Request};
-use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, Error, PointInfo, Readable, POINTS, PROFILE};
+use sample_drive::{blocks, commands, enums, exceptions, points, with, Access, AsyncClient, Client, Error, LocalClient};
+use sample_drive::{PointInfo, Readable, POINTS, PROFILE};
 
 /// Requests that came, and replies to give, as hexadecimal PDUs behind the unit.
 struct Line {
@@ -98,7 +99,7 @@ fn finish<T>(future: impl Future<Output = T>) -> T {
 
 fn reads_and_writes(framing: Framing) {
     let replies = ["01030201f4", "0106102801f4", "01030201f4", "01030203e7", "0103023fff", "01062012ffff", "018321", "01030404d20001"];
-    let mut client = Client::new(Line::new(framing, &replies), &PROFILE, framing, 1);
+    let mut client = Client::new(Line::new(framing, &replies), framing, 1);
     assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
     assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
     let ratio = with::VoltageSetpoint { voltage_ratio: 400 };
@@ -139,10 +140,10 @@ impl LocalTransport for Shared {
 fn a_transport_may_stay_on_its_thread() {
     let line = Rc::new(RefCell::new(Line::new(Framing::Rtu, &["01030201f4", "0106102801f4", "01030201f4"])));
     let mut shared = Shared(Rc::clone(&line));
-    let mut client = LocalClient::new(&mut shared, &PROFILE, Framing::Rtu, 1);
+    let mut client = LocalClient::new(&mut shared, Framing::Rtu, 1);
     assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
     assert_eq!(finish(client.write_count::<points::BaseFrequency>(500)), Ok(()));
-    let mut client = LocalClient::new(shared, &PROFILE, Framing::Rtu, 1);
+    let mut client = LocalClient::new(shared, Framing::Rtu, 1);
     assert_eq!(finish(client.read_count::<points::BaseFrequency>()), Ok(500));
     assert_eq!(line.borrow().sent[1], "0106102801f4");
 }
@@ -152,10 +153,10 @@ fn a_gateway_speaks_another_framing() {
     static RTU: Profile = PROFILE.with_framings(&[Framing::Rtu]);
     static BEHIND_GATEWAY: Profile = RTU.with_framings(&[Framing::Tcp]);
     let line = || Line::new(Framing::Tcp, &["01030201f4"]);
-    let mut client = Client::new(line(), &RTU, Framing::Tcp, 1);
+    let mut client = Client::new(line(), Framing::Tcp, 1).with_profile(&RTU);
     let refused = Err(ClientError::Build(BuildError::BadFraming, Some(About::Point("base_frequency"))));
     assert_eq!(client.read::<points::BaseFrequency>(), refused);
-    let mut client = Client::new(line(), &BEHIND_GATEWAY, Framing::Tcp, 1);
+    let mut client = Client::new(line(), Framing::Tcp, 1).with_profile(&BEHIND_GATEWAY);
     assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
 }
 
@@ -169,7 +170,7 @@ fn points_are_found_by_name_and_code() {
 
 /// What an error says, and what its sources say: nothing twice.
 fn errors_say_all_once_and_name_the_point() {
-    let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::new(Line::new(Framing::Rtu, &[]), Framing::Rtu, 1);
     let error = client.write::<points::BaseFrequency>(f64::NAN).unwrap_err();
     assert_eq!(error.to_string(), "base_frequency: the value is not a number");
     let error: ClientError<std::io::Error> = Error::NotANumber("level").into();
@@ -180,7 +181,7 @@ fn errors_say_all_once_and_name_the_point() {
 }
 
 fn all_units_get_a_write_and_none_answers() {
-    let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 0);
+    let mut client = Client::new(Line::new(Framing::Rtu, &[]), Framing::Rtu, 0);
     assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
     assert!(client.exchange(Request::command(0, &commands::ENTER)).unwrap().is_none());
     let none = client.read::<points::BaseFrequency>().unwrap_err();
@@ -191,14 +192,14 @@ fn all_units_get_a_write_and_none_answers() {
 
 fn waits_without_blocking() {
     let line = Line::new(Framing::Tcp, &["01030201f4", "0106102801f4"]);
-    let mut client = AsyncClient::new(Slow(line), &PROFILE, Framing::Tcp, 1);
+    let mut client = AsyncClient::new(Slow(line), Framing::Tcp, 1);
     assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
     assert_eq!(finish(client.write::<points::BaseFrequency>(50.0)), Ok(()));
 }
 
 fn a_reply_of_another_space_is_no_point() {
     let replies = ["0103020001", "01010101", "0106102801f4"];
-    let mut client = Client::new(Line::new(Framing::Rtu, &replies), &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::new(Line::new(Framing::Rtu, &replies), Framing::Rtu, 1);
     let mut raw = |request| client.exchange(request).unwrap().unwrap().raw::<points::BaseFrequency>();
     assert_eq!(raw(Request::new(1, 3, 0x1028, 1)), Ok(1));
     assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace(Some("base_frequency"))));
@@ -208,12 +209,12 @@ fn a_reply_of_another_space_is_no_point() {
 fn clients_share_a_bus() {
     let mut line = Line::new(Framing::Rtu, &["01030201f4", "02030201f4"]);
     for unit in 1..=2 {
-        let mut client = Client::new(&mut line, &PROFILE, Framing::Rtu, unit);
+        let mut client = Client::new(&mut line, Framing::Rtu, unit);
         assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
     }
     assert_eq!(line.sent, ["010310280001", "020310280001"]);
     let mut slow = Slow(Line::new(Framing::Rtu, &["01030201f4"]));
-    let mut client = AsyncClient::new(&mut slow, &PROFILE, Framing::Rtu, 1);
+    let mut client = AsyncClient::new(&mut slow, Framing::Rtu, 1);
     assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
     assert_eq!(slow.0.sent.len(), 1);
 }

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, Transport};
-use fieldscribe_runtime::uss::{check_byte, AsyncClient, Client, ClientError, Link, ParseError, Request, Value};
+use fieldscribe_runtime::uss::{check_byte, ClientError, Link, ParseError, Request, Value};
 use siemens_mm4::flags::{ControlWord, StatusWord};
-use siemens_mm4::{enums, exceptions, points, with, Error, Point, PROFILE};
+use siemens_mm4::{enums, exceptions, points, with, AsyncClient, Client, Error, Point};
 
 /// What the drive is and does: parameters of one or two words, a motor that turns, a line that may fail.
 struct Drive {
@@ -147,7 +147,7 @@ fn forty_hertz() -> with::MainSetpoint {
 
 fn runs_and_stops() {
     let drive = Drive::new();
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(127, 2), 3);
     let reference = client.read_raw::<points::ReferenceFrequency>().unwrap();
     let normalisation = client.read_raw::<points::UssNormalisationRs485>().unwrap();
     let setpoint = with::MainSetpoint { uss_normalisation: normalisation, reference_frequency: reference };
@@ -175,7 +175,7 @@ fn runs_and_stops() {
 
 fn a_lost_stop_stays_a_stop() {
     let drive = Drive::new();
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(127, 2), 3);
     client.send::<points::ControlWord>(RUN).unwrap();
     drive.lock().unwrap().loses = 1;
     assert!(client.send::<points::ControlWord>(READY).is_err());
@@ -190,7 +190,7 @@ fn a_lost_stop_stays_a_stop() {
 fn a_setpoint_alone_stops_nothing() {
     let drive = Drive::new();
     drive.lock().unwrap().control = 0x047F;
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(127, 2), 3);
     client.send_with::<points::MainSetpoint>(40.0, forty_hertz()).unwrap();
     assert!(drive.lock().unwrap().turns());
 }
@@ -199,18 +199,18 @@ fn wrong_links_are_noticed() {
     let drive = Drive::new();
     drive.lock().unwrap().pkw = 4;
     drive.lock().unwrap().single_first = true;
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(4, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
     let wrong = ClientError::EchoMismatch(Value::Word(0), Some("command_source"));
     assert_eq!(client.write::<points::CommandSource>(usual), Err(wrong));
-    let mut client = Client::new(Port(drive), &PROFILE, Link::new(4, 2).single_first(), 3);
+    let mut client = Client::new(Port(drive), Link::new(4, 2).single_first(), 3);
     assert_eq!(client.write::<points::CommandSource>(usual), Ok(()));
     assert_eq!(client.read::<points::CommandSource>(), Ok(usual));
 }
 
 fn parameters_are_changed() {
     let drive = Drive::new();
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(127, 2), 3);
     assert_eq!(client.write::<points::MaximumFrequency>(40.0), Ok(()));
     assert_eq!(client.store::<points::MaximumFrequency>(33.3), Ok(()));
     let nan = client.write::<points::MaximumFrequency>(f64::NAN);
@@ -225,7 +225,7 @@ fn parameters_are_changed() {
 
 fn all_drives_are_stopped() {
     let drive = Drive::new();
-    let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = Client::new(Port(drive.clone()), Link::new(127, 2), 3);
     client.send::<points::ControlWord>(RUN).unwrap();
     client.set::<points::ControlWord>(READY).unwrap();
     assert!(client.broadcast([2, ControlWord::ON, 0, 0]).is_err());
@@ -261,7 +261,7 @@ fn finish<T>(future: impl Future<Output = T>) -> T {
 }
 
 async fn runs_async(drive: &Shared) -> Result<StatusWord, ClientError<&'static str>> {
-    let mut client = AsyncClient::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
+    let mut client = AsyncClient::new(Port(drive.clone()), Link::new(127, 2), 3);
     let reference_frequency = client.read_raw::<points::ReferenceFrequency>().await?;
     let uss_normalisation = client.read_raw::<points::UssNormalisationRs485>().await?;
     let setpoint = with::MainSetpoint { uss_normalisation, reference_frequency };

@@ -6,11 +6,9 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
-use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, Client, ClientError, Frame, ReceiveError, Receiver, Transport,
-};
+use fieldscribe_runtime::can::{AsyncTransport, ClientError, Frame, ReceiveError, Receiver, Transport};
 use woodward_mpu2s::telegrams::Visualisation;
-use woodward_mpu2s::{enums, points, with, Error, Readable, PROFILE};
+use woodward_mpu2s::{enums, points, with, AsyncClient, Client, Error, Readable};
 
 const UNIT: u8 = 5;
 
@@ -120,7 +118,7 @@ impl AsyncTransport for Slow {
 }
 
 fn measured_values_are_published() {
-    let mut client = Client::new(Device::new(), &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
+    let mut client = Client::new(Device::new(), UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     assert_eq!(client.receive::<points::TelegramIdentification>(), Ok(1301));
     assert_eq!(client.receive::<points::OperatingHours>(), Ok(100_000));
     let receiver = client.listener();
@@ -144,7 +142,7 @@ fn measured_values_are_published() {
 }
 
 fn parameters_are_changed() {
-    let mut client = Client::new(Device::new(), &PROFILE, UNIT);
+    let mut client = Client::new(Device::new(), UNIT);
     // Without the password the device keeps what it has, and says so.
     let locked = client.write::<points::GeneratorFrequencySetpoint>(60.0);
     assert_eq!(locked, Err(ClientError::EchoMismatch(12800, Some("generator_frequency_setpoint"))));
@@ -162,7 +160,7 @@ fn parameters_are_changed() {
 }
 
 fn a_late_answer_answers_nothing() {
-    let mut client = Client::new(Device::new(), &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
+    let mut client = Client::new(Device::new(), UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.transport().slow = 1;
     let late = client.read::<points::GeneratorFrequencySetpoint>();
     assert_eq!(late, Err(ClientError::Transport("nothing came", Some("generator_frequency_setpoint"))));
@@ -188,7 +186,7 @@ fn finish<T>(future: impl Future<Output = T>) -> T {
 }
 
 async fn gateway(device: Slow) -> Result<(f64, f64), ClientError<&'static str>> {
-    let mut client = AsyncClient::new(device, &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
+    let mut client = AsyncClient::new(device, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.write::<points::PasswordLevel2>(1234).await?;
     client.write::<points::GeneratorFrequencySetpoint>(50.5).await?;
     let setpoint = client.read::<points::GeneratorFrequencySetpoint>().await?;

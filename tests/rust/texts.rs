@@ -41,7 +41,7 @@ fn framings_are_checked() {
 fn main() {
     framings_are_checked();
     let text = Text::new("First to last").unwrap();
-    let mut client = Client::new(Registers([0; 8]), &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::for_profile(Registers([0; 8]), &PROFILE, Framing::Rtu, 1);
     assert_eq!(client.write::<points::Name>(text), Ok(()));
     assert_eq!(client.read::<points::Name>(), Ok(text));
     let registers = client.into_transport().0;

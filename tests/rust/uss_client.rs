@@ -9,10 +9,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, LocalTransport, Transport};
-use fieldscribe_runtime::uss::{
-    check_byte, AsyncClient, BuildError, Client, ClientError, Link, LocalClient, ParseError, Request, Value,
-};
-use odd_uss::{exceptions, flags, points, tasks, with, Error, PROFILE};
+use fieldscribe_runtime::uss::{check_byte, BuildError, ClientError, Link, ParseError, Request, Value};
+use odd_uss::{exceptions, flags, points, tasks, with, AsyncClient, Client, Error, LocalClient};
 
 /// A drive with one or two words for each element, which sends its process data and refuses what it does not have.
 #[derive(Default)]
@@ -130,7 +128,7 @@ fn drive() -> Drive {
 }
 
 fn parameters_are_read_and_written() {
-    let mut client = Client::new(drive(), &PROFILE, LINK, 3);
+    let mut client = Client::new(drive(), LINK, 3);
     assert_eq!(client.read::<points::Source>(), Ok(2));
     assert_eq!(client.write::<points::Source>(5), Ok(()));
     assert_eq!(client.store::<points::Source>(6), Ok(()));
@@ -158,27 +156,27 @@ fn parameters_are_read_and_written() {
 }
 
 fn refusals_and_wrong_answers_are_told() {
-    let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), &PROFILE, LINK, 3);
+    let mut client = Client::new(Drive::new(&[((0, 0x8000), &[1])]), LINK, 3);
     let refused = ClientError::Reply(ParseError::Refused { error: exceptions::NOT_NOW, name: Some("not_now") }, Some("source"));
     assert_eq!(client.read::<points::Source>(), Err(refused));
     assert_eq!(client.read::<points::Reference>(), Err(ClientError::Point(Error::WrongLength(Some("reference")))));
     let mut drive = client.into_transport();
     drive.longer = true;
-    let mut client = Client::new(&mut drive, &PROFILE, Link::new(3, 4), 3);
+    let mut client = Client::new(&mut drive, Link::new(3, 4), 3);
     assert_eq!(client.cycle(), Err(ClientError::Reply(ParseError::WrongLength, None)));
-    let mut client = Client::new(&mut drive, &PROFILE, LINK, 32);
+    let mut client = Client::new(&mut drive, LINK, 32);
     assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadUnit, None)));
-    let mut client = Client::new(&mut drive, &PROFILE, LINK, 3);
+    let mut client = Client::new(&mut drive, LINK, 3);
     let other = client.exchange(Request::cyclic(4)).err();
     assert_eq!(other, Some(ClientError::Build(BuildError::OtherUnit, None)));
-    let mut client = Client::new(&mut drive, &PROFILE, Link::new(127, 200), 3);
+    let mut client = Client::new(&mut drive, Link::new(127, 200), 3);
     assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadLink, None)));
     assert_eq!(client.broadcast([0; 4]), Err(ClientError::Build(BuildError::BadLink, None)));
 }
 
 fn process_data_go_both_ways() {
     let fifty = 0x4248_0000;
-    let mut client = Client::new(drive(), &PROFILE, LINK, 3);
+    let mut client = Client::new(drive(), LINK, 3);
     assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard(Some("status_word"))));
     assert_eq!(client.cycle(), Ok(()));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(0x0331)));
@@ -214,7 +212,7 @@ fn started<T: Transport>(line: T) -> Client<T>
 where
     T::Error: std::fmt::Debug + PartialEq,
 {
-    let mut client = Client::new(line, &PROFILE, LINK, 3);
+    let mut client = Client::new(line, LINK, 3);
     client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
     client.send_bits::<points::Jog>(2).unwrap();
     assert_eq!(client.words(), [0x047F, 0, 0, 0x8002]);
@@ -267,7 +265,7 @@ fn a_refused_task_brings_process_data() {
 }
 
 fn constant_bits_come_with_their_own_word() {
-    let mut client = Client::new(drive(), &PROFILE, LINK, 3);
+    let mut client = Client::new(drive(), LINK, 3);
     let setpoint = with::MainSetpoint { reference: 0x4248_0000 };
     assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
     assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(1)), Ok(()));
@@ -283,7 +281,7 @@ fn constant_bits_come_with_their_own_word() {
 fn answers_are_held_against_what_was_written() {
     let mut line = drive();
     line.changes = Some(0);
-    let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
+    let mut client = Client::new(&mut line, LINK, 3);
     assert_eq!(client.write::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
     assert_eq!(client.store::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0), Some("source"))));
     assert_eq!(client.update::<points::LowBits>(3), Err(ClientError::EchoMismatch(Value::Word(0), Some("low_bits"))));
@@ -300,7 +298,7 @@ fn answers_are_held_against_what_was_written() {
 
 fn all_units_are_sent_valid_words() {
     let mut line = drive();
-    let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
+    let mut client = Client::new(&mut line, LINK, 3);
     let bad = Err(ClientError::Build(BuildError::BadMask, None));
     // Nobody set the control word, whose constant bit makes it valid; it does not matter where it is not meant.
     assert_eq!(client.broadcast([6, 0xFFFF, 0, 0]), bad);
@@ -318,7 +316,7 @@ fn all_units_are_sent_valid_words() {
 fn is_send<T: Send>(_: &T) {}
 
 fn waits_without_blocking() {
-    let mut client = AsyncClient::new(drive(), &PROFILE, LINK, 3);
+    let mut client = AsyncClient::new(drive(), LINK, 3);
     assert_eq!(finish(client.read::<points::Source>()), Ok(2));
     assert_eq!(finish(client.store::<points::Source>(1)), Ok(()));
     assert_eq!(finish(client.receive::<points::StatusWord>()), Ok(flags::StatusWord(0x0331)));
@@ -341,7 +339,7 @@ impl LocalTransport for Shared {
 
 fn a_transport_may_stay_on_its_thread() {
     let line = Rc::new(RefCell::new(drive()));
-    let mut client = LocalClient::new(Shared(Rc::clone(&line)), &PROFILE, LINK, 3);
+    let mut client = LocalClient::new(Shared(Rc::clone(&line)), LINK, 3);
     assert_eq!(finish(client.read_count::<points::Source>()), Ok(2));
     assert_eq!(finish(client.store_raw::<points::Source>(1)), Ok(()));
     assert_eq!(finish(client.read::<points::Source>()), Ok(1));
@@ -361,7 +359,7 @@ impl AsyncTransport for Silent {
 }
 
 fn a_dropped_exchange_is_a_failed_one() {
-    let mut client = AsyncClient::new(Silent(drive(), false), &PROFILE, LINK, 3);
+    let mut client = AsyncClient::new(Silent(drive(), false), LINK, 3);
     assert_eq!(finish(client.send::<points::ControlWord>(flags::ControlWord(0x047F))), Ok(()));
     client.transport().1 = true;
     {

@@ -2,8 +2,8 @@
 // says: a pair of receivers is asked by its parts
 // Nobody can tell which receiver of a pair waits.
 
-use fieldscribe_runtime::can::{Client, Receiver, Transport};
-use odd_can::{points::Frequency, telegrams};
+use fieldscribe_runtime::can::{Receiver, Transport};
+use odd_can::{points::Frequency, telegrams, Client};
 
 type Pair = (Receiver<telegrams::Measured>, Receiver<telegrams::Telegram>);
 

@@ -3,8 +3,7 @@
 // What the drive sends is not set.
 
 use fieldscribe_runtime::client::Transport;
-use fieldscribe_runtime::uss::Client;
-use odd_uss::{flags, points::StatusWord};
+use odd_uss::{flags, points::StatusWord, Client};
 
 pub fn wrong<T: Transport>(client: &mut Client<T>) {
     let _ = client.set::<StatusWord>(flags::StatusWord(1));

@@ -326,7 +326,8 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
 
 WITHOUT_COUNTS = ("float", "text", "digits")
 CLIENTS = {
-    "modbus": """use fieldscribe_runtime::{client::Transport, modbus::{Block, Client, Command}};
+    "modbus": """use fieldscribe_runtime::client::Transport;
+use @DEVICE@::{Block, Client, Command};
 pub struct Line;
 impl Transport for Line {
     type Error = ();
@@ -334,7 +335,7 @@ impl Transport for Line {
 }
 pub fn command(client: &mut Client<Line>, command: &Command) -> bool { client.command(command).is_ok() }
 pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
-    "can": """use fieldscribe_runtime::can::{Client, Frame, Receiver, Transport};
+    "can": """use @DEVICE@::{Client, Frame, Receiver, Transport};
 pub struct Line;
 impl Transport for Line {
     type Error = ();
@@ -342,7 +343,7 @@ impl Transport for Line {
     fn receive(&mut self) -> Result<Frame, ()> { Err(()) }
     fn pending(&mut self) -> Result<Option<Frame>, ()> { Err(()) }
 }""",
-    "uss": """use fieldscribe_runtime::{client::Transport, uss::Client};
+    "uss": """use @DEVICE@::{Client, Transport};
 pub struct Line;
 impl Transport for Line {
     type Error = ();
@@ -356,7 +357,7 @@ def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
     model = MODELS[device]()
     names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
-    lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "")]
+    lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "").replace("@DEVICE@", device)]
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"

@@ -42,10 +42,10 @@ DEVICES = {
 
 AROUND = """\
 #![allow(unused)]
-use hitachi_l200::{points as p, Client, Framing, PROFILE};
+use hitachi_l200::{points as p, Client, Framing};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let line = hitachi_l200::runtime::transports::tcp::TcpLine::new("192.168.0.20:4001");
-    let mut drive = hitachi_l200::Client::new(line, &hitachi_l200::PROFILE, hitachi_l200::Framing::Rtu, 1);
+    let mut drive = hitachi_l200::Client::new(line, hitachi_l200::Framing::Rtu, 1);
 @BLOCK@
     @CALL@
     Ok(())
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 """
 CALLS = {
     "struct Recorder": """let stream = std::net::TcpStream::connect("192.168.0.20:4001")?;
-    let mut drive = Client::new(Recorder(stream), &PROFILE, Framing::Rtu, 1);
+    let mut drive = Client::new(Recorder(stream), Framing::Rtu, 1);
     println!("{}", drive.read::<p::OutputFrequency>()?);""",
     "fn slow_down": """let uart = programs::uart::Uart::new(&[&programs::uart::word(7)]);
     println!("{:?}", slow_down(uart, || ()));""",
@@ -158,7 +158,8 @@ def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyP
             with serial_line(rtu) as path:  # programs keep a port to themselves
                 monkeypatch.setenv("TTY", path)
                 printed.append(succeed([place]).splitlines())
-    first, serial, many, values, by_address, by_name, failing, gateway, shared, own, tokio, anew, uart, genset = printed
+    first, serial, many, values, by_address, by_name, chosen, failing, gateway, *printed = printed
+    shared, own, tokio, anew, uart, genset = printed
     assert first == serial == anew == ["0.1 Hz"]
     assert shared == ["0.1", "0.1"]
     assert gateway == tokio == ["0.1"]
@@ -167,6 +168,7 @@ def test_the_programs_of_the_page_run(project: Path, monkeypatch: pytest.MonkeyP
     assert values == ["Modbus 500", "50 Ok(500)", "500", "inactive", "None"]
     assert by_address == ["Some(500)"]
     assert by_name == ["base_frequency at 1028h in Hz"]
+    assert chosen == ["base_frequency: [500]"]
     assert failing[0] == "0.1"
     assert f"// {failing[1]}\n" in PAGE
     assert failing[2].endswith(" A")

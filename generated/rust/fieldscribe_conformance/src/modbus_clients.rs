@@ -7,7 +7,7 @@ use fieldscribe_runtime::modbus::{
     crc, read_function, reply_length, write_function, About, AsyncClient, Block, BuildError,
     Client, ClientError, Command, Framing, Function, LocalClient, Profile, ReplyError, Request,
 };
-use fieldscribe_runtime::{BitGroup, Error, Space, Whole};
+use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Space, Whole};
 
 use super::now;
 use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
@@ -136,11 +136,21 @@ fn errors() {
                 "wrong_transaction",
                 "the reply is to another transaction",
             ),
-            (ReplyError::WrongUnit, "wrong_unit", "another unit replied"),
             (
-                ReplyError::WrongFunction,
+                ReplyError::WrongUnit {
+                    expected: 5,
+                    received: 4,
+                },
+                "wrong_unit",
+                "unit 4 replied instead of 5",
+            ),
+            (
+                ReplyError::WrongFunction {
+                    expected: 3,
+                    received: 16,
+                },
                 "wrong_function",
-                "the reply is to another function",
+                "the reply is to function 10h instead of 03h",
             ),
             (
                 ReplyError::Exception {
@@ -159,14 +169,20 @@ fn errors() {
                 "the device refused with exception 02h",
             ),
             (
-                ReplyError::BadByteCount,
+                ReplyError::BadByteCount {
+                    expected: 6,
+                    received: 4,
+                },
                 "bad_byte_count",
-                "the byte count is not what was asked for",
+                "the reply has 4 data bytes instead of 6",
             ),
             (
-                ReplyError::EchoMismatch,
+                ReplyError::EchoMismatch {
+                    expected: (0x1028, 500),
+                    received: (0x1029, 10),
+                },
                 "echo_mismatch",
-                "the reply repeats something else",
+                "01F4h was written to 1028h, the reply repeats 000Ah at 1029h",
             ),
         ],
     );
@@ -194,6 +210,9 @@ fn errors() {
     }
     assert_eq!(chain(&ClientError::Transport(FAILED, None)), FAILURE);
 }
+
+/// A read of any device.
+type Any = Block<AnyDevice>;
 
 fn functions() {
     for (space, reads, one, several) in [
@@ -242,7 +261,7 @@ fn functions() {
     assert_eq!(PROFILE.named(ReplyError::BadCrc), ReplyError::BadCrc);
     assert_eq!([0, 1].map(|unit| PROFILE.is_broadcast(unit)), [true, false]);
     assert_eq!([0, 1].map(|unit| PADDED.is_broadcast(unit)), [false, false]);
-    let brings = |address, count| Block::new(Space::Holding, 3, address, count).brings::<Long>();
+    let brings = |address, count| Any::new(Space::Holding, 3, address, count).brings::<Long>();
     assert_eq!(
         [(0x1F, 3), (0x20, 2)].map(|(address, count)| brings(address, count)),
         [true, true]
@@ -251,8 +270,8 @@ fn functions() {
         [(0x1F, 2), (0x20, 1), (0x21, 9)].map(|(address, count)| brings(address, count)),
         [false; 3]
     );
-    assert!(!Block::new(Space::Input, 4, 0x20, 2).brings::<Long>());
-    assert!(!Block::new(Space::Holding, 3, 0, 0xFFFF).brings::<Beyond>());
+    assert!(!Any::new(Space::Input, 4, 0x20, 2).brings::<Long>());
+    assert!(!Any::new(Space::Holding, 3, 0, 0xFFFF).brings::<Beyond>());
     assert_eq!(crc(b"123456789"), 0x4B37);
 }
 
@@ -302,17 +321,17 @@ fn requests() {
         ),
         (Request::read::<Long>(5), &PROFILE, Ok("0300200002")),
         (
-            Request::block(5, &Block::new(Space::Coil, 1, 3, 9)),
+            Request::block(5, &Block::<AnyDevice>::new(Space::Coil, 1, 3, 9)),
             &PROFILE,
             Ok("0100030009"),
         ),
         (
-            Request::command(5, &Command::new(6, 3, Some(9))),
+            Request::command(5, &Command::<AnyDevice>::new(6, 3, Some(9))),
             &PROFILE,
             Ok("0600030009"),
         ),
         (
-            Request::command(5, &Command::new(5, 3, None)),
+            Request::command(5, &Command::<AnyDevice>::new(5, 3, None)),
             &PROFILE,
             Ok("050003ff00"),
         ),
@@ -403,6 +422,22 @@ const fn refused(code: u8) -> ReplyError {
     ReplyError::Exception { code, name: None }
 }
 
+const fn answered_by(received: u8) -> ReplyError {
+    ReplyError::WrongUnit {
+        expected: 5,
+        received,
+    }
+}
+
+const fn counted(expected: u16, received: u16) -> ReplyError {
+    ReplyError::BadByteCount { expected, received }
+}
+
+/// What was written and what the reply repeats: addresses, and values or counts.
+const fn repeated(expected: (u16, u16), received: (u16, u16)) -> ReplyError {
+    ReplyError::EchoMismatch { expected, received }
+}
+
 fn replies() {
     let wrong = |point| Error::NotBrought(Some(point));
     let read = Request::new(5, 3, 0x1F, 3);
@@ -457,20 +492,31 @@ fn replies() {
         (read, rtu("0503060001000200"), ReplyError::ShortFrame),
         (read, rtu("05030600010002000304"), ReplyError::LongFrame),
         (read, rtu("0503040001000200"), ReplyError::LongFrame),
-        (read, rtu("05030400010002"), ReplyError::BadByteCount),
+        (read, rtu("05030400010002"), counted(6, 4)),
         (
             read,
             vec![5, 3, 6, 0, 1, 0, 2, 0, 3, 0, 0],
             ReplyError::BadCrc,
         ),
-        (read, rtu("040306000100020003"), ReplyError::WrongUnit),
-        (read, rtu("050406000100020003"), ReplyError::WrongFunction),
+        (read, rtu("040306000100020003"), answered_by(4)),
+        (
+            read,
+            rtu("050406000100020003"),
+            ReplyError::WrongFunction {
+                expected: 3,
+                received: 4,
+            },
+        ),
         (read, rtu("058302"), refused(2)),
         (read, rtu("05830200"), ReplyError::LongFrame),
-        (bits, rtu("05010101"), ReplyError::BadByteCount),
-        (long, rtu("051000200003"), ReplyError::EchoMismatch),
-        (long, rtu("051000210002"), ReplyError::EchoMismatch),
-        (relay, rtu("050500400000"), ReplyError::EchoMismatch),
+        (bits, rtu("05010101"), counted(2, 1)),
+        (long, rtu("051000200003"), repeated((0x20, 2), (0x20, 3))),
+        (long, rtu("051000210002"), repeated((0x20, 2), (0x21, 2))),
+        (
+            relay,
+            rtu("050500400000"),
+            repeated((0x40, 0xFF00), (0x40, 0)),
+        ),
         (relay, rtu("0505004000"), ReplyError::ShortFrame),
         (relay, rtu("05050040ff0000"), ReplyError::LongFrame),
     ] {
@@ -486,7 +532,9 @@ fn replies() {
             "000800000009050306000100020003",
             ReplyError::WrongTransaction,
         ),
-        ("000700000009060306000100020003", ReplyError::WrongUnit),
+        ("000700000009060306000100020003", answered_by(6)),
+        ("000700000003050306", counted(6, 0)),
+        ("0007000000040503060a", counted(6, 1)),
         ("000700000003058304", refused(4)),
         ("00070000000405830400", ReplyError::LongFrame),
     ] {
@@ -531,7 +579,7 @@ macro_rules! conversations {
     ($tcp:ident $rtu:ident $more:ident $client:ident $wait:ident) => {
         fn $tcp() {
             let step = |sent: &str, came: &str| (super::bytes(sent), came.to_owned());
-            let mut client = $client::new(
+            let mut client = $client::for_profile(
                 Line::new(&[
                     step("000100000006050300100001", "0001000000050503021234"),
                     step("000200000006050300100001", "000200000005050302ffff"),
@@ -565,7 +613,7 @@ macro_rules! conversations {
                 step("0503001f0003", "050306000100020003"),
                 step("0503001f0003", "058302"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
+            let mut client = $client::for_profile(line, &PROFILE, Framing::Rtu, 5);
             assert_eq!($wait(client.read_count::<Long>()), Ok([0x0001_0002]));
             assert_eq!($wait(client.read_count_with::<Long>(())), Ok([0x0001_0002]));
             let wrong = ClientError::Point(REFUSED);
@@ -634,7 +682,7 @@ macro_rules! conversations {
                 step("05060030ab7d", "?"),
                 step("050300300001", "?"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
+            let mut client = $client::for_profile(line, &PROFILE, Framing::Rtu, 5);
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             let lost = |point| Err(ClientError::Transport(Lost, Some(About::Point(point))));
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost("Long"));
@@ -657,10 +705,13 @@ macro_rules! conversations {
                 step("0010002000020400010003", ""),
                 step("001000200001020001", ""),
             ]);
-            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 0);
+            let mut client = $client::for_profile(line, &PROFILE, Framing::Rtu, 0);
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), Ok(()));
             assert_eq!(client.transport().space, 0);
-            assert_eq!($wait(client.command(&Command::new(16, 0x20, None))), Ok(()));
+            assert_eq!(
+                $wait(client.command(&Command::<AnyDevice>::new(16, 0x20, None))),
+                Ok(())
+            );
             let none = Err(ClientError::Build(
                 BuildError::NotForAll,
                 Some(About::Point("Long")),

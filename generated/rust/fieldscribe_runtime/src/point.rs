@@ -70,6 +70,8 @@ impl Space {
 
 /// One addressable datum of a device.
 pub trait Point {
+    /// The device that has the point; [`AnyDevice`](crate::AnyDevice) if it is not known which.
+    type Device;
     /// The number on the wire.
     type Raw: Raw;
     /// What the number means; a [`Reading`](crate::Reading) if the point has special codes.

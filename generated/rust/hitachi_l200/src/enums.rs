@@ -4,3170 +4,590 @@
 
 //! Named numbers, shown by their names.
 
-use core::fmt;
+use fieldscribe_runtime::named_numbers;
 
-/// Run command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RunCommand {
+named_numbers! {
+    /// Run command.
+    RunCommand: u8, else Unknown;
     /// Stop.
-    Stop,
+    Stop = 0 "stop";
     /// Run.
-    Run,
-    /// A number without a name here.
-    Unknown(u8),
+    Run = 1 "run";
 }
 
-impl RunCommand {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Stop => Some("stop"),
-            Self::Run => Some("run"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RunCommand {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for RunCommand {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Stop,
-            1 => Self::Run,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RunCommand> for u8 {
-    #[inline]
-    fn from(value: RunCommand) -> Self {
-        match value {
-            RunCommand::Stop => 0,
-            RunCommand::Run => 1,
-            RunCommand::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Direction command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DirectionCommand {
+named_numbers! {
+    /// Direction command.
+    DirectionCommand: u8, else Unknown;
     /// Forward.
-    Forward,
+    Forward = 0 "forward";
     /// Reverse.
-    Reverse,
-    /// A number without a name here.
-    Unknown(u8),
+    Reverse = 1 "reverse";
 }
 
-impl DirectionCommand {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Forward => Some("forward"),
-            Self::Reverse => Some("reverse"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for DirectionCommand {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for DirectionCommand {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Forward,
-            1 => Self::Reverse,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<DirectionCommand> for u8 {
-    #[inline]
-    fn from(value: DirectionCommand) -> Self {
-        match value {
-            DirectionCommand::Forward => 0,
-            DirectionCommand::Reverse => 1,
-            DirectionCommand::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// External trip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ExternalTrip {
+named_numbers! {
+    /// External trip.
+    ExternalTrip: u8, else Unknown;
     /// No trip.
-    NoTrip,
+    NoTrip = 0 "no_trip";
     /// Trip.
-    Trip,
-    /// A number without a name here.
-    Unknown(u8),
+    Trip = 1 "trip";
 }
 
-impl ExternalTrip {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NoTrip => Some("no_trip"),
-            Self::Trip => Some("trip"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for ExternalTrip {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for ExternalTrip {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NoTrip,
-            1 => Self::Trip,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<ExternalTrip> for u8 {
-    #[inline]
-    fn from(value: ExternalTrip) -> Self {
-        match value {
-            ExternalTrip::NoTrip => 0,
-            ExternalTrip::Trip => 1,
-            ExternalTrip::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Trip reset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TripReset {
+named_numbers! {
+    /// Trip reset.
+    TripReset: u8, else Unknown;
     /// No reset.
-    NoReset,
+    NoReset = 0 "no_reset";
     /// Reset.
-    Reset,
-    /// A number without a name here.
-    Unknown(u8),
+    Reset = 1 "reset";
 }
 
-impl TripReset {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NoReset => Some("no_reset"),
-            Self::Reset => Some("reset"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for TripReset {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for TripReset {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NoReset,
-            1 => Self::Reset,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<TripReset> for u8 {
-    #[inline]
-    fn from(value: TripReset) -> Self {
-        match value {
-            TripReset::NoReset => 0,
-            TripReset::Reset => 1,
-            TripReset::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Off on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum OffOn {
+named_numbers! {
+    /// Off on.
+    OffOn: u8, else Unknown;
     /// Off.
-    Off,
+    Off = 0 "off";
     /// On.
-    On,
-    /// A number without a name here.
-    Unknown(u8),
+    On = 1 "on";
 }
 
-impl OffOn {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Off => Some("off"),
-            Self::On => Some("on"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for OffOn {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for OffOn {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Off,
-            1 => Self::On,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<OffOn> for u8 {
-    #[inline]
-    fn from(value: OffOn) -> Self {
-        match value {
-            OffOn::Off => 0,
-            OffOn::On => 1,
-            OffOn::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Running.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Running {
-    /// Stopped.
-    Stopped,
+named_numbers! {
     /// Running.
-    Running,
-    /// A number without a name here.
-    Unknown(u8),
+    Running: u8, else Unknown;
+    /// Stopped.
+    Stopped = 0 "stopped";
+    /// Running.
+    Running = 1 "running";
 }
 
-impl Running {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Stopped => Some("stopped"),
-            Self::Running => Some("running"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Running {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for Running {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Stopped,
-            1 => Self::Running,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<Running> for u8 {
-    #[inline]
-    fn from(value: Running) -> Self {
-        match value {
-            Running::Stopped => 0,
-            Running::Running => 1,
-            Running::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Direction status.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DirectionStatus {
+named_numbers! {
+    /// Direction status.
+    DirectionStatus: u8, else Unknown;
     /// Forward.
-    Forward,
+    Forward = 0 "forward";
     /// Reverse.
-    Reverse,
-    /// A number without a name here.
-    Unknown(u8),
+    Reverse = 1 "reverse";
 }
 
-impl DirectionStatus {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Forward => Some("forward"),
-            Self::Reverse => Some("reverse"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for DirectionStatus {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for DirectionStatus {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Forward,
-            1 => Self::Reverse,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<DirectionStatus> for u8 {
-    #[inline]
-    fn from(value: DirectionStatus) -> Self {
-        match value {
-            DirectionStatus::Forward => 0,
-            DirectionStatus::Reverse => 1,
-            DirectionStatus::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Ready.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Ready {
-    /// Not ready.
-    NotReady,
+named_numbers! {
     /// Ready.
-    Ready,
-    /// A number without a name here.
-    Unknown(u8),
+    Ready: u8, else Unknown;
+    /// Not ready.
+    NotReady = 0 "not_ready";
+    /// Ready.
+    Ready = 1 "ready";
 }
 
-impl Ready {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NotReady => Some("not_ready"),
-            Self::Ready => Some("ready"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Ready {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for Ready {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NotReady,
-            1 => Self::Ready,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<Ready> for u8 {
-    #[inline]
-    fn from(value: Ready) -> Self {
-        match value {
-            Ready::NotReady => 0,
-            Ready::Ready => 1,
-            Ready::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Alarm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Alarm {
+named_numbers! {
+    /// Alarm.
+    Alarm: u8, else Unknown;
     /// Normal.
-    Normal,
+    Normal = 0 "normal";
     /// Tripped.
-    Tripped,
-    /// A number without a name here.
-    Unknown(u8),
+    Tripped = 1 "tripped";
 }
 
-impl Alarm {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Normal => Some("normal"),
-            Self::Tripped => Some("tripped"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Alarm {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for Alarm {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Normal,
-            1 => Self::Tripped,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<Alarm> for u8 {
-    #[inline]
-    fn from(value: Alarm) -> Self {
-        match value {
-            Alarm::Normal => 0,
-            Alarm::Tripped => 1,
-            Alarm::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Data write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DataWrite {
+named_numbers! {
+    /// Data write.
+    DataWrite: u8, else Unknown;
     /// Normal.
-    Normal,
+    Normal = 0 "normal";
     /// Writing.
-    Writing,
-    /// A number without a name here.
-    Unknown(u8),
+    Writing = 1 "writing";
 }
 
-impl DataWrite {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Normal => Some("normal"),
-            Self::Writing => Some("writing"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for DataWrite {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for DataWrite {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Normal,
-            1 => Self::Writing,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<DataWrite> for u8 {
-    #[inline]
-    fn from(value: DataWrite) -> Self {
-        match value {
-            DataWrite::Normal => 0,
-            DataWrite::Writing => 1,
-            DataWrite::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Error flag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ErrorFlag {
+named_numbers! {
+    /// Error flag.
+    ErrorFlag: u8, else Unknown;
     /// No error.
-    NoError,
+    NoError = 0 "no_error";
     /// Error.
-    Error,
-    /// A number without a name here.
-    Unknown(u8),
+    Error = 1 "error";
 }
 
-impl ErrorFlag {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NoError => Some("no_error"),
-            Self::Error => Some("error"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for ErrorFlag {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for ErrorFlag {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NoError,
-            1 => Self::Error,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<ErrorFlag> for u8 {
-    #[inline]
-    fn from(value: ErrorFlag) -> Self {
-        match value {
-            ErrorFlag::NoError => 0,
-            ErrorFlag::Error => 1,
-            ErrorFlag::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Inverter status.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InverterStatus {
+named_numbers! {
+    /// Inverter status.
+    InverterStatus: u16, else Unknown;
     /// Initial state.
-    InitialState,
+    InitialState = 0 "initial_state";
     /// Reserved.
-    Reserved,
+    Reserved = 1 "reserved";
     /// Stopped.
-    Stopped,
+    Stopped = 2 "stopped";
     /// Running.
-    Running,
+    Running = 3 "running";
     /// Coasting.
-    Coasting,
+    Coasting = 4 "coasting";
     /// Jogging.
-    Jogging,
+    Jogging = 5 "jogging";
     /// Dc braking.
-    DcBraking,
+    DcBraking = 6 "dc_braking";
     /// Restarting.
-    Restarting,
+    Restarting = 7 "restarting";
     /// Tripped.
-    Tripped,
+    Tripped = 8 "tripped";
     /// Undervoltage.
-    Undervoltage,
-    /// A number without a name here.
-    Unknown(u16),
+    Undervoltage = 9 "undervoltage";
 }
 
-impl InverterStatus {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::InitialState => Some("initial_state"),
-            Self::Reserved => Some("reserved"),
-            Self::Stopped => Some("stopped"),
-            Self::Running => Some("running"),
-            Self::Coasting => Some("coasting"),
-            Self::Jogging => Some("jogging"),
-            Self::DcBraking => Some("dc_braking"),
-            Self::Restarting => Some("restarting"),
-            Self::Tripped => Some("tripped"),
-            Self::Undervoltage => Some("undervoltage"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InverterStatus {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InverterStatus {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::InitialState,
-            1 => Self::Reserved,
-            2 => Self::Stopped,
-            3 => Self::Running,
-            4 => Self::Coasting,
-            5 => Self::Jogging,
-            6 => Self::DcBraking,
-            7 => Self::Restarting,
-            8 => Self::Tripped,
-            9 => Self::Undervoltage,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InverterStatus> for u16 {
-    #[inline]
-    fn from(value: InverterStatus) -> Self {
-        match value {
-            InverterStatus::InitialState => 0,
-            InverterStatus::Reserved => 1,
-            InverterStatus::Stopped => 2,
-            InverterStatus::Running => 3,
-            InverterStatus::Coasting => 4,
-            InverterStatus::Jogging => 5,
-            InverterStatus::DcBraking => 6,
-            InverterStatus::Restarting => 7,
-            InverterStatus::Tripped => 8,
-            InverterStatus::Undervoltage => 9,
-            InverterStatus::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Rotation direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RotationDirection {
-    /// Stopped.
-    Stopped,
-    /// Forward.
-    Forward,
-    /// Reverse.
-    Reverse,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl RotationDirection {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Stopped => Some("stopped"),
-            Self::Forward => Some("forward"),
-            Self::Reverse => Some("reverse"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RotationDirection {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for RotationDirection {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Stopped,
-            1 => Self::Forward,
-            2 => Self::Reverse,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RotationDirection> for u16 {
-    #[inline]
-    fn from(value: RotationDirection) -> Self {
-        match value {
-            RotationDirection::Stopped => 0,
-            RotationDirection::Forward => 1,
-            RotationDirection::Reverse => 2,
-            RotationDirection::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Trip code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TripCode {
-    /// Overvoltage.
-    Overvoltage,
-    /// Undervoltage.
-    Undervoltage,
-    /// No trip.
-    NoTrip,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl TripCode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Overvoltage => Some("overvoltage"),
-            Self::Undervoltage => Some("undervoltage"),
-            Self::NoTrip => Some("no_trip"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for TripCode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for TripCode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            7 => Self::Overvoltage,
-            9 => Self::Undervoltage,
-            255 => Self::NoTrip,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<TripCode> for u16 {
-    #[inline]
-    fn from(value: TripCode) -> Self {
-        match value {
-            TripCode::Overvoltage => 7,
-            TripCode::Undervoltage => 9,
-            TripCode::NoTrip => 255,
-            TripCode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Motor direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MotorDirection {
-    /// Forward.
-    Forward,
-    /// Reverse.
-    Reverse,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl MotorDirection {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Forward => Some("forward"),
-            Self::Reverse => Some("reverse"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MotorDirection {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MotorDirection {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Forward,
-            1 => Self::Reverse,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MotorDirection> for u16 {
-    #[inline]
-    fn from(value: MotorDirection) -> Self {
-        match value {
-            MotorDirection::Forward => 0,
-            MotorDirection::Reverse => 1,
-            MotorDirection::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Frequency source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrequencySource {
-    /// Keypad potentiometer.
-    KeypadPotentiometer,
-    /// Terminal o oi.
-    TerminalOOi,
-    /// F001 or a020.
-    F001OrA020,
-    /// Modbus.
-    Modbus,
-    /// Calculation result.
-    CalculationResult,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl FrequencySource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::KeypadPotentiometer => Some("keypad_potentiometer"),
-            Self::TerminalOOi => Some("terminal_o_oi"),
-            Self::F001OrA020 => Some("f001_or_a020"),
-            Self::Modbus => Some("modbus"),
-            Self::CalculationResult => Some("calculation_result"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for FrequencySource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for FrequencySource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::KeypadPotentiometer,
-            1 => Self::TerminalOOi,
-            2 => Self::F001OrA020,
-            3 => Self::Modbus,
-            10 => Self::CalculationResult,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<FrequencySource> for u16 {
-    #[inline]
-    fn from(value: FrequencySource) -> Self {
-        match value {
-            FrequencySource::KeypadPotentiometer => 0,
-            FrequencySource::TerminalOOi => 1,
-            FrequencySource::F001OrA020 => 2,
-            FrequencySource::Modbus => 3,
-            FrequencySource::CalculationResult => 10,
-            FrequencySource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Run source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RunSource {
-    /// Terminal fw rv.
-    TerminalFwRv,
-    /// Run key.
-    RunKey,
-    /// Modbus.
-    Modbus,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl RunSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::TerminalFwRv => Some("terminal_fw_rv"),
-            Self::RunKey => Some("run_key"),
-            Self::Modbus => Some("modbus"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RunSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for RunSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            1 => Self::TerminalFwRv,
-            2 => Self::RunKey,
-            3 => Self::Modbus,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RunSource> for u16 {
-    #[inline]
-    fn from(value: RunSource) -> Self {
-        match value {
-            RunSource::TerminalFwRv => 1,
-            RunSource::RunKey => 2,
-            RunSource::Modbus => 3,
-            RunSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// At terminal selection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AtTerminalSelection {
-    /// O and oi.
-    OAndOi,
-    /// O and oi at ignored.
-    OAndOiAtIgnored,
-    /// O and potentiometer.
-    OAndPotentiometer,
-    /// Oi and potentiometer.
-    OiAndPotentiometer,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl AtTerminalSelection {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::OAndOi => Some("o_and_oi"),
-            Self::OAndOiAtIgnored => Some("o_and_oi_at_ignored"),
-            Self::OAndPotentiometer => Some("o_and_potentiometer"),
-            Self::OiAndPotentiometer => Some("oi_and_potentiometer"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for AtTerminalSelection {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for AtTerminalSelection {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::OAndOi,
-            1 => Self::OAndOiAtIgnored,
-            2 => Self::OAndPotentiometer,
-            3 => Self::OiAndPotentiometer,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<AtTerminalSelection> for u16 {
-    #[inline]
-    fn from(value: AtTerminalSelection) -> Self {
-        match value {
-            AtTerminalSelection::OAndOi => 0,
-            AtTerminalSelection::OAndOiAtIgnored => 1,
-            AtTerminalSelection::OAndPotentiometer => 2,
-            AtTerminalSelection::OiAndPotentiometer => 3,
-            AtTerminalSelection::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Input o start condition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InputOStartCondition {
-    /// Minimum frequency.
-    MinimumFrequency,
-    /// Zero hz.
-    ZeroHz,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl InputOStartCondition {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::MinimumFrequency => Some("minimum_frequency"),
-            Self::ZeroHz => Some("zero_hz"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InputOStartCondition {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InputOStartCondition {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::MinimumFrequency,
-            1 => Self::ZeroHz,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InputOStartCondition> for u16 {
-    #[inline]
-    fn from(value: InputOStartCondition) -> Self {
-        match value {
-            InputOStartCondition::MinimumFrequency => 0,
-            InputOStartCondition::ZeroHz => 1,
-            InputOStartCondition::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Analog input filter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AnalogInputFilter {
-    /// Samples 16 dead band.
-    Samples16DeadBand,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl AnalogInputFilter {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Samples16DeadBand => Some("samples_16_dead_band"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for AnalogInputFilter {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for AnalogInputFilter {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            17 => Self::Samples16DeadBand,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<AnalogInputFilter> for u16 {
-    #[inline]
-    fn from(value: AnalogInputFilter) -> Self {
-        match value {
-            AnalogInputFilter::Samples16DeadBand => 17,
-            AnalogInputFilter::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Jog stop mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum JogStopMode {
-    /// Coast.
-    Coast,
-    /// Ramp.
-    Ramp,
-    /// Dc brake.
-    DcBrake,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl JogStopMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Coast => Some("coast"),
-            Self::Ramp => Some("ramp"),
-            Self::DcBrake => Some("dc_brake"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for JogStopMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for JogStopMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Coast,
-            1 => Self::Ramp,
-            2 => Self::DcBrake,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<JogStopMode> for u16 {
-    #[inline]
-    fn from(value: JogStopMode) -> Self {
-        match value {
-            JogStopMode::Coast => 0,
-            JogStopMode::Ramp => 1,
-            JogStopMode::DcBrake => 2,
-            JogStopMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Boost mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BoostMode {
-    /// Manual.
-    Manual,
-    /// Automatic.
-    Automatic,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl BoostMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Manual => Some("manual"),
-            Self::Automatic => Some("automatic"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for BoostMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for BoostMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Manual,
-            1 => Self::Automatic,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<BoostMode> for u16 {
-    #[inline]
-    fn from(value: BoostMode) -> Self {
-        match value {
-            BoostMode::Manual => 0,
-            BoostMode::Automatic => 1,
-            BoostMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Vf characteristic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum VfCharacteristic {
-    /// Constant.
-    Constant,
-    /// Quadratic.
-    Quadratic,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl VfCharacteristic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Constant => Some("constant"),
-            Self::Quadratic => Some("quadratic"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for VfCharacteristic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for VfCharacteristic {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Constant,
-            1 => Self::Quadratic,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<VfCharacteristic> for u16 {
-    #[inline]
-    fn from(value: VfCharacteristic) -> Self {
-        match value {
-            VfCharacteristic::Constant => 0,
-            VfCharacteristic::Quadratic => 1,
-            VfCharacteristic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Inactive active.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InactiveActive {
-    /// Inactive.
-    Inactive,
-    /// Active.
-    Active,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl InactiveActive {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Inactive => Some("inactive"),
-            Self::Active => Some("active"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InactiveActive {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InactiveActive {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Inactive,
-            1 => Self::Active,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InactiveActive> for u16 {
-    #[inline]
-    fn from(value: InactiveActive) -> Self {
-        match value {
-            InactiveActive::Inactive => 0,
-            InactiveActive::Active => 1,
-            InactiveActive::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Dc brake trigger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DcBrakeTrigger {
-    /// Edge.
-    Edge,
-    /// Level.
-    Level,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl DcBrakeTrigger {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Edge => Some("edge"),
-            Self::Level => Some("level"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for DcBrakeTrigger {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for DcBrakeTrigger {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Edge,
-            1 => Self::Level,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<DcBrakeTrigger> for u16 {
-    #[inline]
-    fn from(value: DcBrakeTrigger) -> Self {
-        match value {
-            DcBrakeTrigger::Edge => 0,
-            DcBrakeTrigger::Level => 1,
-            DcBrakeTrigger::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Pid process value source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PidProcessValueSource {
-    /// Terminal oi.
-    TerminalOi,
-    /// Terminal o.
-    TerminalO,
-    /// Modbus.
-    Modbus,
-    /// Calculation result.
-    CalculationResult,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl PidProcessValueSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::TerminalOi => Some("terminal_oi"),
-            Self::TerminalO => Some("terminal_o"),
-            Self::Modbus => Some("modbus"),
-            Self::CalculationResult => Some("calculation_result"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PidProcessValueSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for PidProcessValueSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::TerminalOi,
-            1 => Self::TerminalO,
-            2 => Self::Modbus,
-            10 => Self::CalculationResult,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PidProcessValueSource> for u16 {
-    #[inline]
-    fn from(value: PidProcessValueSource) -> Self {
-        match value {
-            PidProcessValueSource::TerminalOi => 0,
-            PidProcessValueSource::TerminalO => 1,
-            PidProcessValueSource::Modbus => 2,
-            PidProcessValueSource::CalculationResult => 10,
-            PidProcessValueSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Pid inversion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PidInversion {
-    /// Setpoint minus process value.
-    SetpointMinusProcessValue,
-    /// Process value minus setpoint.
-    ProcessValueMinusSetpoint,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl PidInversion {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::SetpointMinusProcessValue => Some("setpoint_minus_process_value"),
-            Self::ProcessValueMinusSetpoint => Some("process_value_minus_setpoint"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PidInversion {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for PidInversion {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::SetpointMinusProcessValue,
-            1 => Self::ProcessValueMinusSetpoint,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PidInversion> for u16 {
-    #[inline]
-    fn from(value: PidInversion) -> Self {
-        match value {
-            PidInversion::SetpointMinusProcessValue => 0,
-            PidInversion::ProcessValueMinusSetpoint => 1,
-            PidInversion::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Avr mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AvrMode {
-    /// Active.
-    Active,
-    /// Inactive.
-    Inactive,
-    /// Inactive in deceleration.
-    InactiveInDeceleration,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl AvrMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Active => Some("active"),
-            Self::Inactive => Some("inactive"),
-            Self::InactiveInDeceleration => Some("inactive_in_deceleration"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for AvrMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for AvrMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Active,
-            1 => Self::Inactive,
-            2 => Self::InactiveInDeceleration,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<AvrMode> for u16 {
-    #[inline]
-    fn from(value: AvrMode) -> Self {
-        match value {
-            AvrMode::Active => 0,
-            AvrMode::Inactive => 1,
-            AvrMode::InactiveInDeceleration => 2,
-            AvrMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Ramp 2 selection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Ramp2Selection {
-    /// Terminal 2ch.
-    Terminal2ch,
-    /// Frequency.
-    Frequency,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl Ramp2Selection {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Terminal2ch => Some("terminal_2ch"),
-            Self::Frequency => Some("frequency"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Ramp2Selection {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for Ramp2Selection {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Terminal2ch,
-            1 => Self::Frequency,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<Ramp2Selection> for u16 {
-    #[inline]
-    fn from(value: Ramp2Selection) -> Self {
-        match value {
-            Ramp2Selection::Terminal2ch => 0,
-            Ramp2Selection::Frequency => 1,
-            Ramp2Selection::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Ramp curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RampCurve {
-    /// Linear.
-    Linear,
-    /// S curve.
-    SCurve,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl RampCurve {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Linear => Some("linear"),
-            Self::SCurve => Some("s_curve"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RampCurve {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for RampCurve {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Linear,
-            1 => Self::SCurve,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RampCurve> for u16 {
-    #[inline]
-    fn from(value: RampCurve) -> Self {
-        match value {
-            RampCurve::Linear => 0,
-            RampCurve::SCurve => 1,
-            RampCurve::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Input oi start condition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InputOiStartCondition {
-    /// Minimum frequency.
-    MinimumFrequency,
-    /// Zero hz.
-    ZeroHz,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl InputOiStartCondition {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::MinimumFrequency => Some("minimum_frequency"),
-            Self::ZeroHz => Some("zero_hz"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InputOiStartCondition {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InputOiStartCondition {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::MinimumFrequency,
-            1 => Self::ZeroHz,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InputOiStartCondition> for u16 {
-    #[inline]
-    fn from(value: InputOiStartCondition) -> Self {
-        match value {
-            InputOiStartCondition::MinimumFrequency => 0,
-            InputOiStartCondition::ZeroHz => 1,
-            InputOiStartCondition::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Calculation input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CalculationInput {
-    /// Operator panel.
-    OperatorPanel,
-    /// Keypad potentiometer.
-    KeypadPotentiometer,
-    /// Terminal o.
-    TerminalO,
-    /// Terminal oi.
-    TerminalOi,
-    /// Network variable.
-    NetworkVariable,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl CalculationInput {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::OperatorPanel => Some("operator_panel"),
-            Self::KeypadPotentiometer => Some("keypad_potentiometer"),
-            Self::TerminalO => Some("terminal_o"),
-            Self::TerminalOi => Some("terminal_oi"),
-            Self::NetworkVariable => Some("network_variable"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CalculationInput {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CalculationInput {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::OperatorPanel,
-            1 => Self::KeypadPotentiometer,
-            2 => Self::TerminalO,
-            3 => Self::TerminalOi,
-            4 => Self::NetworkVariable,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CalculationInput> for u16 {
-    #[inline]
-    fn from(value: CalculationInput) -> Self {
-        match value {
-            CalculationInput::OperatorPanel => 0,
-            CalculationInput::KeypadPotentiometer => 1,
-            CalculationInput::TerminalO => 2,
-            CalculationInput::TerminalOi => 3,
-            CalculationInput::NetworkVariable => 4,
-            CalculationInput::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Calculation operator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CalculationOperator {
-    /// Add.
-    Add,
-    /// Subtract.
-    Subtract,
-    /// Multiply.
-    Multiply,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl CalculationOperator {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Add => Some("add"),
-            Self::Subtract => Some("subtract"),
-            Self::Multiply => Some("multiply"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CalculationOperator {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CalculationOperator {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Add,
-            1 => Self::Subtract,
-            2 => Self::Multiply,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CalculationOperator> for u16 {
-    #[inline]
-    fn from(value: CalculationOperator) -> Self {
-        match value {
-            CalculationOperator::Add => 0,
-            CalculationOperator::Subtract => 1,
-            CalculationOperator::Multiply => 2,
-            CalculationOperator::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Frequency offset sign.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrequencyOffsetSign {
-    /// Plus.
-    Plus,
-    /// Minus.
-    Minus,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl FrequencyOffsetSign {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Plus => Some("plus"),
-            Self::Minus => Some("minus"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for FrequencyOffsetSign {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for FrequencyOffsetSign {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Plus,
-            1 => Self::Minus,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<FrequencyOffsetSign> for u16 {
-    #[inline]
-    fn from(value: FrequencyOffsetSign) -> Self {
-        match value {
-            FrequencyOffsetSign::Plus => 0,
-            FrequencyOffsetSign::Minus => 1,
-            FrequencyOffsetSign::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Potentiometer start condition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PotentiometerStartCondition {
-    /// Minimum frequency.
-    MinimumFrequency,
-    /// Zero hz.
-    ZeroHz,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl PotentiometerStartCondition {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::MinimumFrequency => Some("minimum_frequency"),
-            Self::ZeroHz => Some("zero_hz"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PotentiometerStartCondition {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for PotentiometerStartCondition {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::MinimumFrequency,
-            1 => Self::ZeroHz,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PotentiometerStartCondition> for u16 {
-    #[inline]
-    fn from(value: PotentiometerStartCondition) -> Self {
-        match value {
-            PotentiometerStartCondition::MinimumFrequency => 0,
-            PotentiometerStartCondition::ZeroHz => 1,
-            PotentiometerStartCondition::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Restart mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RestartMode {
-    /// Trip.
-    Trip,
-    /// Start at 0 hz.
-    StartAt0Hz,
-    /// Synchronize.
-    Synchronize,
-    /// Synchronize and stop.
-    SynchronizeAndStop,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl RestartMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Trip => Some("trip"),
-            Self::StartAt0Hz => Some("start_at_0_hz"),
-            Self::Synchronize => Some("synchronize"),
-            Self::SynchronizeAndStop => Some("synchronize_and_stop"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RestartMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for RestartMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Trip,
-            1 => Self::StartAt0Hz,
-            2 => Self::Synchronize,
-            3 => Self::SynchronizeAndStop,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RestartMode> for u16 {
-    #[inline]
-    fn from(value: RestartMode) -> Self {
-        match value {
-            RestartMode::Trip => 0,
-            RestartMode::StartAt0Hz => 1,
-            RestartMode::Synchronize => 2,
-            RestartMode::SynchronizeAndStop => 3,
-            RestartMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Power failure trip at standstill.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PowerFailureTripAtStandstill {
-    /// No trip.
-    NoTrip,
-    /// Trip.
-    Trip,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl PowerFailureTripAtStandstill {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NoTrip => Some("no_trip"),
-            Self::Trip => Some("trip"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PowerFailureTripAtStandstill {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for PowerFailureTripAtStandstill {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::NoTrip,
-            1 => Self::Trip,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PowerFailureTripAtStandstill> for u16 {
-    #[inline]
-    fn from(value: PowerFailureTripAtStandstill) -> Self {
-        match value {
-            PowerFailureTripAtStandstill::NoTrip => 0,
-            PowerFailureTripAtStandstill::Trip => 1,
-            PowerFailureTripAtStandstill::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Power failure restarts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PowerFailureRestarts {
-    /// Attempts 16.
-    Attempts16,
-    /// Unlimited.
-    Unlimited,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl PowerFailureRestarts {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Attempts16 => Some("attempts_16"),
-            Self::Unlimited => Some("unlimited"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PowerFailureRestarts {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for PowerFailureRestarts {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Attempts16,
-            1 => Self::Unlimited,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PowerFailureRestarts> for u16 {
-    #[inline]
-    fn from(value: PowerFailureRestarts) -> Self {
-        match value {
-            PowerFailureRestarts::Attempts16 => 0,
-            PowerFailureRestarts::Unlimited => 1,
-            PowerFailureRestarts::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Motor protection characteristic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MotorProtectionCharacteristic {
-    /// Quadratic 1.
-    Quadratic1,
-    /// Constant.
-    Constant,
-    /// Quadratic 2.
-    Quadratic2,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl MotorProtectionCharacteristic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Quadratic1 => Some("quadratic_1"),
-            Self::Constant => Some("constant"),
-            Self::Quadratic2 => Some("quadratic_2"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MotorProtectionCharacteristic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MotorProtectionCharacteristic {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Quadratic1,
-            1 => Self::Constant,
-            2 => Self::Quadratic2,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MotorProtectionCharacteristic> for u16 {
-    #[inline]
-    fn from(value: MotorProtectionCharacteristic) -> Self {
-        match value {
-            MotorProtectionCharacteristic::Quadratic1 => 0,
-            MotorProtectionCharacteristic::Constant => 1,
-            MotorProtectionCharacteristic::Quadratic2 => 2,
-            MotorProtectionCharacteristic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Current limit mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CurrentLimitMode {
-    /// Inactive.
-    Inactive,
-    /// Active.
-    Active,
-    /// Active at constant speed.
-    ActiveAtConstantSpeed,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl CurrentLimitMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Inactive => Some("inactive"),
-            Self::Active => Some("active"),
-            Self::ActiveAtConstantSpeed => Some("active_at_constant_speed"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CurrentLimitMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CurrentLimitMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Inactive,
-            1 => Self::Active,
-            2 => Self::ActiveAtConstantSpeed,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CurrentLimitMode> for u16 {
-    #[inline]
-    fn from(value: CurrentLimitMode) -> Self {
-        match value {
-            CurrentLimitMode::Inactive => 0,
-            CurrentLimitMode::Active => 1,
-            CurrentLimitMode::ActiveAtConstantSpeed => 2,
-            CurrentLimitMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Current limit source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CurrentLimitSource {
-    /// Parameter.
-    Parameter,
-    /// Terminal o.
-    TerminalO,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl CurrentLimitSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Parameter => Some("parameter"),
-            Self::TerminalO => Some("terminal_o"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CurrentLimitSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CurrentLimitSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Parameter,
-            1 => Self::TerminalO,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CurrentLimitSource> for u16 {
-    #[inline]
-    fn from(value: CurrentLimitSource) -> Self {
-        match value {
-            CurrentLimitSource::Parameter => 0,
-            CurrentLimitSource::TerminalO => 1,
-            CurrentLimitSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Parameter lock.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ParameterLock {
-    /// Sft parameters and setpoint.
-    SftParametersAndSetpoint,
-    /// Sft parameters.
-    SftParameters,
-    /// Parameters and setpoint.
-    ParametersAndSetpoint,
-    /// Parameters.
-    Parameters,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl ParameterLock {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::SftParametersAndSetpoint => Some("sft_parameters_and_setpoint"),
-            Self::SftParameters => Some("sft_parameters"),
-            Self::ParametersAndSetpoint => Some("parameters_and_setpoint"),
-            Self::Parameters => Some("parameters"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for ParameterLock {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for ParameterLock {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::SftParametersAndSetpoint,
-            1 => Self::SftParameters,
-            2 => Self::ParametersAndSetpoint,
-            3 => Self::Parameters,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<ParameterLock> for u16 {
-    #[inline]
-    fn from(value: ParameterLock) -> Self {
-        match value {
-            ParameterLock::SftParametersAndSetpoint => 0,
-            ParameterLock::SftParameters => 1,
-            ParameterLock::ParametersAndSetpoint => 2,
-            ParameterLock::Parameters => 3,
-            ParameterLock::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Initialization mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InitializationMode {
-    /// Clear trips.
-    ClearTrips,
-    /// Factory settings.
-    FactorySettings,
-    /// Clear trips and factory settings.
-    ClearTripsAndFactorySettings,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl InitializationMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::ClearTrips => Some("clear_trips"),
-            Self::FactorySettings => Some("factory_settings"),
-            Self::ClearTripsAndFactorySettings => Some("clear_trips_and_factory_settings"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InitializationMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InitializationMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::ClearTrips,
-            1 => Self::FactorySettings,
-            2 => Self::ClearTripsAndFactorySettings,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InitializationMode> for u16 {
-    #[inline]
-    fn from(value: InitializationMode) -> Self {
-        match value {
-            InitializationMode::ClearTrips => 0,
-            InitializationMode::FactorySettings => 1,
-            InitializationMode::ClearTripsAndFactorySettings => 2,
-            InitializationMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Stop key lock.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum StopKeyLock {
-    /// Key active.
-    KeyActive,
-    /// Key inactive.
-    KeyInactive,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl StopKeyLock {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::KeyActive => Some("key_active"),
-            Self::KeyInactive => Some("key_inactive"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for StopKeyLock {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for StopKeyLock {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::KeyActive,
-            1 => Self::KeyInactive,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<StopKeyLock> for u16 {
-    #[inline]
-    fn from(value: StopKeyLock) -> Self {
-        match value {
-            StopKeyLock::KeyActive => 0,
-            StopKeyLock::KeyInactive => 1,
-            StopKeyLock::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Coast restart mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CoastRestartMode {
-    /// Start at 0 hz.
-    StartAt0Hz,
-    /// Synchronize.
-    Synchronize,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl CoastRestartMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::StartAt0Hz => Some("start_at_0_hz"),
-            Self::Synchronize => Some("synchronize"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CoastRestartMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CoastRestartMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::StartAt0Hz,
-            1 => Self::Synchronize,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CoastRestartMode> for u16 {
-    #[inline]
-    fn from(value: CoastRestartMode) -> Self {
-        match value {
-            CoastRestartMode::StartAt0Hz => 0,
-            CoastRestartMode::Synchronize => 1,
-            CoastRestartMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Network display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum NetworkDisplay {
-    /// Output frequency.
-    OutputFrequency,
-    /// Motor current.
-    MotorCurrent,
+named_numbers! {
     /// Rotation direction.
-    RotationDirection,
-    /// Process value.
-    ProcessValue,
-    /// Digital inputs.
-    DigitalInputs,
-    /// Digital outputs.
-    DigitalOutputs,
-    /// Scaled output frequency.
-    ScaledOutputFrequency,
-    /// A number without a name here.
-    Unknown(u16),
+    RotationDirection: u16, else Unknown;
+    /// Stopped.
+    Stopped = 0 "stopped";
+    /// Forward.
+    Forward = 1 "forward";
+    /// Reverse.
+    Reverse = 2 "reverse";
 }
 
-impl NetworkDisplay {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::OutputFrequency => Some("output_frequency"),
-            Self::MotorCurrent => Some("motor_current"),
-            Self::RotationDirection => Some("rotation_direction"),
-            Self::ProcessValue => Some("process_value"),
-            Self::DigitalInputs => Some("digital_inputs"),
-            Self::DigitalOutputs => Some("digital_outputs"),
-            Self::ScaledOutputFrequency => Some("scaled_output_frequency"),
-            Self::Unknown(_) => None,
-        }
-    }
+named_numbers! {
+    /// Trip code.
+    TripCode: u16, else Unknown;
+    /// Overvoltage.
+    Overvoltage = 7 "overvoltage";
+    /// Undervoltage.
+    Undervoltage = 9 "undervoltage";
+    /// No trip.
+    NoTrip = 255 "no_trip";
 }
 
-impl fmt::Display for NetworkDisplay {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
+named_numbers! {
+    /// Motor direction.
+    MotorDirection: u16, else Unknown;
+    /// Forward.
+    Forward = 0 "forward";
+    /// Reverse.
+    Reverse = 1 "reverse";
 }
 
-impl From<u16> for NetworkDisplay {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            1 => Self::OutputFrequency,
-            2 => Self::MotorCurrent,
-            3 => Self::RotationDirection,
-            4 => Self::ProcessValue,
-            5 => Self::DigitalInputs,
-            6 => Self::DigitalOutputs,
-            7 => Self::ScaledOutputFrequency,
-            _ => Self::Unknown(raw),
-        }
-    }
+named_numbers! {
+    /// Frequency source.
+    FrequencySource: u16, else Unknown;
+    /// Keypad potentiometer.
+    KeypadPotentiometer = 0 "keypad_potentiometer";
+    /// Terminal o oi.
+    TerminalOOi = 1 "terminal_o_oi";
+    /// F001 or a020.
+    F001OrA020 = 2 "f001_or_a020";
+    /// Modbus.
+    Modbus = 3 "modbus";
+    /// Calculation result.
+    CalculationResult = 10 "calculation_result";
 }
 
-impl From<NetworkDisplay> for u16 {
-    #[inline]
-    fn from(value: NetworkDisplay) -> Self {
-        match value {
-            NetworkDisplay::OutputFrequency => 1,
-            NetworkDisplay::MotorCurrent => 2,
-            NetworkDisplay::RotationDirection => 3,
-            NetworkDisplay::ProcessValue => 4,
-            NetworkDisplay::DigitalInputs => 5,
-            NetworkDisplay::DigitalOutputs => 6,
-            NetworkDisplay::ScaledOutputFrequency => 7,
-            NetworkDisplay::Unknown(raw) => raw,
-        }
-    }
+named_numbers! {
+    /// Run source.
+    RunSource: u16, else Unknown;
+    /// Terminal fw rv.
+    TerminalFwRv = 1 "terminal_fw_rv";
+    /// Run key.
+    RunKey = 2 "run_key";
+    /// Modbus.
+    Modbus = 3 "modbus";
 }
 
-/// Stop mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum StopMode {
-    /// Ramp.
-    Ramp,
+named_numbers! {
+    /// At terminal selection.
+    AtTerminalSelection: u16, else Unknown;
+    /// O and oi.
+    OAndOi = 0 "o_and_oi";
+    /// O and oi at ignored.
+    OAndOiAtIgnored = 1 "o_and_oi_at_ignored";
+    /// O and potentiometer.
+    OAndPotentiometer = 2 "o_and_potentiometer";
+    /// Oi and potentiometer.
+    OiAndPotentiometer = 3 "oi_and_potentiometer";
+}
+
+named_numbers! {
+    /// Input o start condition.
+    InputOStartCondition: u16, else Unknown;
+    /// Minimum frequency.
+    MinimumFrequency = 0 "minimum_frequency";
+    /// Zero hz.
+    ZeroHz = 1 "zero_hz";
+}
+
+named_numbers! {
+    /// Analog input filter.
+    AnalogInputFilter: u16, else Unknown;
+    /// Samples 16 dead band.
+    Samples16DeadBand = 17 "samples_16_dead_band";
+}
+
+named_numbers! {
+    /// Jog stop mode.
+    JogStopMode: u16, else Unknown;
     /// Coast.
-    Coast,
-    /// A number without a name here.
-    Unknown(u16),
+    Coast = 0 "coast";
+    /// Ramp.
+    Ramp = 1 "ramp";
+    /// Dc brake.
+    DcBrake = 2 "dc_brake";
 }
 
-impl StopMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Ramp => Some("ramp"),
-            Self::Coast => Some("coast"),
-            Self::Unknown(_) => None,
-        }
-    }
+named_numbers! {
+    /// Boost mode.
+    BoostMode: u16, else Unknown;
+    /// Manual.
+    Manual = 0 "manual";
+    /// Automatic.
+    Automatic = 1 "automatic";
 }
 
-impl fmt::Display for StopMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
+named_numbers! {
+    /// Vf characteristic.
+    VfCharacteristic: u16, else Unknown;
+    /// Constant.
+    Constant = 0 "constant";
+    /// Quadratic.
+    Quadratic = 1 "quadratic";
 }
 
-impl From<u16> for StopMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Ramp,
-            1 => Self::Coast,
-            _ => Self::Unknown(raw),
-        }
-    }
+named_numbers! {
+    /// Inactive active.
+    InactiveActive: u16, else Unknown;
+    /// Inactive.
+    Inactive = 0 "inactive";
+    /// Active.
+    Active = 1 "active";
 }
 
-impl From<StopMode> for u16 {
-    #[inline]
-    fn from(value: StopMode) -> Self {
-        match value {
-            StopMode::Ramp => 0,
-            StopMode::Coast => 1,
-            StopMode::Unknown(raw) => raw,
-        }
-    }
+named_numbers! {
+    /// Dc brake trigger.
+    DcBrakeTrigger: u16, else Unknown;
+    /// Edge.
+    Edge = 0 "edge";
+    /// Level.
+    Level = 1 "level";
 }
 
-/// Contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Contact {
-    /// Normally open.
-    NormallyOpen,
-    /// Normally closed.
-    NormallyClosed,
-    /// A number without a name here.
-    Unknown(u16),
+named_numbers! {
+    /// Pid process value source.
+    PidProcessValueSource: u16, else Unknown;
+    /// Terminal oi.
+    TerminalOi = 0 "terminal_oi";
+    /// Terminal o.
+    TerminalO = 1 "terminal_o";
+    /// Modbus.
+    Modbus = 2 "modbus";
+    /// Calculation result.
+    CalculationResult = 10 "calculation_result";
 }
 
-impl Contact {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NormallyOpen => Some("normally_open"),
-            Self::NormallyClosed => Some("normally_closed"),
-            Self::Unknown(_) => None,
-        }
-    }
+named_numbers! {
+    /// Pid inversion.
+    PidInversion: u16, else Unknown;
+    /// Setpoint minus process value.
+    SetpointMinusProcessValue = 0 "setpoint_minus_process_value";
+    /// Process value minus setpoint.
+    ProcessValueMinusSetpoint = 1 "process_value_minus_setpoint";
 }
 
-impl fmt::Display for Contact {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
+named_numbers! {
+    /// Avr mode.
+    AvrMode: u16, else Unknown;
+    /// Active.
+    Active = 0 "active";
+    /// Inactive.
+    Inactive = 1 "inactive";
+    /// Inactive in deceleration.
+    InactiveInDeceleration = 2 "inactive_in_deceleration";
 }
 
-impl From<u16> for Contact {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::NormallyOpen,
-            1 => Self::NormallyClosed,
-            _ => Self::Unknown(raw),
-        }
-    }
+named_numbers! {
+    /// Ramp 2 selection.
+    Ramp2Selection: u16, else Unknown;
+    /// Terminal 2ch.
+    Terminal2ch = 0 "terminal_2ch";
+    /// Frequency.
+    Frequency = 1 "frequency";
 }
 
-impl From<Contact> for u16 {
-    #[inline]
-    fn from(value: Contact) -> Self {
-        match value {
-            Contact::NormallyOpen => 0,
-            Contact::NormallyClosed => 1,
-            Contact::Unknown(raw) => raw,
-        }
-    }
+named_numbers! {
+    /// Ramp curve.
+    RampCurve: u16, else Unknown;
+    /// Linear.
+    Linear = 0 "linear";
+    /// S curve.
+    SCurve = 1 "s_curve";
 }
 
-/// Analog output source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AnalogOutputSource {
+named_numbers! {
+    /// Input oi start condition.
+    InputOiStartCondition: u16, else Unknown;
+    /// Minimum frequency.
+    MinimumFrequency = 0 "minimum_frequency";
+    /// Zero hz.
+    ZeroHz = 1 "zero_hz";
+}
+
+named_numbers! {
+    /// Calculation input.
+    CalculationInput: u16, else Unknown;
+    /// Operator panel.
+    OperatorPanel = 0 "operator_panel";
+    /// Keypad potentiometer.
+    KeypadPotentiometer = 1 "keypad_potentiometer";
+    /// Terminal o.
+    TerminalO = 2 "terminal_o";
+    /// Terminal oi.
+    TerminalOi = 3 "terminal_oi";
+    /// Network variable.
+    NetworkVariable = 4 "network_variable";
+}
+
+named_numbers! {
+    /// Calculation operator.
+    CalculationOperator: u16, else Unknown;
+    /// Add.
+    Add = 0 "add";
+    /// Subtract.
+    Subtract = 1 "subtract";
+    /// Multiply.
+    Multiply = 2 "multiply";
+}
+
+named_numbers! {
+    /// Frequency offset sign.
+    FrequencyOffsetSign: u16, else Unknown;
+    /// Plus.
+    Plus = 0 "plus";
+    /// Minus.
+    Minus = 1 "minus";
+}
+
+named_numbers! {
+    /// Potentiometer start condition.
+    PotentiometerStartCondition: u16, else Unknown;
+    /// Minimum frequency.
+    MinimumFrequency = 0 "minimum_frequency";
+    /// Zero hz.
+    ZeroHz = 1 "zero_hz";
+}
+
+named_numbers! {
+    /// Restart mode.
+    RestartMode: u16, else Unknown;
+    /// Trip.
+    Trip = 0 "trip";
+    /// Start at 0 hz.
+    StartAt0Hz = 1 "start_at_0_hz";
+    /// Synchronize.
+    Synchronize = 2 "synchronize";
+    /// Synchronize and stop.
+    SynchronizeAndStop = 3 "synchronize_and_stop";
+}
+
+named_numbers! {
+    /// Power failure trip at standstill.
+    PowerFailureTripAtStandstill: u16, else Unknown;
+    /// No trip.
+    NoTrip = 0 "no_trip";
+    /// Trip.
+    Trip = 1 "trip";
+}
+
+named_numbers! {
+    /// Power failure restarts.
+    PowerFailureRestarts: u16, else Unknown;
+    /// Attempts 16.
+    Attempts16 = 0 "attempts_16";
+    /// Unlimited.
+    Unlimited = 1 "unlimited";
+}
+
+named_numbers! {
+    /// Motor protection characteristic.
+    MotorProtectionCharacteristic: u16, else Unknown;
+    /// Quadratic 1.
+    Quadratic1 = 0 "quadratic_1";
+    /// Constant.
+    Constant = 1 "constant";
+    /// Quadratic 2.
+    Quadratic2 = 2 "quadratic_2";
+}
+
+named_numbers! {
+    /// Current limit mode.
+    CurrentLimitMode: u16, else Unknown;
+    /// Inactive.
+    Inactive = 0 "inactive";
+    /// Active.
+    Active = 1 "active";
+    /// Active at constant speed.
+    ActiveAtConstantSpeed = 2 "active_at_constant_speed";
+}
+
+named_numbers! {
+    /// Current limit source.
+    CurrentLimitSource: u16, else Unknown;
+    /// Parameter.
+    Parameter = 0 "parameter";
+    /// Terminal o.
+    TerminalO = 1 "terminal_o";
+}
+
+named_numbers! {
+    /// Parameter lock.
+    ParameterLock: u16, else Unknown;
+    /// Sft parameters and setpoint.
+    SftParametersAndSetpoint = 0 "sft_parameters_and_setpoint";
+    /// Sft parameters.
+    SftParameters = 1 "sft_parameters";
+    /// Parameters and setpoint.
+    ParametersAndSetpoint = 2 "parameters_and_setpoint";
+    /// Parameters.
+    Parameters = 3 "parameters";
+}
+
+named_numbers! {
+    /// Initialization mode.
+    InitializationMode: u16, else Unknown;
+    /// Clear trips.
+    ClearTrips = 0 "clear_trips";
+    /// Factory settings.
+    FactorySettings = 1 "factory_settings";
+    /// Clear trips and factory settings.
+    ClearTripsAndFactorySettings = 2 "clear_trips_and_factory_settings";
+}
+
+named_numbers! {
+    /// Stop key lock.
+    StopKeyLock: u16, else Unknown;
+    /// Key active.
+    KeyActive = 0 "key_active";
+    /// Key inactive.
+    KeyInactive = 1 "key_inactive";
+}
+
+named_numbers! {
+    /// Coast restart mode.
+    CoastRestartMode: u16, else Unknown;
+    /// Start at 0 hz.
+    StartAt0Hz = 0 "start_at_0_hz";
+    /// Synchronize.
+    Synchronize = 1 "synchronize";
+}
+
+named_numbers! {
+    /// Network display.
+    NetworkDisplay: u16, else Unknown;
     /// Output frequency.
-    OutputFrequency,
+    OutputFrequency = 1 "output_frequency";
     /// Motor current.
-    MotorCurrent,
-    /// A number without a name here.
-    Unknown(u16),
+    MotorCurrent = 2 "motor_current";
+    /// Rotation direction.
+    RotationDirection = 3 "rotation_direction";
+    /// Process value.
+    ProcessValue = 4 "process_value";
+    /// Digital inputs.
+    DigitalInputs = 5 "digital_inputs";
+    /// Digital outputs.
+    DigitalOutputs = 6 "digital_outputs";
+    /// Scaled output frequency.
+    ScaledOutputFrequency = 7 "scaled_output_frequency";
 }
 
-impl AnalogOutputSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::OutputFrequency => Some("output_frequency"),
-            Self::MotorCurrent => Some("motor_current"),
-            Self::Unknown(_) => None,
-        }
-    }
+named_numbers! {
+    /// Stop mode.
+    StopMode: u16, else Unknown;
+    /// Ramp.
+    Ramp = 0 "ramp";
+    /// Coast.
+    Coast = 1 "coast";
 }
 
-impl fmt::Display for AnalogOutputSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
+named_numbers! {
+    /// Contact.
+    Contact: u16, else Unknown;
+    /// Normally open.
+    NormallyOpen = 0 "normally_open";
+    /// Normally closed.
+    NormallyClosed = 1 "normally_closed";
 }
 
-impl From<u16> for AnalogOutputSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::OutputFrequency,
-            1 => Self::MotorCurrent,
-            _ => Self::Unknown(raw),
-        }
-    }
+named_numbers! {
+    /// Analog output source.
+    AnalogOutputSource: u16, else Unknown;
+    /// Output frequency.
+    OutputFrequency = 0 "output_frequency";
+    /// Motor current.
+    MotorCurrent = 1 "motor_current";
 }
 
-impl From<AnalogOutputSource> for u16 {
-    #[inline]
-    fn from(value: AnalogOutputSource) -> Self {
-        match value {
-            AnalogOutputSource::OutputFrequency => 0,
-            AnalogOutputSource::MotorCurrent => 1,
-            AnalogOutputSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Motor potentiometer memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MotorPotentiometerMemory {
+named_numbers! {
+    /// Motor potentiometer memory.
+    MotorPotentiometerMemory: u16, else Unknown;
     /// Discard.
-    Discard,
+    Discard = 0 "discard";
     /// Keep.
-    Keep,
-    /// A number without a name here.
-    Unknown(u16),
+    Keep = 1 "keep";
 }
 
-impl MotorPotentiometerMemory {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Discard => Some("discard"),
-            Self::Keep => Some("keep"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MotorPotentiometerMemory {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MotorPotentiometerMemory {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Discard,
-            1 => Self::Keep,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MotorPotentiometerMemory> for u16 {
-    #[inline]
-    fn from(value: MotorPotentiometerMemory) -> Self {
-        match value {
-            MotorPotentiometerMemory::Discard => 0,
-            MotorPotentiometerMemory::Keep => 1,
-            MotorPotentiometerMemory::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Reset mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ResetMode {
+named_numbers! {
+    /// Reset mode.
+    ResetMode: u16, else Unknown;
     /// Rising edge.
-    RisingEdge,
+    RisingEdge = 0 "rising_edge";
     /// Falling edge.
-    FallingEdge,
+    FallingEdge = 1 "falling_edge";
     /// Rising edge when tripped.
-    RisingEdgeWhenTripped,
-    /// A number without a name here.
-    Unknown(u16),
+    RisingEdgeWhenTripped = 2 "rising_edge_when_tripped";
 }
 
-impl ResetMode {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::RisingEdge => Some("rising_edge"),
-            Self::FallingEdge => Some("falling_edge"),
-            Self::RisingEdgeWhenTripped => Some("rising_edge_when_tripped"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for ResetMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for ResetMode {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::RisingEdge,
-            1 => Self::FallingEdge,
-            2 => Self::RisingEdgeWhenTripped,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<ResetMode> for u16 {
-    #[inline]
-    fn from(value: ResetMode) -> Self {
-        match value {
-            ResetMode::RisingEdge => 0,
-            ResetMode::FallingEdge => 1,
-            ResetMode::RisingEdgeWhenTripped => 2,
-            ResetMode::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Logic operator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LogicOperator {
+named_numbers! {
+    /// Logic operator.
+    LogicOperator: u16, else Unknown;
     /// Logic and.
-    LogicAnd,
+    LogicAnd = 0 "logic_and";
     /// Logic or.
-    LogicOr,
+    LogicOr = 1 "logic_or";
     /// Logic xor.
-    LogicXor,
-    /// A number without a name here.
-    Unknown(u16),
+    LogicXor = 2 "logic_xor";
 }
 
-impl LogicOperator {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::LogicAnd => Some("logic_and"),
-            Self::LogicOr => Some("logic_or"),
-            Self::LogicXor => Some("logic_xor"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for LogicOperator {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for LogicOperator {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::LogicAnd,
-            1 => Self::LogicOr,
-            2 => Self::LogicXor,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<LogicOperator> for u16 {
-    #[inline]
-    fn from(value: LogicOperator) -> Self {
-        match value {
-            LogicOperator::LogicAnd => 0,
-            LogicOperator::LogicOr => 1,
-            LogicOperator::LogicXor => 2,
-            LogicOperator::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Motor power.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MotorPower {
+named_numbers! {
+    /// Motor power.
+    MotorPower: u16, else Unknown;
     /// Kw 0 20.
-    Kw0_20,
+    Kw0_20 = 0 "kw_0_20";
     /// Kw 0 37.
-    Kw0_37,
+    Kw0_37 = 1 "kw_0_37";
     /// Kw 0 40.
-    Kw0_40,
+    Kw0_40 = 2 "kw_0_40";
     /// Kw 0 55.
-    Kw0_55,
+    Kw0_55 = 3 "kw_0_55";
     /// Kw 0 75.
-    Kw0_75,
+    Kw0_75 = 4 "kw_0_75";
     /// Kw 1 10.
-    Kw1_10,
+    Kw1_10 = 5 "kw_1_10";
     /// Kw 1 50.
-    Kw1_50,
+    Kw1_50 = 6 "kw_1_50";
     /// Kw 2 2.
-    Kw2_2,
+    Kw2_2 = 7 "kw_2_2";
     /// Kw 3 0.
-    Kw3_0,
+    Kw3_0 = 8 "kw_3_0";
     /// Kw 3 7.
-    Kw3_7,
+    Kw3_7 = 9 "kw_3_7";
     /// Kw 4 0.
-    Kw4_0,
+    Kw4_0 = 10 "kw_4_0";
     /// Kw 5 5.
-    Kw5_5,
+    Kw5_5 = 11 "kw_5_5";
     /// Kw 7 5.
-    Kw7_5,
-    /// A number without a name here.
-    Unknown(u16),
+    Kw7_5 = 12 "kw_7_5";
 }
 
-impl MotorPower {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Kw0_20 => Some("kw_0_20"),
-            Self::Kw0_37 => Some("kw_0_37"),
-            Self::Kw0_40 => Some("kw_0_40"),
-            Self::Kw0_55 => Some("kw_0_55"),
-            Self::Kw0_75 => Some("kw_0_75"),
-            Self::Kw1_10 => Some("kw_1_10"),
-            Self::Kw1_50 => Some("kw_1_50"),
-            Self::Kw2_2 => Some("kw_2_2"),
-            Self::Kw3_0 => Some("kw_3_0"),
-            Self::Kw3_7 => Some("kw_3_7"),
-            Self::Kw4_0 => Some("kw_4_0"),
-            Self::Kw5_5 => Some("kw_5_5"),
-            Self::Kw7_5 => Some("kw_7_5"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MotorPower {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MotorPower {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Kw0_20,
-            1 => Self::Kw0_37,
-            2 => Self::Kw0_40,
-            3 => Self::Kw0_55,
-            4 => Self::Kw0_75,
-            5 => Self::Kw1_10,
-            6 => Self::Kw1_50,
-            7 => Self::Kw2_2,
-            8 => Self::Kw3_0,
-            9 => Self::Kw3_7,
-            10 => Self::Kw4_0,
-            11 => Self::Kw5_5,
-            12 => Self::Kw7_5,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MotorPower> for u16 {
-    #[inline]
-    fn from(value: MotorPower) -> Self {
-        match value {
-            MotorPower::Kw0_20 => 0,
-            MotorPower::Kw0_37 => 1,
-            MotorPower::Kw0_40 => 2,
-            MotorPower::Kw0_55 => 3,
-            MotorPower::Kw0_75 => 4,
-            MotorPower::Kw1_10 => 5,
-            MotorPower::Kw1_50 => 6,
-            MotorPower::Kw2_2 => 7,
-            MotorPower::Kw3_0 => 8,
-            MotorPower::Kw3_7 => 9,
-            MotorPower::Kw4_0 => 10,
-            MotorPower::Kw5_5 => 11,
-            MotorPower::Kw7_5 => 12,
-            MotorPower::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Motor poles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MotorPoles {
+named_numbers! {
+    /// Motor poles.
+    MotorPoles: u16, else Unknown;
     /// Poles 2.
-    Poles2,
+    Poles2 = 2 "poles_2";
     /// Poles 4.
-    Poles4,
+    Poles4 = 4 "poles_4";
     /// Poles 6.
-    Poles6,
+    Poles6 = 6 "poles_6";
     /// Poles 8.
-    Poles8,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl MotorPoles {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Poles2 => Some("poles_2"),
-            Self::Poles4 => Some("poles_4"),
-            Self::Poles6 => Some("poles_6"),
-            Self::Poles8 => Some("poles_8"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MotorPoles {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MotorPoles {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            2 => Self::Poles2,
-            4 => Self::Poles4,
-            6 => Self::Poles6,
-            8 => Self::Poles8,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MotorPoles> for u16 {
-    #[inline]
-    fn from(value: MotorPoles) -> Self {
-        match value {
-            MotorPoles::Poles2 => 2,
-            MotorPoles::Poles4 => 4,
-            MotorPoles::Poles6 => 6,
-            MotorPoles::Poles8 => 8,
-            MotorPoles::Unknown(raw) => raw,
-        }
-    }
+    Poles8 = 8 "poles_8";
 }

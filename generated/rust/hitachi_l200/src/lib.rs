@@ -15,11 +15,11 @@
 //!
 #![cfg_attr(feature = "std", doc = "```no_run")]
 #![cfg_attr(not(feature = "std"), doc = "```ignore")]
-//! use hitachi_l200::{points as p, runtime::transports::tcp::TcpLine, Client, Framing, PROFILE};
+//! use hitachi_l200::{points as p, runtime::transports::tcp::TcpLine, Client, Framing};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
 //!     let line = TcpLine::new("192.168.0.20:4001");
-//!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+//!     let mut client = Client::new(line, Framing::Rtu, 1);
 //!     println!("{:?}", client.read::<p::Trip1OutputFrequency>()?);
 //!     client.write::<p::NetworkFrequencySetpoint>(40.0)?;
 //!     Ok(())
@@ -29,7 +29,7 @@
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use hitachi_l200::{blocks, commands, points as p, with, Client, ClientError, Framing, PROFILE, Reading,
+//! use hitachi_l200::{blocks, commands, points as p, with, Client, ClientError, Framing, Reading,
 //!     Transport};
 //!
 //! struct Line; // your port
@@ -64,7 +64,7 @@
 //!     Ok(())
 //! }
 //!
-//! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
+//! let mut client = Client::new(Line, Framing::Rtu, 1);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
@@ -77,14 +77,13 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::LocalClient;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
+pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Function, Profile};
+use fieldscribe_runtime::modbus::{Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "hitachi_l200";
@@ -347,9 +346,28 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     StabilizationConstantSet2
 };
 
+/// The device: its points, its blocks and its clients name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct HitachiL200;
+
+impl runtime::Device for HitachiL200 {
+    type Profile = Profile;
+    const NAME: &'static str = DEVICE;
+    const PROFILE: &'static Profile = &PROFILE;
+}
+
+/// A device behind a transport that blocks.
+pub type Client<T> = runtime::modbus::Client<T, HitachiL200>;
+
+/// A device behind a transport that does not block.
+pub type AsyncClient<T> = runtime::modbus::AsyncClient<T, HitachiL200>;
+
+/// A device behind a transport of one thread, which does not block.
+pub type LocalClient<T> = runtime::modbus::LocalClient<T, HitachiL200>;
+
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:
-/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0))
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);` and [`Client::with_profile`].
+pub const PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0))
     .padding_coils()
     .naming(exceptions::name);
 
@@ -552,6 +570,9 @@ pub mod blocks {
     ];
 }
 
+/// A read of consecutive addresses of this device.
+pub type Block = runtime::modbus::Block<HitachiL200>;
+
 /// The reads by group.
 pub const BLOCKS: &[(&str, &[Block])] = &[
     ("coils", blocks::COILS),
@@ -564,9 +585,12 @@ pub const BLOCKS: &[(&str, &[Block])] = &[
     ("motor_h", blocks::MOTOR_H),
 ];
 
+/// A named constant write to this device.
+pub type Command = runtime::modbus::Command<HitachiL200>;
+
 /// Named constant writes.
 pub mod commands {
-    use fieldscribe_runtime::modbus::Command;
+    use super::Command;
 
     /// Enter: any value does; the memory stands 100000 writes.
     pub const ENTER: Command = Command::new(6, 0x0900, None);

@@ -45,7 +45,7 @@ point! {
     /// Run command.
     ///
     /// At coil 0000h (0), `bit`, raw `0, 1`, read and write.
-    RunCommand: u8 = "run_command";
+    RunCommand of crate::HitachiL200: u8 = "run_command";
     at Coil 0x0000;
     const MODICON: u32 = 1;
     raw 0..=1;
@@ -58,7 +58,7 @@ point! {
     /// Direction command.
     ///
     /// At coil 0001h (1), `bit`, raw `0, 1`, read and write.
-    DirectionCommand: u8 = "direction_command";
+    DirectionCommand of crate::HitachiL200: u8 = "direction_command";
     at Coil 0x0001;
     const MODICON: u32 = 2;
     raw 0..=1;
@@ -71,7 +71,7 @@ point! {
     /// External trip.
     ///
     /// At coil 0002h (2), `bit`, raw `0, 1`, read and write.
-    ExternalTrip: u8 = "external_trip";
+    ExternalTrip of crate::HitachiL200: u8 = "external_trip";
     at Coil 0x0002;
     const MODICON: u32 = 3;
     raw 0..=1;
@@ -84,7 +84,7 @@ point! {
     /// Trip reset.
     ///
     /// At coil 0003h (3), `bit`, raw `0, 1`, read and write.
-    TripReset: u8 = "trip_reset";
+    TripReset of crate::HitachiL200: u8 = "trip_reset";
     at Coil 0x0003;
     const MODICON: u32 = 4;
     raw 0..=1;
@@ -97,7 +97,7 @@ point! {
     /// Digital input 1.
     ///
     /// At coil 0006h (6), `bit`, raw `0, 1`, read and write.
-    DigitalInput1: u8 = "digital_input_1";
+    DigitalInput1 of crate::HitachiL200: u8 = "digital_input_1";
     at Coil 0x0006;
     const MODICON: u32 = 7;
     raw 0..=1;
@@ -110,7 +110,7 @@ point! {
     /// Digital input 2.
     ///
     /// At coil 0007h (7), `bit`, raw `0, 1`, read and write.
-    DigitalInput2: u8 = "digital_input_2";
+    DigitalInput2 of crate::HitachiL200: u8 = "digital_input_2";
     at Coil 0x0007;
     const MODICON: u32 = 8;
     raw 0..=1;
@@ -123,7 +123,7 @@ point! {
     /// Digital input 3.
     ///
     /// At coil 0008h (8), `bit`, raw `0, 1`, read and write.
-    DigitalInput3: u8 = "digital_input_3";
+    DigitalInput3 of crate::HitachiL200: u8 = "digital_input_3";
     at Coil 0x0008;
     const MODICON: u32 = 9;
     raw 0..=1;
@@ -136,7 +136,7 @@ point! {
     /// Digital input 4.
     ///
     /// At coil 0009h (9), `bit`, raw `0, 1`, read and write.
-    DigitalInput4: u8 = "digital_input_4";
+    DigitalInput4 of crate::HitachiL200: u8 = "digital_input_4";
     at Coil 0x0009;
     const MODICON: u32 = 10;
     raw 0..=1;
@@ -149,7 +149,7 @@ point! {
     /// Digital input 5.
     ///
     /// At coil 000Ah (10), `bit`, raw `0, 1`, read and write.
-    DigitalInput5: u8 = "digital_input_5";
+    DigitalInput5 of crate::HitachiL200: u8 = "digital_input_5";
     at Coil 0x000A;
     const MODICON: u32 = 11;
     raw 0..=1;
@@ -162,7 +162,7 @@ point! {
     /// Running.
     ///
     /// At coil 000Dh (13), `bit`, raw `0, 1`, read only.
-    Running: u8 = "running";
+    Running of crate::HitachiL200: u8 = "running";
     at Coil 0x000D;
     const MODICON: u32 = 14;
     raw 0..=1;
@@ -174,7 +174,7 @@ point! {
     /// Direction status.
     ///
     /// At coil 000Eh (14), `bit`, raw `0, 1`, read only.
-    DirectionStatus: u8 = "direction_status";
+    DirectionStatus of crate::HitachiL200: u8 = "direction_status";
     at Coil 0x000E;
     const MODICON: u32 = 15;
     raw 0..=1;
@@ -186,7 +186,7 @@ point! {
     /// Ready.
     ///
     /// At coil 000Fh (15), `bit`, raw `0, 1`, read only.
-    Ready: u8 = "ready";
+    Ready of crate::HitachiL200: u8 = "ready";
     at Coil 0x000F;
     const MODICON: u32 = 16;
     raw 0..=1;
@@ -198,7 +198,7 @@ point! {
     /// Alarm.
     ///
     /// At coil 0013h (19), `bit`, raw `0, 1`, read only.
-    Alarm: u8 = "alarm";
+    Alarm of crate::HitachiL200: u8 = "alarm";
     at Coil 0x0013;
     const MODICON: u32 = 20;
     raw 0..=1;
@@ -210,7 +210,7 @@ point! {
     /// Pid deviation.
     ///
     /// At coil 0014h (20), `bit`, raw `0, 1`, read only.
-    PidDeviation: u8 = "pid_deviation";
+    PidDeviation of crate::HitachiL200: u8 = "pid_deviation";
     at Coil 0x0014;
     const MODICON: u32 = 21;
     raw 0..=1;
@@ -222,7 +222,7 @@ point! {
     /// Overload.
     ///
     /// At coil 0015h (21), `bit`, raw `0, 1`, read only.
-    Overload: u8 = "overload";
+    Overload of crate::HitachiL200: u8 = "overload";
     at Coil 0x0015;
     const MODICON: u32 = 22;
     raw 0..=1;
@@ -234,7 +234,7 @@ point! {
     /// Frequency arrival in acceleration.
     ///
     /// At coil 0016h (22), `bit`, raw `0, 1`, read only.
-    FrequencyArrivalInAcceleration: u8 = "frequency_arrival_in_acceleration";
+    FrequencyArrivalInAcceleration of crate::HitachiL200: u8 = "frequency_arrival_in_acceleration";
     at Coil 0x0016;
     const MODICON: u32 = 23;
     raw 0..=1;
@@ -246,7 +246,7 @@ point! {
     /// Frequency arrival at constant speed.
     ///
     /// At coil 0017h (23), `bit`, raw `0, 1`, read only.
-    FrequencyArrivalAtConstantSpeed: u8 = "frequency_arrival_at_constant_speed";
+    FrequencyArrivalAtConstantSpeed of crate::HitachiL200: u8 = "frequency_arrival_at_constant_speed";
     at Coil 0x0017;
     const MODICON: u32 = 24;
     raw 0..=1;
@@ -258,7 +258,7 @@ point! {
     /// Run mode.
     ///
     /// At coil 0018h (24), `bit`, raw `0, 1`, read only.
-    RunMode: u8 = "run_mode";
+    RunMode of crate::HitachiL200: u8 = "run_mode";
     at Coil 0x0018;
     const MODICON: u32 = 25;
     raw 0..=1;
@@ -270,7 +270,7 @@ point! {
     /// Data write.
     ///
     /// At coil 0019h (25), `bit`, raw `0, 1`, read only.
-    DataWrite: u8 = "data_write";
+    DataWrite of crate::HitachiL200: u8 = "data_write";
     at Coil 0x0019;
     const MODICON: u32 = 26;
     raw 0..=1;
@@ -282,7 +282,7 @@ point! {
     /// Crc error.
     ///
     /// At coil 001Ah (26), `bit`, raw `0, 1`, read only.
-    CrcError: u8 = "crc_error";
+    CrcError of crate::HitachiL200: u8 = "crc_error";
     at Coil 0x001A;
     const MODICON: u32 = 27;
     raw 0..=1;
@@ -294,7 +294,7 @@ point! {
     /// Overrun error.
     ///
     /// At coil 001Bh (27), `bit`, raw `0, 1`, read only.
-    OverrunError: u8 = "overrun_error";
+    OverrunError of crate::HitachiL200: u8 = "overrun_error";
     at Coil 0x001B;
     const MODICON: u32 = 28;
     raw 0..=1;
@@ -306,7 +306,7 @@ point! {
     /// Framing error.
     ///
     /// At coil 001Ch (28), `bit`, raw `0, 1`, read only.
-    FramingError: u8 = "framing_error";
+    FramingError of crate::HitachiL200: u8 = "framing_error";
     at Coil 0x001C;
     const MODICON: u32 = 29;
     raw 0..=1;
@@ -320,7 +320,7 @@ point! {
     /// At coil 001Dh (29), `bit`, raw `0, 1`, read only.
     ///
     /// Erratum: `coil_parity_error_wire_decimal`.
-    ParityError: u8 = "parity_error";
+    ParityError of crate::HitachiL200: u8 = "parity_error";
     at Coil 0x001D;
     const MODICON: u32 = 30;
     raw 0..=1;
@@ -332,7 +332,7 @@ point! {
     /// Checksum error.
     ///
     /// At coil 001Eh (30), `bit`, raw `0, 1`, read only.
-    ChecksumError: u8 = "checksum_error";
+    ChecksumError of crate::HitachiL200: u8 = "checksum_error";
     at Coil 0x001E;
     const MODICON: u32 = 31;
     raw 0..=1;
@@ -344,7 +344,7 @@ point! {
     /// Network frequency setpoint.
     ///
     /// At holding 0001h (1), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
-    NetworkFrequencySetpoint: u16 = "network_frequency_setpoint";
+    NetworkFrequencySetpoint of crate::HitachiL200: u16 = "network_frequency_setpoint";
     at Holding 0x0001;
     const MODICON: u32 = 2;
     const REFERENCE: u32 = 400_002;
@@ -360,7 +360,7 @@ point! {
     /// Inverter status.
     ///
     /// At holding 0002h (2), `u16`, raw `0..9`, read and write.
-    InverterStatus: u16 = "inverter_status";
+    InverterStatus of crate::HitachiL200: u16 = "inverter_status";
     at Holding 0x0002;
     const MODICON: u32 = 3;
     const REFERENCE: u32 = 400_003;
@@ -374,7 +374,7 @@ point! {
     /// Network process value.
     ///
     /// At holding 0004h (4), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
-    NetworkProcessValue: u16 = "network_process_value";
+    NetworkProcessValue of crate::HitachiL200: u16 = "network_process_value";
     at Holding 0x0004;
     const MODICON: u32 = 5;
     const REFERENCE: u32 = 400_005;
@@ -391,7 +391,7 @@ point! {
     ///
     /// `d001` at holding 1001h (4097), `u16`, raw `0..4000`, one count is `0.1 Hz`, read only.
     #[doc(alias = "d001")]
-    OutputFrequency: u16 = "output_frequency", "d001";
+    OutputFrequency of crate::HitachiL200: u16 = "output_frequency", "d001";
     at Holding 0x1001;
     const MODICON: u32 = 4098;
     const REFERENCE: u32 = 404_098;
@@ -407,7 +407,7 @@ point! {
     ///
     /// `d002` at holding 1002h (4098), `u16`, raw `0..2000`, one count is `0.1 %`, read only.
     #[doc(alias = "d002")]
-    MotorCurrent: u16 = "motor_current", "d002";
+    MotorCurrent of crate::HitachiL200: u16 = "motor_current", "d002";
     at Holding 0x1002;
     const MODICON: u32 = 4099;
     const REFERENCE: u32 = 404_099;
@@ -423,7 +423,7 @@ point! {
     ///
     /// `d003` at holding 1003h (4099), `u16`, raw `0..2`, read only.
     #[doc(alias = "d003")]
-    RotationDirection: u16 = "rotation_direction", "d003";
+    RotationDirection of crate::HitachiL200: u16 = "rotation_direction", "d003";
     at Holding 0x1003;
     const MODICON: u32 = 4100;
     const REFERENCE: u32 = 404_100;
@@ -439,7 +439,7 @@ point! {
     ///
     /// Errata: `d004_range_in_units`, `d004_resolution`.
     #[doc(alias = "d004")]
-    ScaledProcessValue: u32 = "scaled_process_value", "d004";
+    ScaledProcessValue of crate::HitachiL200: u32 = "scaled_process_value", "d004";
     at Holding 0x1004;
     addresses [0x1004, 0x1005];
     words 2;
@@ -459,7 +459,7 @@ point! {
     ///
     /// Erratum: `d005_range`.
     #[doc(alias = "d005")]
-    DigitalInputs: u16 = "digital_inputs", "d005";
+    DigitalInputs of crate::HitachiL200: u16 = "digital_inputs", "d005";
     at Holding 0x1006;
     const MODICON: u32 = 4103;
     const REFERENCE: u32 = 404_103;
@@ -473,7 +473,7 @@ point! {
     ///
     /// `d006` at holding 1007h (4103), `u16`, raw `0..7`, read only.
     #[doc(alias = "d006")]
-    DigitalOutputs: u16 = "digital_outputs", "d006";
+    DigitalOutputs of crate::HitachiL200: u16 = "digital_outputs", "d006";
     at Holding 0x1007;
     const MODICON: u32 = 4104;
     const REFERENCE: u32 = 404_104;
@@ -487,7 +487,7 @@ point! {
     ///
     /// `d013` at holding 100Bh (4107), `u16`, raw `0..20000`, one count is `0.01 %`, read only.
     #[doc(alias = "d013")]
-    OutputVoltage: u16 = "output_voltage", "d013";
+    OutputVoltage of crate::HitachiL200: u16 = "output_voltage", "d013";
     at Holding 0x100B;
     const MODICON: u32 = 4108;
     const REFERENCE: u32 = 404_108;
@@ -505,7 +505,7 @@ point! {
     ///
     /// Erratum: `d016_range_in_units`.
     #[doc(alias = "d016")]
-    RunTime: u32 = "run_time", "d016";
+    RunTime of crate::HitachiL200: u32 = "run_time", "d016";
     at Holding 0x100D;
     addresses [0x100D, 0x100E];
     words 2;
@@ -524,7 +524,7 @@ point! {
     ///
     /// Erratum: `d017_range_in_units`.
     #[doc(alias = "d017")]
-    PowerOnTime: u32 = "power_on_time", "d017";
+    PowerOnTime of crate::HitachiL200: u32 = "power_on_time", "d017";
     at Holding 0x100F;
     addresses [0x100F, 0x1010];
     words 2;
@@ -541,7 +541,7 @@ point! {
     ///
     /// `d080` at holding 0010h (16), `u16`, raw `0..65535`, read only.
     #[doc(alias = "d080")]
-    TripCount: u16 = "trip_count", "d080";
+    TripCount of crate::HitachiL200: u16 = "trip_count", "d080";
     at Holding 0x0010;
     const MODICON: u32 = 17;
     const REFERENCE: u32 = 400_017;
@@ -554,7 +554,7 @@ point! {
     ///
     /// `d081` at holding 0011h (17), `u16`, raw `0..65535`, read only.
     #[doc(alias = "d081")]
-    Trip1Error: u16 = "trip_1_error", "d081";
+    Trip1Error of crate::HitachiL200: u16 = "trip_1_error", "d081";
     at Holding 0x0011;
     const MODICON: u32 = 18;
     const REFERENCE: u32 = 400_018;
@@ -567,7 +567,7 @@ point! {
     ///
     /// `d081` at holding 0013h (19), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
     #[doc(alias = "d081")]
-    Trip1OutputFrequency: u16 = "trip_1_output_frequency", "d081";
+    Trip1OutputFrequency of crate::HitachiL200: u16 = "trip_1_output_frequency", "d081";
     at Holding 0x0013;
     const MODICON: u32 = 20;
     const REFERENCE: u32 = 400_020;
@@ -582,7 +582,7 @@ point! {
     ///
     /// `d081` at holding 0015h (21), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
     #[doc(alias = "d081")]
-    Trip1MotorCurrent: u16 = "trip_1_motor_current", "d081";
+    Trip1MotorCurrent of crate::HitachiL200: u16 = "trip_1_motor_current", "d081";
     at Holding 0x0015;
     const MODICON: u32 = 22;
     const REFERENCE: u32 = 400_022;
@@ -597,7 +597,7 @@ point! {
     ///
     /// `d081` at holding 0016h (22), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
     #[doc(alias = "d081")]
-    Trip1DcBusVoltage: u16 = "trip_1_dc_bus_voltage", "d081";
+    Trip1DcBusVoltage of crate::HitachiL200: u16 = "trip_1_dc_bus_voltage", "d081";
     at Holding 0x0016;
     const MODICON: u32 = 23;
     const REFERENCE: u32 = 400_023;
@@ -612,7 +612,7 @@ point! {
     ///
     /// `d081` at holding 0017h (23), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d081")]
-    Trip1RunTime: u32 = "trip_1_run_time", "d081";
+    Trip1RunTime of crate::HitachiL200: u32 = "trip_1_run_time", "d081";
     at Holding 0x0017;
     addresses [0x0017, 0x0018];
     words 2;
@@ -628,7 +628,7 @@ point! {
     ///
     /// `d081` at holding 0019h (25), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d081")]
-    Trip1PowerOnTime: u32 = "trip_1_power_on_time", "d081";
+    Trip1PowerOnTime of crate::HitachiL200: u32 = "trip_1_power_on_time", "d081";
     at Holding 0x0019;
     addresses [0x0019, 0x001A];
     words 2;
@@ -644,7 +644,7 @@ point! {
     ///
     /// `d082` at holding 001Bh (27), `u16`, raw `0..65535`, read only.
     #[doc(alias = "d082")]
-    Trip2Error: u16 = "trip_2_error", "d082";
+    Trip2Error of crate::HitachiL200: u16 = "trip_2_error", "d082";
     at Holding 0x001B;
     const MODICON: u32 = 28;
     const REFERENCE: u32 = 400_028;
@@ -657,7 +657,7 @@ point! {
     ///
     /// `d082` at holding 001Dh (29), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
     #[doc(alias = "d082")]
-    Trip2OutputFrequency: u16 = "trip_2_output_frequency", "d082";
+    Trip2OutputFrequency of crate::HitachiL200: u16 = "trip_2_output_frequency", "d082";
     at Holding 0x001D;
     const MODICON: u32 = 30;
     const REFERENCE: u32 = 400_030;
@@ -672,7 +672,7 @@ point! {
     ///
     /// `d082` at holding 001Fh (31), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
     #[doc(alias = "d082")]
-    Trip2MotorCurrent: u16 = "trip_2_motor_current", "d082";
+    Trip2MotorCurrent of crate::HitachiL200: u16 = "trip_2_motor_current", "d082";
     at Holding 0x001F;
     const MODICON: u32 = 32;
     const REFERENCE: u32 = 400_032;
@@ -687,7 +687,7 @@ point! {
     ///
     /// `d082` at holding 0020h (32), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
     #[doc(alias = "d082")]
-    Trip2DcBusVoltage: u16 = "trip_2_dc_bus_voltage", "d082";
+    Trip2DcBusVoltage of crate::HitachiL200: u16 = "trip_2_dc_bus_voltage", "d082";
     at Holding 0x0020;
     const MODICON: u32 = 33;
     const REFERENCE: u32 = 400_033;
@@ -702,7 +702,7 @@ point! {
     ///
     /// `d082` at holding 0021h (33), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d082")]
-    Trip2RunTime: u32 = "trip_2_run_time", "d082";
+    Trip2RunTime of crate::HitachiL200: u32 = "trip_2_run_time", "d082";
     at Holding 0x0021;
     addresses [0x0021, 0x0022];
     words 2;
@@ -718,7 +718,7 @@ point! {
     ///
     /// `d082` at holding 0023h (35), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d082")]
-    Trip2PowerOnTime: u32 = "trip_2_power_on_time", "d082";
+    Trip2PowerOnTime of crate::HitachiL200: u32 = "trip_2_power_on_time", "d082";
     at Holding 0x0023;
     addresses [0x0023, 0x0024];
     words 2;
@@ -734,7 +734,7 @@ point! {
     ///
     /// `d083` at holding 0025h (37), `u16`, raw `0..65535`, read only.
     #[doc(alias = "d083")]
-    Trip3Error: u16 = "trip_3_error", "d083";
+    Trip3Error of crate::HitachiL200: u16 = "trip_3_error", "d083";
     at Holding 0x0025;
     const MODICON: u32 = 38;
     const REFERENCE: u32 = 400_038;
@@ -747,7 +747,7 @@ point! {
     ///
     /// `d083` at holding 0027h (39), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
     #[doc(alias = "d083")]
-    Trip3OutputFrequency: u16 = "trip_3_output_frequency", "d083";
+    Trip3OutputFrequency of crate::HitachiL200: u16 = "trip_3_output_frequency", "d083";
     at Holding 0x0027;
     const MODICON: u32 = 40;
     const REFERENCE: u32 = 400_040;
@@ -762,7 +762,7 @@ point! {
     ///
     /// `d083` at holding 0029h (41), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
     #[doc(alias = "d083")]
-    Trip3MotorCurrent: u16 = "trip_3_motor_current", "d083";
+    Trip3MotorCurrent of crate::HitachiL200: u16 = "trip_3_motor_current", "d083";
     at Holding 0x0029;
     const MODICON: u32 = 42;
     const REFERENCE: u32 = 400_042;
@@ -777,7 +777,7 @@ point! {
     ///
     /// `d083` at holding 002Ah (42), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
     #[doc(alias = "d083")]
-    Trip3DcBusVoltage: u16 = "trip_3_dc_bus_voltage", "d083";
+    Trip3DcBusVoltage of crate::HitachiL200: u16 = "trip_3_dc_bus_voltage", "d083";
     at Holding 0x002A;
     const MODICON: u32 = 43;
     const REFERENCE: u32 = 400_043;
@@ -792,7 +792,7 @@ point! {
     ///
     /// `d083` at holding 002Bh (43), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d083")]
-    Trip3RunTime: u32 = "trip_3_run_time", "d083";
+    Trip3RunTime of crate::HitachiL200: u32 = "trip_3_run_time", "d083";
     at Holding 0x002B;
     addresses [0x002B, 0x002C];
     words 2;
@@ -808,7 +808,7 @@ point! {
     ///
     /// `d083` at holding 002Dh (45), `u32`, raw `0..4294967295`, read only.
     #[doc(alias = "d083")]
-    Trip3PowerOnTime: u32 = "trip_3_power_on_time", "d083";
+    Trip3PowerOnTime of crate::HitachiL200: u32 = "trip_3_power_on_time", "d083";
     at Holding 0x002D;
     addresses [0x002D, 0x002E];
     words 2;
@@ -825,7 +825,7 @@ point! {
     /// `F002` at holding 1013h (4115), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
     /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F002")]
-    AccelerationTime: u32 = "acceleration_time", "F002";
+    AccelerationTime of crate::HitachiL200: u32 = "acceleration_time", "F002";
     at Holding 0x1013;
     addresses [0x1013, 0x1014];
     words 2;
@@ -845,7 +845,7 @@ point! {
     /// `F202` at holding 1500h (5376), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
     /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F202")]
-    AccelerationTimeSet2: u32 = "acceleration_time_set_2", "F202";
+    AccelerationTimeSet2 of crate::HitachiL200: u32 = "acceleration_time_set_2", "F202";
     at Holding 0x1500;
     addresses [0x1500, 0x1501];
     words 2;
@@ -865,7 +865,7 @@ point! {
     /// `F003` at holding 1015h (4117), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
     /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F003")]
-    DecelerationTime: u32 = "deceleration_time", "F003";
+    DecelerationTime of crate::HitachiL200: u32 = "deceleration_time", "F003";
     at Holding 0x1015;
     addresses [0x1015, 0x1016];
     words 2;
@@ -885,7 +885,7 @@ point! {
     /// `F203` at holding 1502h (5378), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s` (for
     /// information, not checked), one count is `0.01 s`, read and write.
     #[doc(alias = "F203")]
-    DecelerationTimeSet2: u32 = "deceleration_time_set_2", "F203";
+    DecelerationTimeSet2 of crate::HitachiL200: u32 = "deceleration_time_set_2", "F203";
     at Holding 0x1502;
     addresses [0x1502, 0x1503];
     words 2;
@@ -906,7 +906,7 @@ point! {
     ///
     /// Erratum: `f004_wire_decimal`.
     #[doc(alias = "F004")]
-    MotorDirection: u16 = "motor_direction", "F004";
+    MotorDirection of crate::HitachiL200: u16 = "motor_direction", "F004";
     at Holding 0x1017;
     const MODICON: u32 = 4120;
     const REFERENCE: u32 = 404_120;
@@ -921,7 +921,7 @@ point! {
     ///
     /// `A001` at holding 1018h (4120), `u16`, raw `0..3, 10`, read and write.
     #[doc(alias = "A001")]
-    FrequencySource: u16 = "frequency_source", "A001";
+    FrequencySource of crate::HitachiL200: u16 = "frequency_source", "A001";
     at Holding 0x1018;
     const MODICON: u32 = 4121;
     const REFERENCE: u32 = 404_121;
@@ -936,7 +936,7 @@ point! {
     ///
     /// `A201` at holding 1509h (5385), `u16`, raw `0..3, 10`, read and write.
     #[doc(alias = "A201")]
-    FrequencySourceSet2: u16 = "frequency_source_set_2", "A201";
+    FrequencySourceSet2 of crate::HitachiL200: u16 = "frequency_source_set_2", "A201";
     at Holding 0x1509;
     const MODICON: u32 = 5386;
     const REFERENCE: u32 = 405_386;
@@ -953,7 +953,7 @@ point! {
     ///
     /// Erratum: `a002_wire_decimal`.
     #[doc(alias = "A002")]
-    RunSource: u16 = "run_source", "A002";
+    RunSource of crate::HitachiL200: u16 = "run_source", "A002";
     at Holding 0x1019;
     const MODICON: u32 = 4122;
     const REFERENCE: u32 = 404_122;
@@ -968,7 +968,7 @@ point! {
     ///
     /// `A202` at holding 150Ah (5386), `u16`, raw `1..3`, read and write.
     #[doc(alias = "A202")]
-    RunSourceSet2: u16 = "run_source_set_2", "A202";
+    RunSourceSet2 of crate::HitachiL200: u16 = "run_source_set_2", "A202";
     at Holding 0x150A;
     const MODICON: u32 = 5387;
     const REFERENCE: u32 = 405_387;
@@ -983,7 +983,7 @@ point! {
     ///
     /// `A003` at holding 101Ah (4122), `u16`, raw `30..min(400, maximum_frequency.raw)`, read and write.
     #[doc(alias = "A003")]
-    MotorRatedFrequency: u16 = "motor_rated_frequency", "A003";
+    MotorRatedFrequency of crate::HitachiL200: u16 = "motor_rated_frequency", "A003";
     at Holding 0x101A;
     const MODICON: u32 = 4123;
     const REFERENCE: u32 = 404_123;
@@ -1005,7 +1005,7 @@ point! {
     ///
     /// `A203` at holding 150Bh (5387), `u16`, raw `30..min(400, maximum_frequency_set_2.raw)`, read and write.
     #[doc(alias = "A203")]
-    MotorRatedFrequencySet2: u16 = "motor_rated_frequency_set_2", "A203";
+    MotorRatedFrequencySet2 of crate::HitachiL200: u16 = "motor_rated_frequency_set_2", "A203";
     at Holding 0x150B;
     const MODICON: u32 = 5388;
     const REFERENCE: u32 = 405_388;
@@ -1029,7 +1029,7 @@ point! {
     ///
     /// Erratum: `a004_range`.
     #[doc(alias = "A004")]
-    MaximumFrequency: u16 = "maximum_frequency", "A004";
+    MaximumFrequency of crate::HitachiL200: u16 = "maximum_frequency", "A004";
     at Holding 0x101B;
     const MODICON: u32 = 4124;
     const REFERENCE: u32 = 404_124;
@@ -1054,7 +1054,7 @@ point! {
     ///
     /// Erratum: `a204_range`.
     #[doc(alias = "A204")]
-    MaximumFrequencySet2: u16 = "maximum_frequency_set_2", "A204";
+    MaximumFrequencySet2 of crate::HitachiL200: u16 = "maximum_frequency_set_2", "A204";
     at Holding 0x150C;
     const MODICON: u32 = 5389;
     const REFERENCE: u32 = 405_389;
@@ -1076,7 +1076,7 @@ point! {
     ///
     /// `A005` at holding 101Ch (4124), `u16`, raw `0..3`, read and write.
     #[doc(alias = "A005")]
-    AtTerminalSelection: u16 = "at_terminal_selection", "A005";
+    AtTerminalSelection of crate::HitachiL200: u16 = "at_terminal_selection", "A005";
     at Holding 0x101C;
     const MODICON: u32 = 4125;
     const REFERENCE: u32 = 404_125;
@@ -1091,7 +1091,7 @@ point! {
     ///
     /// `A011` at holding 101Fh (4127), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A011")]
-    InputOMinimumFrequency: u16 = "input_o_minimum_frequency", "A011";
+    InputOMinimumFrequency of crate::HitachiL200: u16 = "input_o_minimum_frequency", "A011";
     at Holding 0x101F;
     const MODICON: u32 = 4128;
     const REFERENCE: u32 = 404_128;
@@ -1108,7 +1108,7 @@ point! {
     ///
     /// `A012` at holding 1021h (4129), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A012")]
-    InputOMaximumFrequency: u16 = "input_o_maximum_frequency", "A012";
+    InputOMaximumFrequency of crate::HitachiL200: u16 = "input_o_maximum_frequency", "A012";
     at Holding 0x1021;
     const MODICON: u32 = 4130;
     const REFERENCE: u32 = 404_130;
@@ -1125,7 +1125,7 @@ point! {
     ///
     /// `A013` at holding 1022h (4130), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A013")]
-    InputOMinimumSetpoint: u16 = "input_o_minimum_setpoint", "A013";
+    InputOMinimumSetpoint of crate::HitachiL200: u16 = "input_o_minimum_setpoint", "A013";
     at Holding 0x1022;
     const MODICON: u32 = 4131;
     const REFERENCE: u32 = 404_131;
@@ -1141,7 +1141,7 @@ point! {
     ///
     /// `A014` at holding 1023h (4131), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A014")]
-    InputOMaximumSetpoint: u16 = "input_o_maximum_setpoint", "A014";
+    InputOMaximumSetpoint of crate::HitachiL200: u16 = "input_o_maximum_setpoint", "A014";
     at Holding 0x1023;
     const MODICON: u32 = 4132;
     const REFERENCE: u32 = 404_132;
@@ -1157,7 +1157,7 @@ point! {
     ///
     /// `A015` at holding 1024h (4132), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A015")]
-    InputOStartCondition: u16 = "input_o_start_condition", "A015";
+    InputOStartCondition of crate::HitachiL200: u16 = "input_o_start_condition", "A015";
     at Holding 0x1024;
     const MODICON: u32 = 4133;
     const REFERENCE: u32 = 404_133;
@@ -1172,7 +1172,7 @@ point! {
     ///
     /// `A016` at holding 1025h (4133), `u16`, raw `1..17`, read and write.
     #[doc(alias = "A016")]
-    AnalogInputFilter: u16 = "analog_input_filter", "A016";
+    AnalogInputFilter of crate::HitachiL200: u16 = "analog_input_filter", "A016";
     at Holding 0x1025;
     const MODICON: u32 = 4134;
     const REFERENCE: u32 = 404_134;
@@ -1187,7 +1187,7 @@ point! {
     ///
     /// `A020` at holding 1028h (4136), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A020")]
-    BaseFrequency: u16 = "base_frequency", "A020";
+    BaseFrequency of crate::HitachiL200: u16 = "base_frequency", "A020";
     at Holding 0x1028;
     const MODICON: u32 = 4137;
     const REFERENCE: u32 = 404_137;
@@ -1204,7 +1204,7 @@ point! {
     ///
     /// `A220` at holding 150Eh (5390), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A220")]
-    BaseFrequencySet2: u16 = "base_frequency_set_2", "A220";
+    BaseFrequencySet2 of crate::HitachiL200: u16 = "base_frequency_set_2", "A220";
     at Holding 0x150E;
     const MODICON: u32 = 5391;
     const REFERENCE: u32 = 405_391;
@@ -1221,7 +1221,7 @@ point! {
     ///
     /// `A021` at holding 102Ah (4138), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A021")]
-    FixedFrequency1: u16 = "fixed_frequency_1", "A021";
+    FixedFrequency1 of crate::HitachiL200: u16 = "fixed_frequency_1", "A021";
     at Holding 0x102A;
     const MODICON: u32 = 4139;
     const REFERENCE: u32 = 404_139;
@@ -1238,7 +1238,7 @@ point! {
     ///
     /// `A022` at holding 102Ch (4140), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A022")]
-    FixedFrequency2: u16 = "fixed_frequency_2", "A022";
+    FixedFrequency2 of crate::HitachiL200: u16 = "fixed_frequency_2", "A022";
     at Holding 0x102C;
     const MODICON: u32 = 4141;
     const REFERENCE: u32 = 404_141;
@@ -1255,7 +1255,7 @@ point! {
     ///
     /// `A023` at holding 102Eh (4142), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A023")]
-    FixedFrequency3: u16 = "fixed_frequency_3", "A023";
+    FixedFrequency3 of crate::HitachiL200: u16 = "fixed_frequency_3", "A023";
     at Holding 0x102E;
     const MODICON: u32 = 4143;
     const REFERENCE: u32 = 404_143;
@@ -1272,7 +1272,7 @@ point! {
     ///
     /// `A024` at holding 1030h (4144), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A024")]
-    FixedFrequency4: u16 = "fixed_frequency_4", "A024";
+    FixedFrequency4 of crate::HitachiL200: u16 = "fixed_frequency_4", "A024";
     at Holding 0x1030;
     const MODICON: u32 = 4145;
     const REFERENCE: u32 = 404_145;
@@ -1289,7 +1289,7 @@ point! {
     ///
     /// `A025` at holding 1032h (4146), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A025")]
-    FixedFrequency5: u16 = "fixed_frequency_5", "A025";
+    FixedFrequency5 of crate::HitachiL200: u16 = "fixed_frequency_5", "A025";
     at Holding 0x1032;
     const MODICON: u32 = 4147;
     const REFERENCE: u32 = 404_147;
@@ -1306,7 +1306,7 @@ point! {
     ///
     /// `A026` at holding 1034h (4148), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A026")]
-    FixedFrequency6: u16 = "fixed_frequency_6", "A026";
+    FixedFrequency6 of crate::HitachiL200: u16 = "fixed_frequency_6", "A026";
     at Holding 0x1034;
     const MODICON: u32 = 4149;
     const REFERENCE: u32 = 404_149;
@@ -1323,7 +1323,7 @@ point! {
     ///
     /// `A027` at holding 1036h (4150), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A027")]
-    FixedFrequency7: u16 = "fixed_frequency_7", "A027";
+    FixedFrequency7 of crate::HitachiL200: u16 = "fixed_frequency_7", "A027";
     at Holding 0x1036;
     const MODICON: u32 = 4151;
     const REFERENCE: u32 = 404_151;
@@ -1340,7 +1340,7 @@ point! {
     ///
     /// `A028` at holding 1038h (4152), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A028")]
-    FixedFrequency8: u16 = "fixed_frequency_8", "A028";
+    FixedFrequency8 of crate::HitachiL200: u16 = "fixed_frequency_8", "A028";
     at Holding 0x1038;
     const MODICON: u32 = 4153;
     const REFERENCE: u32 = 404_153;
@@ -1357,7 +1357,7 @@ point! {
     ///
     /// `A029` at holding 103Ah (4154), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A029")]
-    FixedFrequency9: u16 = "fixed_frequency_9", "A029";
+    FixedFrequency9 of crate::HitachiL200: u16 = "fixed_frequency_9", "A029";
     at Holding 0x103A;
     const MODICON: u32 = 4155;
     const REFERENCE: u32 = 404_155;
@@ -1374,7 +1374,7 @@ point! {
     ///
     /// `A030` at holding 103Ch (4156), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A030")]
-    FixedFrequency10: u16 = "fixed_frequency_10", "A030";
+    FixedFrequency10 of crate::HitachiL200: u16 = "fixed_frequency_10", "A030";
     at Holding 0x103C;
     const MODICON: u32 = 4157;
     const REFERENCE: u32 = 404_157;
@@ -1391,7 +1391,7 @@ point! {
     ///
     /// `A031` at holding 103Eh (4158), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A031")]
-    FixedFrequency11: u16 = "fixed_frequency_11", "A031";
+    FixedFrequency11 of crate::HitachiL200: u16 = "fixed_frequency_11", "A031";
     at Holding 0x103E;
     const MODICON: u32 = 4159;
     const REFERENCE: u32 = 404_159;
@@ -1408,7 +1408,7 @@ point! {
     ///
     /// `A032` at holding 1040h (4160), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A032")]
-    FixedFrequency12: u16 = "fixed_frequency_12", "A032";
+    FixedFrequency12 of crate::HitachiL200: u16 = "fixed_frequency_12", "A032";
     at Holding 0x1040;
     const MODICON: u32 = 4161;
     const REFERENCE: u32 = 404_161;
@@ -1425,7 +1425,7 @@ point! {
     ///
     /// `A033` at holding 1042h (4162), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A033")]
-    FixedFrequency13: u16 = "fixed_frequency_13", "A033";
+    FixedFrequency13 of crate::HitachiL200: u16 = "fixed_frequency_13", "A033";
     at Holding 0x1042;
     const MODICON: u32 = 4163;
     const REFERENCE: u32 = 404_163;
@@ -1442,7 +1442,7 @@ point! {
     ///
     /// `A034` at holding 1044h (4164), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A034")]
-    FixedFrequency14: u16 = "fixed_frequency_14", "A034";
+    FixedFrequency14 of crate::HitachiL200: u16 = "fixed_frequency_14", "A034";
     at Holding 0x1044;
     const MODICON: u32 = 4165;
     const REFERENCE: u32 = 404_165;
@@ -1459,7 +1459,7 @@ point! {
     ///
     /// `A035` at holding 1046h (4166), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A035")]
-    FixedFrequency15: u16 = "fixed_frequency_15", "A035";
+    FixedFrequency15 of crate::HitachiL200: u16 = "fixed_frequency_15", "A035";
     at Holding 0x1046;
     const MODICON: u32 = 4167;
     const REFERENCE: u32 = 404_167;
@@ -1476,7 +1476,7 @@ point! {
     ///
     /// `A038` at holding 1047h (4167), `u16`, raw `0..999`, one count is `0.01 Hz`, read and write.
     #[doc(alias = "A038")]
-    JogFrequency: u16 = "jog_frequency", "A038";
+    JogFrequency of crate::HitachiL200: u16 = "jog_frequency", "A038";
     at Holding 0x1047;
     const MODICON: u32 = 4168;
     const REFERENCE: u32 = 404_168;
@@ -1493,7 +1493,7 @@ point! {
     ///
     /// `A039` at holding 1048h (4168), `u16`, raw `0..2`, read and write.
     #[doc(alias = "A039")]
-    JogStopMode: u16 = "jog_stop_mode", "A039";
+    JogStopMode of crate::HitachiL200: u16 = "jog_stop_mode", "A039";
     at Holding 0x1048;
     const MODICON: u32 = 4169;
     const REFERENCE: u32 = 404_169;
@@ -1508,7 +1508,7 @@ point! {
     ///
     /// `A041` at holding 1049h (4169), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A041")]
-    BoostMode: u16 = "boost_mode", "A041";
+    BoostMode of crate::HitachiL200: u16 = "boost_mode", "A041";
     at Holding 0x1049;
     const MODICON: u32 = 4170;
     const REFERENCE: u32 = 404_170;
@@ -1523,7 +1523,7 @@ point! {
     ///
     /// `A241` at holding 150Fh (5391), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A241")]
-    BoostModeSet2: u16 = "boost_mode_set_2", "A241";
+    BoostModeSet2 of crate::HitachiL200: u16 = "boost_mode_set_2", "A241";
     at Holding 0x150F;
     const MODICON: u32 = 5392;
     const REFERENCE: u32 = 405_392;
@@ -1538,7 +1538,7 @@ point! {
     ///
     /// `A042` at holding 104Ah (4170), `u16`, raw `0..200`, one count is `0.1 %`, read and write.
     #[doc(alias = "A042")]
-    ManualBoost: u16 = "manual_boost", "A042";
+    ManualBoost of crate::HitachiL200: u16 = "manual_boost", "A042";
     at Holding 0x104A;
     const MODICON: u32 = 4171;
     const REFERENCE: u32 = 404_171;
@@ -1555,7 +1555,7 @@ point! {
     ///
     /// `A242` at holding 1510h (5392), `u16`, raw `0..200`, one count is `0.1 %`, read and write.
     #[doc(alias = "A242")]
-    ManualBoostSet2: u16 = "manual_boost_set_2", "A242";
+    ManualBoostSet2 of crate::HitachiL200: u16 = "manual_boost_set_2", "A242";
     at Holding 0x1510;
     const MODICON: u32 = 5393;
     const REFERENCE: u32 = 405_393;
@@ -1572,7 +1572,7 @@ point! {
     ///
     /// `A043` at holding 104Bh (4171), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
     #[doc(alias = "A043")]
-    ManualBoostFrequency: u16 = "manual_boost_frequency", "A043";
+    ManualBoostFrequency of crate::HitachiL200: u16 = "manual_boost_frequency", "A043";
     at Holding 0x104B;
     const MODICON: u32 = 4172;
     const REFERENCE: u32 = 404_172;
@@ -1589,7 +1589,7 @@ point! {
     ///
     /// `A243` at holding 1511h (5393), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
     #[doc(alias = "A243")]
-    ManualBoostFrequencySet2: u16 = "manual_boost_frequency_set_2", "A243";
+    ManualBoostFrequencySet2 of crate::HitachiL200: u16 = "manual_boost_frequency_set_2", "A243";
     at Holding 0x1511;
     const MODICON: u32 = 5394;
     const REFERENCE: u32 = 405_394;
@@ -1606,7 +1606,7 @@ point! {
     ///
     /// `A044` at holding 104Ch (4172), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A044")]
-    VfCharacteristic: u16 = "vf_characteristic", "A044";
+    VfCharacteristic of crate::HitachiL200: u16 = "vf_characteristic", "A044";
     at Holding 0x104C;
     const MODICON: u32 = 4173;
     const REFERENCE: u32 = 404_173;
@@ -1621,7 +1621,7 @@ point! {
     ///
     /// `A244` at holding 1512h (5394), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A244")]
-    VfCharacteristicSet2: u16 = "vf_characteristic_set_2", "A244";
+    VfCharacteristicSet2 of crate::HitachiL200: u16 = "vf_characteristic_set_2", "A244";
     at Holding 0x1512;
     const MODICON: u32 = 5395;
     const REFERENCE: u32 = 405_395;
@@ -1636,7 +1636,7 @@ point! {
     ///
     /// `A045` at holding 104Dh (4173), `u16`, raw `20..100`, read and write.
     #[doc(alias = "A045")]
-    OutputVoltageSetting: u16 = "output_voltage_setting", "A045";
+    OutputVoltageSetting of crate::HitachiL200: u16 = "output_voltage_setting", "A045";
     at Holding 0x104D;
     const MODICON: u32 = 4174;
     const REFERENCE: u32 = 404_174;
@@ -1652,7 +1652,7 @@ point! {
     ///
     /// `A245` at holding 1513h (5395), `u16`, raw `20..100`, read and write.
     #[doc(alias = "A245")]
-    OutputVoltageSettingSet2: u16 = "output_voltage_setting_set_2", "A245";
+    OutputVoltageSettingSet2 of crate::HitachiL200: u16 = "output_voltage_setting_set_2", "A245";
     at Holding 0x1513;
     const MODICON: u32 = 5396;
     const REFERENCE: u32 = 405_396;
@@ -1668,7 +1668,7 @@ point! {
     ///
     /// `A051` at holding 1050h (4176), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A051")]
-    DcBrakeEnable: u16 = "dc_brake_enable", "A051";
+    DcBrakeEnable of crate::HitachiL200: u16 = "dc_brake_enable", "A051";
     at Holding 0x1050;
     const MODICON: u32 = 4177;
     const REFERENCE: u32 = 404_177;
@@ -1684,7 +1684,7 @@ point! {
     /// `A052` at holding 1051h (4177), `u16`, raw `max(5, start_frequency.raw)..600`, one count is `0.1 Hz`,
     /// read and write.
     #[doc(alias = "A052")]
-    DcBrakeFrequency: u16 = "dc_brake_frequency", "A052";
+    DcBrakeFrequency of crate::HitachiL200: u16 = "dc_brake_frequency", "A052";
     at Holding 0x1051;
     const MODICON: u32 = 4178;
     const REFERENCE: u32 = 404_178;
@@ -1707,7 +1707,7 @@ point! {
     ///
     /// `A053` at holding 1052h (4178), `u16`, raw `0..50`, one count is `0.1 s`, read and write.
     #[doc(alias = "A053")]
-    DcBrakeDelay: u16 = "dc_brake_delay", "A053";
+    DcBrakeDelay of crate::HitachiL200: u16 = "dc_brake_delay", "A053";
     at Holding 0x1052;
     const MODICON: u32 = 4179;
     const REFERENCE: u32 = 404_179;
@@ -1724,7 +1724,7 @@ point! {
     ///
     /// `A054` at holding 1053h (4179), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A054")]
-    DcBrakeTorque: u16 = "dc_brake_torque", "A054";
+    DcBrakeTorque of crate::HitachiL200: u16 = "dc_brake_torque", "A054";
     at Holding 0x1053;
     const MODICON: u32 = 4180;
     const REFERENCE: u32 = 404_180;
@@ -1740,7 +1740,7 @@ point! {
     ///
     /// `A055` at holding 1054h (4180), `u16`, raw `0..600`, one count is `0.1 s`, read and write.
     #[doc(alias = "A055")]
-    DcBrakeTime: u16 = "dc_brake_time", "A055";
+    DcBrakeTime of crate::HitachiL200: u16 = "dc_brake_time", "A055";
     at Holding 0x1054;
     const MODICON: u32 = 4181;
     const REFERENCE: u32 = 404_181;
@@ -1757,7 +1757,7 @@ point! {
     ///
     /// `A056` at holding 1055h (4181), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A056")]
-    DcBrakeTrigger: u16 = "dc_brake_trigger", "A056";
+    DcBrakeTrigger of crate::HitachiL200: u16 = "dc_brake_trigger", "A056";
     at Holding 0x1055;
     const MODICON: u32 = 4182;
     const REFERENCE: u32 = 404_182;
@@ -1775,7 +1775,7 @@ point! {
     ///
     /// Special code: `0` `inactive` (may be written).
     #[doc(alias = "A061")]
-    UpperFrequencyLimit: u16 = "upper_frequency_limit", "A061";
+    UpperFrequencyLimit of crate::HitachiL200: u16 = "upper_frequency_limit", "A061";
     at Holding 0x1059;
     const MODICON: u32 = 4186;
     const REFERENCE: u32 = 404_186;
@@ -1813,7 +1813,7 @@ point! {
     ///
     /// Special code: `0` `inactive` (may be written).
     #[doc(alias = "A261")]
-    UpperFrequencyLimitSet2: u16 = "upper_frequency_limit_set_2", "A261";
+    UpperFrequencyLimitSet2 of crate::HitachiL200: u16 = "upper_frequency_limit_set_2", "A261";
     at Holding 0x1516;
     const MODICON: u32 = 5399;
     const REFERENCE: u32 = 405_399;
@@ -1851,7 +1851,7 @@ point! {
     ///
     /// Special code: `0` `inactive` (may be written).
     #[doc(alias = "A062")]
-    LowerFrequencyLimit: u16 = "lower_frequency_limit", "A062";
+    LowerFrequencyLimit of crate::HitachiL200: u16 = "lower_frequency_limit", "A062";
     at Holding 0x105A;
     const MODICON: u32 = 4187;
     const REFERENCE: u32 = 404_187;
@@ -1889,7 +1889,7 @@ point! {
     ///
     /// Special code: `0` `inactive` (may be written).
     #[doc(alias = "A262")]
-    LowerFrequencyLimitSet2: u16 = "lower_frequency_limit_set_2", "A262";
+    LowerFrequencyLimitSet2 of crate::HitachiL200: u16 = "lower_frequency_limit_set_2", "A262";
     at Holding 0x1517;
     const MODICON: u32 = 5400;
     const REFERENCE: u32 = 405_400;
@@ -1923,7 +1923,7 @@ point! {
     ///
     /// `A063` at holding 105Ch (4188), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A063")]
-    JumpFrequency1: u16 = "jump_frequency_1", "A063";
+    JumpFrequency1 of crate::HitachiL200: u16 = "jump_frequency_1", "A063";
     at Holding 0x105C;
     const MODICON: u32 = 4189;
     const REFERENCE: u32 = 404_189;
@@ -1940,7 +1940,7 @@ point! {
     ///
     /// `A064` at holding 105Dh (4189), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A064")]
-    JumpFrequency1Width: u16 = "jump_frequency_1_width", "A064";
+    JumpFrequency1Width of crate::HitachiL200: u16 = "jump_frequency_1_width", "A064";
     at Holding 0x105D;
     const MODICON: u32 = 4190;
     const REFERENCE: u32 = 404_190;
@@ -1957,7 +1957,7 @@ point! {
     ///
     /// `A065` at holding 105Fh (4191), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A065")]
-    JumpFrequency2: u16 = "jump_frequency_2", "A065";
+    JumpFrequency2 of crate::HitachiL200: u16 = "jump_frequency_2", "A065";
     at Holding 0x105F;
     const MODICON: u32 = 4192;
     const REFERENCE: u32 = 404_192;
@@ -1974,7 +1974,7 @@ point! {
     ///
     /// `A066` at holding 1060h (4192), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A066")]
-    JumpFrequency2Width: u16 = "jump_frequency_2_width", "A066";
+    JumpFrequency2Width of crate::HitachiL200: u16 = "jump_frequency_2_width", "A066";
     at Holding 0x1060;
     const MODICON: u32 = 4193;
     const REFERENCE: u32 = 404_193;
@@ -1991,7 +1991,7 @@ point! {
     ///
     /// `A067` at holding 1062h (4194), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A067")]
-    JumpFrequency3: u16 = "jump_frequency_3", "A067";
+    JumpFrequency3 of crate::HitachiL200: u16 = "jump_frequency_3", "A067";
     at Holding 0x1062;
     const MODICON: u32 = 4195;
     const REFERENCE: u32 = 404_195;
@@ -2008,7 +2008,7 @@ point! {
     ///
     /// `A068` at holding 1063h (4195), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A068")]
-    JumpFrequency3Width: u16 = "jump_frequency_3_width", "A068";
+    JumpFrequency3Width of crate::HitachiL200: u16 = "jump_frequency_3_width", "A068";
     at Holding 0x1063;
     const MODICON: u32 = 4196;
     const REFERENCE: u32 = 404_196;
@@ -2025,7 +2025,7 @@ point! {
     ///
     /// `A071` at holding 1067h (4199), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A071")]
-    PidEnable: u16 = "pid_enable", "A071";
+    PidEnable of crate::HitachiL200: u16 = "pid_enable", "A071";
     at Holding 0x1067;
     const MODICON: u32 = 4200;
     const REFERENCE: u32 = 404_200;
@@ -2040,7 +2040,7 @@ point! {
     ///
     /// `A072` at holding 1068h (4200), `u16`, raw `2..50`, one count is `0.1`, read and write.
     #[doc(alias = "A072")]
-    PidProportionalGain: u16 = "pid_proportional_gain", "A072";
+    PidProportionalGain of crate::HitachiL200: u16 = "pid_proportional_gain", "A072";
     at Holding 0x1068;
     const MODICON: u32 = 4201;
     const REFERENCE: u32 = 404_201;
@@ -2056,7 +2056,7 @@ point! {
     ///
     /// `A073` at holding 1069h (4201), `u16`, raw `0..1500`, one count is `0.1 s`, read and write.
     #[doc(alias = "A073")]
-    PidIntegralTime: u16 = "pid_integral_time", "A073";
+    PidIntegralTime of crate::HitachiL200: u16 = "pid_integral_time", "A073";
     at Holding 0x1069;
     const MODICON: u32 = 4202;
     const REFERENCE: u32 = 404_202;
@@ -2073,7 +2073,7 @@ point! {
     ///
     /// `A074` at holding 106Ah (4202), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "A074")]
-    PidDerivativeTime: u16 = "pid_derivative_time", "A074";
+    PidDerivativeTime of crate::HitachiL200: u16 = "pid_derivative_time", "A074";
     at Holding 0x106A;
     const MODICON: u32 = 4203;
     const REFERENCE: u32 = 404_203;
@@ -2090,7 +2090,7 @@ point! {
     ///
     /// `A075` at holding 106Bh (4203), `u16`, raw `1..9999`, one count is `0.01`, read and write.
     #[doc(alias = "A075")]
-    PidDisplayFactor: u16 = "pid_display_factor", "A075";
+    PidDisplayFactor of crate::HitachiL200: u16 = "pid_display_factor", "A075";
     at Holding 0x106B;
     const MODICON: u32 = 4204;
     const REFERENCE: u32 = 404_204;
@@ -2108,7 +2108,7 @@ point! {
     ///
     /// Erratum: `a076_range`.
     #[doc(alias = "A076")]
-    PidProcessValueSource: u16 = "pid_process_value_source", "A076";
+    PidProcessValueSource of crate::HitachiL200: u16 = "pid_process_value_source", "A076";
     at Holding 0x106C;
     const MODICON: u32 = 4205;
     const REFERENCE: u32 = 404_205;
@@ -2123,7 +2123,7 @@ point! {
     ///
     /// `A077` at holding 106Dh (4205), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A077")]
-    PidInversion: u16 = "pid_inversion", "A077";
+    PidInversion of crate::HitachiL200: u16 = "pid_inversion", "A077";
     at Holding 0x106D;
     const MODICON: u32 = 4206;
     const REFERENCE: u32 = 404_206;
@@ -2138,7 +2138,7 @@ point! {
     ///
     /// `A078` at holding 106Eh (4206), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
     #[doc(alias = "A078")]
-    PidOutputLimit: u16 = "pid_output_limit", "A078";
+    PidOutputLimit of crate::HitachiL200: u16 = "pid_output_limit", "A078";
     at Holding 0x106E;
     const MODICON: u32 = 4207;
     const REFERENCE: u32 = 404_207;
@@ -2155,7 +2155,7 @@ point! {
     ///
     /// `A081` at holding 106Fh (4207), `u16`, raw `0..2`, read and write.
     #[doc(alias = "A081")]
-    AvrMode: u16 = "avr_mode", "A081";
+    AvrMode of crate::HitachiL200: u16 = "avr_mode", "A081";
     at Holding 0x106F;
     const MODICON: u32 = 4208;
     const REFERENCE: u32 = 404_208;
@@ -2170,7 +2170,7 @@ point! {
     ///
     /// `A082` at holding 1070h (4208), `u16`, raw `0..5`, read and write.
     #[doc(alias = "A082")]
-    MotorVoltage: u16 = "motor_voltage", "A082";
+    MotorVoltage of crate::HitachiL200: u16 = "motor_voltage", "A082";
     at Holding 0x1070;
     const MODICON: u32 = 4209;
     const REFERENCE: u32 = 404_209;
@@ -2188,7 +2188,7 @@ point! {
     ///
     /// Erratum: `a092_resolution`.
     #[doc(alias = "A092")]
-    AccelerationTime2: u32 = "acceleration_time_2", "A092";
+    AccelerationTime2 of crate::HitachiL200: u32 = "acceleration_time_2", "A092";
     at Holding 0x1073;
     addresses [0x1073, 0x1074];
     words 2;
@@ -2210,7 +2210,7 @@ point! {
     ///
     /// Erratum: `a093_resolution`.
     #[doc(alias = "A093")]
-    DecelerationTime2: u32 = "deceleration_time_2", "A093";
+    DecelerationTime2 of crate::HitachiL200: u32 = "deceleration_time_2", "A093";
     at Holding 0x1075;
     addresses [0x1075, 0x1076];
     words 2;
@@ -2232,7 +2232,7 @@ point! {
     ///
     /// Erratum: `a293_resolution`.
     #[doc(alias = "A293")]
-    DecelerationTime2Set2: u32 = "deceleration_time_2_set_2", "A293";
+    DecelerationTime2Set2 of crate::HitachiL200: u32 = "deceleration_time_2_set_2", "A293";
     at Holding 0x1519;
     addresses [0x1519, 0x151A];
     words 2;
@@ -2251,7 +2251,7 @@ point! {
     ///
     /// `A094` at holding 1077h (4215), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A094")]
-    Ramp2Selection: u16 = "ramp_2_selection", "A094";
+    Ramp2Selection of crate::HitachiL200: u16 = "ramp_2_selection", "A094";
     at Holding 0x1077;
     const MODICON: u32 = 4216;
     const REFERENCE: u32 = 404_216;
@@ -2266,7 +2266,7 @@ point! {
     ///
     /// `A294` at holding 151Bh (5403), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A294")]
-    Ramp2SelectionSet2: u16 = "ramp_2_selection_set_2", "A294";
+    Ramp2SelectionSet2 of crate::HitachiL200: u16 = "ramp_2_selection_set_2", "A294";
     at Holding 0x151B;
     const MODICON: u32 = 5404;
     const REFERENCE: u32 = 405_404;
@@ -2281,7 +2281,7 @@ point! {
     ///
     /// `A095` at holding 1079h (4217), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A095")]
-    AccelerationChangeFrequency: u16 = "acceleration_change_frequency", "A095";
+    AccelerationChangeFrequency of crate::HitachiL200: u16 = "acceleration_change_frequency", "A095";
     at Holding 0x1079;
     const MODICON: u32 = 4218;
     const REFERENCE: u32 = 404_218;
@@ -2298,7 +2298,7 @@ point! {
     ///
     /// `A295` at holding 151Dh (5405), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A295")]
-    AccelerationChangeFrequencySet2: u16 = "acceleration_change_frequency_set_2", "A295";
+    AccelerationChangeFrequencySet2 of crate::HitachiL200: u16 = "acceleration_change_frequency_set_2", "A295";
     at Holding 0x151D;
     const MODICON: u32 = 5406;
     const REFERENCE: u32 = 405_406;
@@ -2315,7 +2315,7 @@ point! {
     ///
     /// `A096` at holding 107Bh (4219), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A096")]
-    DecelerationChangeFrequency: u16 = "deceleration_change_frequency", "A096";
+    DecelerationChangeFrequency of crate::HitachiL200: u16 = "deceleration_change_frequency", "A096";
     at Holding 0x107B;
     const MODICON: u32 = 4220;
     const REFERENCE: u32 = 404_220;
@@ -2332,7 +2332,7 @@ point! {
     ///
     /// `A296` at holding 151Fh (5407), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A296")]
-    DecelerationChangeFrequencySet2: u16 = "deceleration_change_frequency_set_2", "A296";
+    DecelerationChangeFrequencySet2 of crate::HitachiL200: u16 = "deceleration_change_frequency_set_2", "A296";
     at Holding 0x151F;
     const MODICON: u32 = 5408;
     const REFERENCE: u32 = 405_408;
@@ -2349,7 +2349,7 @@ point! {
     ///
     /// `A097` at holding 107Ch (4220), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A097")]
-    AccelerationCurve: u16 = "acceleration_curve", "A097";
+    AccelerationCurve of crate::HitachiL200: u16 = "acceleration_curve", "A097";
     at Holding 0x107C;
     const MODICON: u32 = 4221;
     const REFERENCE: u32 = 404_221;
@@ -2364,7 +2364,7 @@ point! {
     ///
     /// `A098` at holding 107Dh (4221), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A098")]
-    DecelerationCurve: u16 = "deceleration_curve", "A098";
+    DecelerationCurve of crate::HitachiL200: u16 = "deceleration_curve", "A098";
     at Holding 0x107D;
     const MODICON: u32 = 4222;
     const REFERENCE: u32 = 404_222;
@@ -2379,7 +2379,7 @@ point! {
     ///
     /// `A101` at holding 107Fh (4223), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A101")]
-    InputOiMinimumFrequency: u16 = "input_oi_minimum_frequency", "A101";
+    InputOiMinimumFrequency of crate::HitachiL200: u16 = "input_oi_minimum_frequency", "A101";
     at Holding 0x107F;
     const MODICON: u32 = 4224;
     const REFERENCE: u32 = 404_224;
@@ -2396,7 +2396,7 @@ point! {
     ///
     /// `A102` at holding 1081h (4225), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A102")]
-    InputOiMaximumFrequency: u16 = "input_oi_maximum_frequency", "A102";
+    InputOiMaximumFrequency of crate::HitachiL200: u16 = "input_oi_maximum_frequency", "A102";
     at Holding 0x1081;
     const MODICON: u32 = 4226;
     const REFERENCE: u32 = 404_226;
@@ -2413,7 +2413,7 @@ point! {
     ///
     /// `A103` at holding 1082h (4226), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A103")]
-    InputOiMinimumSetpoint: u16 = "input_oi_minimum_setpoint", "A103";
+    InputOiMinimumSetpoint of crate::HitachiL200: u16 = "input_oi_minimum_setpoint", "A103";
     at Holding 0x1082;
     const MODICON: u32 = 4227;
     const REFERENCE: u32 = 404_227;
@@ -2429,7 +2429,7 @@ point! {
     ///
     /// `A104` at holding 1083h (4227), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A104")]
-    InputOiMaximumSetpoint: u16 = "input_oi_maximum_setpoint", "A104";
+    InputOiMaximumSetpoint of crate::HitachiL200: u16 = "input_oi_maximum_setpoint", "A104";
     at Holding 0x1083;
     const MODICON: u32 = 4228;
     const REFERENCE: u32 = 404_228;
@@ -2445,7 +2445,7 @@ point! {
     ///
     /// `A105` at holding 1084h (4228), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A105")]
-    InputOiStartCondition: u16 = "input_oi_start_condition", "A105";
+    InputOiStartCondition of crate::HitachiL200: u16 = "input_oi_start_condition", "A105";
     at Holding 0x1084;
     const MODICON: u32 = 4229;
     const REFERENCE: u32 = 404_229;
@@ -2460,7 +2460,7 @@ point! {
     ///
     /// `A141` at holding 108Dh (4237), `u16`, raw `0..4`, read and write.
     #[doc(alias = "A141")]
-    CalculationInputA: u16 = "calculation_input_a", "A141";
+    CalculationInputA of crate::HitachiL200: u16 = "calculation_input_a", "A141";
     at Holding 0x108D;
     const MODICON: u32 = 4238;
     const REFERENCE: u32 = 404_238;
@@ -2475,7 +2475,7 @@ point! {
     ///
     /// `A142` at holding 108Eh (4238), `u16`, raw `0..4`, read and write.
     #[doc(alias = "A142")]
-    CalculationInputB: u16 = "calculation_input_b", "A142";
+    CalculationInputB of crate::HitachiL200: u16 = "calculation_input_b", "A142";
     at Holding 0x108E;
     const MODICON: u32 = 4239;
     const REFERENCE: u32 = 404_239;
@@ -2492,7 +2492,7 @@ point! {
     ///
     /// Erratum: `a143_wire_hex`.
     #[doc(alias = "A143")]
-    CalculationOperator: u16 = "calculation_operator", "A143";
+    CalculationOperator of crate::HitachiL200: u16 = "calculation_operator", "A143";
     at Holding 0x108F;
     const MODICON: u32 = 4240;
     const REFERENCE: u32 = 404_240;
@@ -2507,7 +2507,7 @@ point! {
     ///
     /// `A145` at holding 1090h (4240), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A145")]
-    FrequencyOffset: u16 = "frequency_offset", "A145";
+    FrequencyOffset of crate::HitachiL200: u16 = "frequency_offset", "A145";
     at Holding 0x1090;
     const MODICON: u32 = 4241;
     const REFERENCE: u32 = 404_241;
@@ -2524,7 +2524,7 @@ point! {
     ///
     /// `A146` at holding 1092h (4242), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A146")]
-    FrequencyOffsetSign: u16 = "frequency_offset_sign", "A146";
+    FrequencyOffsetSign of crate::HitachiL200: u16 = "frequency_offset_sign", "A146";
     at Holding 0x1092;
     const MODICON: u32 = 4243;
     const REFERENCE: u32 = 404_243;
@@ -2539,7 +2539,7 @@ point! {
     ///
     /// `A151` at holding 1094h (4244), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A151")]
-    PotentiometerMinimumFrequency: u16 = "potentiometer_minimum_frequency", "A151";
+    PotentiometerMinimumFrequency of crate::HitachiL200: u16 = "potentiometer_minimum_frequency", "A151";
     at Holding 0x1094;
     const MODICON: u32 = 4245;
     const REFERENCE: u32 = 404_245;
@@ -2556,7 +2556,7 @@ point! {
     ///
     /// `A152` at holding 1096h (4246), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "A152")]
-    PotentiometerMaximumFrequency: u16 = "potentiometer_maximum_frequency", "A152";
+    PotentiometerMaximumFrequency of crate::HitachiL200: u16 = "potentiometer_maximum_frequency", "A152";
     at Holding 0x1096;
     const MODICON: u32 = 4247;
     const REFERENCE: u32 = 404_247;
@@ -2573,7 +2573,7 @@ point! {
     ///
     /// `A153` at holding 1097h (4247), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A153")]
-    PotentiometerMinimumSetpoint: u16 = "potentiometer_minimum_setpoint", "A153";
+    PotentiometerMinimumSetpoint of crate::HitachiL200: u16 = "potentiometer_minimum_setpoint", "A153";
     at Holding 0x1097;
     const MODICON: u32 = 4248;
     const REFERENCE: u32 = 404_248;
@@ -2589,7 +2589,7 @@ point! {
     ///
     /// `A154` at holding 1098h (4248), `u16`, raw `0..100`, read and write.
     #[doc(alias = "A154")]
-    PotentiometerMaximumSetpoint: u16 = "potentiometer_maximum_setpoint", "A154";
+    PotentiometerMaximumSetpoint of crate::HitachiL200: u16 = "potentiometer_maximum_setpoint", "A154";
     at Holding 0x1098;
     const MODICON: u32 = 4249;
     const REFERENCE: u32 = 404_249;
@@ -2605,7 +2605,7 @@ point! {
     ///
     /// `A155` at holding 1099h (4249), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "A155")]
-    PotentiometerStartCondition: u16 = "potentiometer_start_condition", "A155";
+    PotentiometerStartCondition of crate::HitachiL200: u16 = "potentiometer_start_condition", "A155";
     at Holding 0x1099;
     const MODICON: u32 = 4250;
     const REFERENCE: u32 = 404_250;
@@ -2620,7 +2620,7 @@ point! {
     ///
     /// `b001` at holding 10A4h (4260), `u16`, raw `0..3`, read and write.
     #[doc(alias = "b001")]
-    RestartMode: u16 = "restart_mode", "b001";
+    RestartMode of crate::HitachiL200: u16 = "restart_mode", "b001";
     at Holding 0x10A4;
     const MODICON: u32 = 4261;
     const REFERENCE: u32 = 404_261;
@@ -2635,7 +2635,7 @@ point! {
     ///
     /// `b002` at holding 10A5h (4261), `u16`, raw `3..250`, one count is `0.1 s`, read and write.
     #[doc(alias = "b002")]
-    AllowedPowerFailureTime: u16 = "allowed_power_failure_time", "b002";
+    AllowedPowerFailureTime of crate::HitachiL200: u16 = "allowed_power_failure_time", "b002";
     at Holding 0x10A5;
     const MODICON: u32 = 4262;
     const REFERENCE: u32 = 404_262;
@@ -2652,7 +2652,7 @@ point! {
     ///
     /// `b003` at holding 10A6h (4262), `u16`, raw `3..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "b003")]
-    RestartDelay: u16 = "restart_delay", "b003";
+    RestartDelay of crate::HitachiL200: u16 = "restart_delay", "b003";
     at Holding 0x10A6;
     const MODICON: u32 = 4263;
     const REFERENCE: u32 = 404_263;
@@ -2669,7 +2669,7 @@ point! {
     ///
     /// `b004` at holding 10A7h (4263), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b004")]
-    PowerFailureTripAtStandstill: u16 = "power_failure_trip_at_standstill", "b004";
+    PowerFailureTripAtStandstill of crate::HitachiL200: u16 = "power_failure_trip_at_standstill", "b004";
     at Holding 0x10A7;
     const MODICON: u32 = 4264;
     const REFERENCE: u32 = 404_264;
@@ -2684,7 +2684,7 @@ point! {
     ///
     /// `b005` at holding 10A8h (4264), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b005")]
-    PowerFailureRestarts: u16 = "power_failure_restarts", "b005";
+    PowerFailureRestarts of crate::HitachiL200: u16 = "power_failure_restarts", "b005";
     at Holding 0x10A8;
     const MODICON: u32 = 4265;
     const REFERENCE: u32 = 404_265;
@@ -2699,7 +2699,7 @@ point! {
     ///
     /// `b012` at holding 10ACh (4268), `u16`, raw `2000..12000`, one count is `0.01 %`, read and write.
     #[doc(alias = "b012")]
-    MotorProtectionLevel: u16 = "motor_protection_level", "b012";
+    MotorProtectionLevel of crate::HitachiL200: u16 = "motor_protection_level", "b012";
     at Holding 0x10AC;
     const MODICON: u32 = 4269;
     const REFERENCE: u32 = 404_269;
@@ -2716,7 +2716,7 @@ point! {
     ///
     /// `b212` at holding 1525h (5413), `u16`, raw `2000..12000`, one count is `0.01 %`, read and write.
     #[doc(alias = "b212")]
-    MotorProtectionLevelSet2: u16 = "motor_protection_level_set_2", "b212";
+    MotorProtectionLevelSet2 of crate::HitachiL200: u16 = "motor_protection_level_set_2", "b212";
     at Holding 0x1525;
     const MODICON: u32 = 5414;
     const REFERENCE: u32 = 405_414;
@@ -2735,7 +2735,7 @@ point! {
     ///
     /// Erratum: `b013_choices`.
     #[doc(alias = "b013")]
-    MotorProtectionCharacteristic: u16 = "motor_protection_characteristic", "b013";
+    MotorProtectionCharacteristic of crate::HitachiL200: u16 = "motor_protection_characteristic", "b013";
     at Holding 0x10AD;
     const MODICON: u32 = 4270;
     const REFERENCE: u32 = 404_270;
@@ -2752,7 +2752,7 @@ point! {
     ///
     /// Erratum: `b013_choices`.
     #[doc(alias = "b213")]
-    MotorProtectionCharacteristicSet2: u16 = "motor_protection_characteristic_set_2", "b213";
+    MotorProtectionCharacteristicSet2 of crate::HitachiL200: u16 = "motor_protection_characteristic_set_2", "b213";
     at Holding 0x1526;
     const MODICON: u32 = 5415;
     const REFERENCE: u32 = 405_415;
@@ -2767,7 +2767,7 @@ point! {
     ///
     /// `b021` at holding 10B4h (4276), `u16`, raw `0..2`, read and write.
     #[doc(alias = "b021")]
-    CurrentLimitMode: u16 = "current_limit_mode", "b021";
+    CurrentLimitMode of crate::HitachiL200: u16 = "current_limit_mode", "b021";
     at Holding 0x10B4;
     const MODICON: u32 = 4277;
     const REFERENCE: u32 = 404_277;
@@ -2782,7 +2782,7 @@ point! {
     ///
     /// `b221` at holding 1527h (5415), `u16`, raw `0..2`, read and write.
     #[doc(alias = "b221")]
-    CurrentLimitModeSet2: u16 = "current_limit_mode_set_2", "b221";
+    CurrentLimitModeSet2 of crate::HitachiL200: u16 = "current_limit_mode_set_2", "b221";
     at Holding 0x1527;
     const MODICON: u32 = 5416;
     const REFERENCE: u32 = 405_416;
@@ -2797,7 +2797,7 @@ point! {
     ///
     /// `b022` at holding 10B5h (4277), `u16`, raw `1000..15000`, one count is `0.01 %`, read and write.
     #[doc(alias = "b022")]
-    CurrentLimitLevel: u16 = "current_limit_level", "b022";
+    CurrentLimitLevel of crate::HitachiL200: u16 = "current_limit_level", "b022";
     at Holding 0x10B5;
     const MODICON: u32 = 4278;
     const REFERENCE: u32 = 404_278;
@@ -2814,7 +2814,7 @@ point! {
     ///
     /// `b222` at holding 1528h (5416), `u16`, raw `1000..15000`, one count is `0.01 %`, read and write.
     #[doc(alias = "b222")]
-    CurrentLimitLevelSet2: u16 = "current_limit_level_set_2", "b222";
+    CurrentLimitLevelSet2 of crate::HitachiL200: u16 = "current_limit_level_set_2", "b222";
     at Holding 0x1528;
     const MODICON: u32 = 5417;
     const REFERENCE: u32 = 405_417;
@@ -2831,7 +2831,7 @@ point! {
     ///
     /// `b023` at holding 10B6h (4278), `u16`, raw `1..300`, one count is `0.1 s`, read and write.
     #[doc(alias = "b023")]
-    CurrentLimitTime: u16 = "current_limit_time", "b023";
+    CurrentLimitTime of crate::HitachiL200: u16 = "current_limit_time", "b023";
     at Holding 0x10B6;
     const MODICON: u32 = 4279;
     const REFERENCE: u32 = 404_279;
@@ -2848,7 +2848,7 @@ point! {
     ///
     /// `b223` at holding 1529h (5417), `u16`, raw `1..300`, one count is `0.1 s`, read and write.
     #[doc(alias = "b223")]
-    CurrentLimitTimeSet2: u16 = "current_limit_time_set_2", "b223";
+    CurrentLimitTimeSet2 of crate::HitachiL200: u16 = "current_limit_time_set_2", "b223";
     at Holding 0x1529;
     const MODICON: u32 = 5418;
     const REFERENCE: u32 = 405_418;
@@ -2865,7 +2865,7 @@ point! {
     ///
     /// `b028` at holding 10BAh (4282), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b028")]
-    CurrentLimitSource: u16 = "current_limit_source", "b028";
+    CurrentLimitSource of crate::HitachiL200: u16 = "current_limit_source", "b028";
     at Holding 0x10BA;
     const MODICON: u32 = 4283;
     const REFERENCE: u32 = 404_283;
@@ -2880,7 +2880,7 @@ point! {
     ///
     /// `b228` at holding 152Ah (5418), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b228")]
-    CurrentLimitSourceSet2: u16 = "current_limit_source_set_2", "b228";
+    CurrentLimitSourceSet2 of crate::HitachiL200: u16 = "current_limit_source_set_2", "b228";
     at Holding 0x152A;
     const MODICON: u32 = 5419;
     const REFERENCE: u32 = 405_419;
@@ -2895,7 +2895,7 @@ point! {
     ///
     /// `b031` at holding 10BBh (4283), `u16`, raw `0..3`, read and write.
     #[doc(alias = "b031")]
-    ParameterLock: u16 = "parameter_lock", "b031";
+    ParameterLock of crate::HitachiL200: u16 = "parameter_lock", "b031";
     at Holding 0x10BB;
     const MODICON: u32 = 4284;
     const REFERENCE: u32 = 404_284;
@@ -2910,7 +2910,7 @@ point! {
     ///
     /// `b080` at holding 10CEh (4302), `u16`, raw `0..255`, read and write.
     #[doc(alias = "b080")]
-    AnalogOutputGain: u16 = "analog_output_gain", "b080";
+    AnalogOutputGain of crate::HitachiL200: u16 = "analog_output_gain", "b080";
     at Holding 0x10CE;
     const MODICON: u32 = 4303;
     const REFERENCE: u32 = 404_303;
@@ -2925,7 +2925,7 @@ point! {
     ///
     /// `b082` at holding 10D0h (4304), `u16`, raw `5..99`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "b082")]
-    StartFrequency: u16 = "start_frequency", "b082";
+    StartFrequency of crate::HitachiL200: u16 = "start_frequency", "b082";
     at Holding 0x10D0;
     const MODICON: u32 = 4305;
     const REFERENCE: u32 = 404_305;
@@ -2944,7 +2944,7 @@ point! {
     ///
     /// Erratum: `b083_unit`.
     #[doc(alias = "b083")]
-    CarrierFrequency: u16 = "carrier_frequency", "b083";
+    CarrierFrequency of crate::HitachiL200: u16 = "carrier_frequency", "b083";
     at Holding 0x10D1;
     const MODICON: u32 = 4306;
     const REFERENCE: u32 = 404_306;
@@ -2961,7 +2961,7 @@ point! {
     ///
     /// `b084` at holding 10D2h (4306), `u16`, raw `0..2`, read and write.
     #[doc(alias = "b084")]
-    InitializationMode: u16 = "initialization_mode", "b084";
+    InitializationMode of crate::HitachiL200: u16 = "initialization_mode", "b084";
     at Holding 0x10D2;
     const MODICON: u32 = 4307;
     const REFERENCE: u32 = 404_307;
@@ -2976,7 +2976,7 @@ point! {
     ///
     /// `b086` at holding 10D4h (4308), `u16`, raw `1..999`, one count is `0.1`, read and write.
     #[doc(alias = "b086")]
-    FrequencyDisplayFactor: u16 = "frequency_display_factor", "b086";
+    FrequencyDisplayFactor of crate::HitachiL200: u16 = "frequency_display_factor", "b086";
     at Holding 0x10D4;
     const MODICON: u32 = 4309;
     const REFERENCE: u32 = 404_309;
@@ -2992,7 +2992,7 @@ point! {
     ///
     /// `b087` at holding 10D5h (4309), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b087")]
-    StopKeyLock: u16 = "stop_key_lock", "b087";
+    StopKeyLock of crate::HitachiL200: u16 = "stop_key_lock", "b087";
     at Holding 0x10D5;
     const MODICON: u32 = 4310;
     const REFERENCE: u32 = 404_310;
@@ -3007,7 +3007,7 @@ point! {
     ///
     /// `b088` at holding 10D6h (4310), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b088")]
-    CoastRestartMode: u16 = "coast_restart_mode", "b088";
+    CoastRestartMode of crate::HitachiL200: u16 = "coast_restart_mode", "b088";
     at Holding 0x10D6;
     const MODICON: u32 = 4311;
     const REFERENCE: u32 = 404_311;
@@ -3022,7 +3022,7 @@ point! {
     ///
     /// `b089` at holding 10D7h (4311), `u16`, raw `1..7`, read and write.
     #[doc(alias = "b089")]
-    NetworkDisplay: u16 = "network_display", "b089";
+    NetworkDisplay of crate::HitachiL200: u16 = "network_display", "b089";
     at Holding 0x10D7;
     const MODICON: u32 = 4312;
     const REFERENCE: u32 = 404_312;
@@ -3037,7 +3037,7 @@ point! {
     ///
     /// `b091` at holding 10D9h (4313), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b091")]
-    StopMode: u16 = "stop_mode", "b091";
+    StopMode of crate::HitachiL200: u16 = "stop_mode", "b091";
     at Holding 0x10D9;
     const MODICON: u32 = 4314;
     const REFERENCE: u32 = 404_314;
@@ -3052,7 +3052,7 @@ point! {
     ///
     /// `b130` at holding 10F4h (4340), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "b130")]
-    OvervoltageDecelerationEnable: u16 = "overvoltage_deceleration_enable", "b130";
+    OvervoltageDecelerationEnable of crate::HitachiL200: u16 = "overvoltage_deceleration_enable", "b130";
     at Holding 0x10F4;
     const MODICON: u32 = 4341;
     const REFERENCE: u32 = 404_341;
@@ -3067,7 +3067,7 @@ point! {
     ///
     /// `b131` at holding 10F5h (4341), `u16`, raw `330..390`, read and write, for `voltage_class=200V`.
     #[doc(alias = "b131")]
-    OvervoltageDecelerationLevel200v: u16 = "overvoltage_deceleration_level_200v", "b131";
+    OvervoltageDecelerationLevel200v of crate::HitachiL200: u16 = "overvoltage_deceleration_level_200v", "b131";
     at Holding 0x10F5;
     const MODICON: u32 = 4342;
     const REFERENCE: u32 = 404_342;
@@ -3083,7 +3083,7 @@ point! {
     ///
     /// `b131` at holding 10F5h (4341), `u16`, raw `660..780`, read and write, for `voltage_class=400V`.
     #[doc(alias = "b131")]
-    OvervoltageDecelerationLevel400v: u16 = "overvoltage_deceleration_level_400v", "b131";
+    OvervoltageDecelerationLevel400v of crate::HitachiL200: u16 = "overvoltage_deceleration_level_400v", "b131";
     at Holding 0x10F5;
     const MODICON: u32 = 4342;
     const REFERENCE: u32 = 404_342;
@@ -3100,7 +3100,7 @@ point! {
     /// `C001` at holding 1102h (4354), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C001")]
-    DigitalInput1Function: u16 = "digital_input_1_function", "C001";
+    DigitalInput1Function of crate::HitachiL200: u16 = "digital_input_1_function", "C001";
     at Holding 0x1102;
     const MODICON: u32 = 4355;
     const REFERENCE: u32 = 404_355;
@@ -3116,7 +3116,7 @@ point! {
     /// `C201` at holding 1530h (5424), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C201")]
-    DigitalInput1FunctionSet2: u16 = "digital_input_1_function_set_2", "C201";
+    DigitalInput1FunctionSet2 of crate::HitachiL200: u16 = "digital_input_1_function_set_2", "C201";
     at Holding 0x1530;
     const MODICON: u32 = 5425;
     const REFERENCE: u32 = 405_425;
@@ -3132,7 +3132,7 @@ point! {
     /// `C002` at holding 1103h (4355), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C002")]
-    DigitalInput2Function: u16 = "digital_input_2_function", "C002";
+    DigitalInput2Function of crate::HitachiL200: u16 = "digital_input_2_function", "C002";
     at Holding 0x1103;
     const MODICON: u32 = 4356;
     const REFERENCE: u32 = 404_356;
@@ -3148,7 +3148,7 @@ point! {
     /// `C202` at holding 1531h (5425), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C202")]
-    DigitalInput2FunctionSet2: u16 = "digital_input_2_function_set_2", "C202";
+    DigitalInput2FunctionSet2 of crate::HitachiL200: u16 = "digital_input_2_function_set_2", "C202";
     at Holding 0x1531;
     const MODICON: u32 = 5426;
     const REFERENCE: u32 = 405_426;
@@ -3164,7 +3164,7 @@ point! {
     /// `C003` at holding 1104h (4356), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C003")]
-    DigitalInput3Function: u16 = "digital_input_3_function", "C003";
+    DigitalInput3Function of crate::HitachiL200: u16 = "digital_input_3_function", "C003";
     at Holding 0x1104;
     const MODICON: u32 = 4357;
     const REFERENCE: u32 = 404_357;
@@ -3180,7 +3180,7 @@ point! {
     /// `C203` at holding 1532h (5426), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C203")]
-    DigitalInput3FunctionSet2: u16 = "digital_input_3_function_set_2", "C203";
+    DigitalInput3FunctionSet2 of crate::HitachiL200: u16 = "digital_input_3_function_set_2", "C203";
     at Holding 0x1532;
     const MODICON: u32 = 5427;
     const REFERENCE: u32 = 405_427;
@@ -3196,7 +3196,7 @@ point! {
     /// `C004` at holding 1105h (4357), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C004")]
-    DigitalInput4Function: u16 = "digital_input_4_function", "C004";
+    DigitalInput4Function of crate::HitachiL200: u16 = "digital_input_4_function", "C004";
     at Holding 0x1105;
     const MODICON: u32 = 4358;
     const REFERENCE: u32 = 404_358;
@@ -3212,7 +3212,7 @@ point! {
     /// `C204` at holding 1533h (5427), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C204")]
-    DigitalInput4FunctionSet2: u16 = "digital_input_4_function_set_2", "C204";
+    DigitalInput4FunctionSet2 of crate::HitachiL200: u16 = "digital_input_4_function_set_2", "C204";
     at Holding 0x1533;
     const MODICON: u32 = 5428;
     const REFERENCE: u32 = 405_428;
@@ -3228,7 +3228,7 @@ point! {
     /// `C005` at holding 1106h (4358), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C005")]
-    DigitalInput5Function: u16 = "digital_input_5_function", "C005";
+    DigitalInput5Function of crate::HitachiL200: u16 = "digital_input_5_function", "C005";
     at Holding 0x1106;
     const MODICON: u32 = 4359;
     const REFERENCE: u32 = 404_359;
@@ -3244,7 +3244,7 @@ point! {
     /// `C205` at holding 1534h (5428), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
     /// and write.
     #[doc(alias = "C205")]
-    DigitalInput5FunctionSet2: u16 = "digital_input_5_function_set_2", "C205";
+    DigitalInput5FunctionSet2 of crate::HitachiL200: u16 = "digital_input_5_function_set_2", "C205";
     at Holding 0x1534;
     const MODICON: u32 = 5429;
     const REFERENCE: u32 = 405_429;
@@ -3259,7 +3259,7 @@ point! {
     ///
     /// `C011` at holding 110Ah (4362), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C011")]
-    DigitalInput1Contact: u16 = "digital_input_1_contact", "C011";
+    DigitalInput1Contact of crate::HitachiL200: u16 = "digital_input_1_contact", "C011";
     at Holding 0x110A;
     const MODICON: u32 = 4363;
     const REFERENCE: u32 = 404_363;
@@ -3274,7 +3274,7 @@ point! {
     ///
     /// `C012` at holding 110Bh (4363), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C012")]
-    DigitalInput2Contact: u16 = "digital_input_2_contact", "C012";
+    DigitalInput2Contact of crate::HitachiL200: u16 = "digital_input_2_contact", "C012";
     at Holding 0x110B;
     const MODICON: u32 = 4364;
     const REFERENCE: u32 = 404_364;
@@ -3289,7 +3289,7 @@ point! {
     ///
     /// `C013` at holding 110Ch (4364), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C013")]
-    DigitalInput3Contact: u16 = "digital_input_3_contact", "C013";
+    DigitalInput3Contact of crate::HitachiL200: u16 = "digital_input_3_contact", "C013";
     at Holding 0x110C;
     const MODICON: u32 = 4365;
     const REFERENCE: u32 = 404_365;
@@ -3304,7 +3304,7 @@ point! {
     ///
     /// `C014` at holding 110Dh (4365), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C014")]
-    DigitalInput4Contact: u16 = "digital_input_4_contact", "C014";
+    DigitalInput4Contact of crate::HitachiL200: u16 = "digital_input_4_contact", "C014";
     at Holding 0x110D;
     const MODICON: u32 = 4366;
     const REFERENCE: u32 = 404_366;
@@ -3319,7 +3319,7 @@ point! {
     ///
     /// `C015` at holding 110Eh (4366), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C015")]
-    DigitalInput5Contact: u16 = "digital_input_5_contact", "C015";
+    DigitalInput5Contact of crate::HitachiL200: u16 = "digital_input_5_contact", "C015";
     at Holding 0x110E;
     const MODICON: u32 = 4367;
     const REFERENCE: u32 = 404_367;
@@ -3334,7 +3334,7 @@ point! {
     ///
     /// `C021` at holding 1113h (4371), `u16`, raw `0..10`, read and write.
     #[doc(alias = "C021")]
-    DigitalOutput11Function: u16 = "digital_output_11_function", "C021";
+    DigitalOutput11Function of crate::HitachiL200: u16 = "digital_output_11_function", "C021";
     at Holding 0x1113;
     const MODICON: u32 = 4372;
     const REFERENCE: u32 = 404_372;
@@ -3349,7 +3349,7 @@ point! {
     ///
     /// `C022` at holding 1114h (4372), `u16`, raw `0..10`, read and write.
     #[doc(alias = "C022")]
-    DigitalOutput12Function: u16 = "digital_output_12_function", "C022";
+    DigitalOutput12Function of crate::HitachiL200: u16 = "digital_output_12_function", "C022";
     at Holding 0x1114;
     const MODICON: u32 = 4373;
     const REFERENCE: u32 = 404_373;
@@ -3364,7 +3364,7 @@ point! {
     ///
     /// `C026` at holding 1118h (4376), `u16`, raw `0..10`, read and write.
     #[doc(alias = "C026")]
-    RelayOutputFunction: u16 = "relay_output_function", "C026";
+    RelayOutputFunction of crate::HitachiL200: u16 = "relay_output_function", "C026";
     at Holding 0x1118;
     const MODICON: u32 = 4377;
     const REFERENCE: u32 = 404_377;
@@ -3379,7 +3379,7 @@ point! {
     ///
     /// `C028` at holding 111Ah (4378), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C028")]
-    AnalogOutputSource: u16 = "analog_output_source", "C028";
+    AnalogOutputSource of crate::HitachiL200: u16 = "analog_output_source", "C028";
     at Holding 0x111A;
     const MODICON: u32 = 4379;
     const REFERENCE: u32 = 404_379;
@@ -3394,7 +3394,7 @@ point! {
     ///
     /// `C031` at holding 111Ch (4380), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C031")]
-    DigitalOutput11Contact: u16 = "digital_output_11_contact", "C031";
+    DigitalOutput11Contact of crate::HitachiL200: u16 = "digital_output_11_contact", "C031";
     at Holding 0x111C;
     const MODICON: u32 = 4381;
     const REFERENCE: u32 = 404_381;
@@ -3409,7 +3409,7 @@ point! {
     ///
     /// `C032` at holding 111Dh (4381), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C032")]
-    DigitalOutput12Contact: u16 = "digital_output_12_contact", "C032";
+    DigitalOutput12Contact of crate::HitachiL200: u16 = "digital_output_12_contact", "C032";
     at Holding 0x111D;
     const MODICON: u32 = 4382;
     const REFERENCE: u32 = 404_382;
@@ -3426,7 +3426,7 @@ point! {
     ///
     /// Erratum: `c036_decimals`.
     #[doc(alias = "C036")]
-    RelayOutputContact: u16 = "relay_output_contact", "C036";
+    RelayOutputContact of crate::HitachiL200: u16 = "relay_output_contact", "C036";
     at Holding 0x1121;
     const MODICON: u32 = 4386;
     const REFERENCE: u32 = 404_386;
@@ -3441,7 +3441,7 @@ point! {
     ///
     /// `C041` at holding 1123h (4387), `u16`, raw `0..20000`, one count is `0.01 %`, read and write.
     #[doc(alias = "C041")]
-    OverloadAlarmLevel: u16 = "overload_alarm_level", "C041";
+    OverloadAlarmLevel of crate::HitachiL200: u16 = "overload_alarm_level", "C041";
     at Holding 0x1123;
     const MODICON: u32 = 4388;
     const REFERENCE: u32 = 404_388;
@@ -3458,7 +3458,7 @@ point! {
     ///
     /// `C241` at holding 1538h (5432), `u16`, raw `0..20000`, one count is `0.01 %`, read and write.
     #[doc(alias = "C241")]
-    OverloadAlarmLevelSet2: u16 = "overload_alarm_level_set_2", "C241";
+    OverloadAlarmLevelSet2 of crate::HitachiL200: u16 = "overload_alarm_level_set_2", "C241";
     at Holding 0x1538;
     const MODICON: u32 = 5433;
     const REFERENCE: u32 = 405_433;
@@ -3475,7 +3475,7 @@ point! {
     ///
     /// `C042` at holding 1125h (4389), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "C042")]
-    ArrivalFrequencyAcceleration: u16 = "arrival_frequency_acceleration", "C042";
+    ArrivalFrequencyAcceleration of crate::HitachiL200: u16 = "arrival_frequency_acceleration", "C042";
     at Holding 0x1125;
     const MODICON: u32 = 4390;
     const REFERENCE: u32 = 404_390;
@@ -3492,7 +3492,7 @@ point! {
     ///
     /// `C043` at holding 1127h (4391), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
     #[doc(alias = "C043")]
-    ArrivalFrequencyDeceleration: u16 = "arrival_frequency_deceleration", "C043";
+    ArrivalFrequencyDeceleration of crate::HitachiL200: u16 = "arrival_frequency_deceleration", "C043";
     at Holding 0x1127;
     const MODICON: u32 = 4392;
     const REFERENCE: u32 = 404_392;
@@ -3509,7 +3509,7 @@ point! {
     ///
     /// `C044` at holding 1128h (4392), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C044")]
-    PidDeviationLevel: u16 = "pid_deviation_level", "C044";
+    PidDeviationLevel of crate::HitachiL200: u16 = "pid_deviation_level", "C044";
     at Holding 0x1128;
     const MODICON: u32 = 4393;
     const REFERENCE: u32 = 404_393;
@@ -3526,7 +3526,7 @@ point! {
     ///
     /// `C052` at holding 112Dh (4397), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C052")]
-    PidProcessValueUpperLimit: u16 = "pid_process_value_upper_limit", "C052";
+    PidProcessValueUpperLimit of crate::HitachiL200: u16 = "pid_process_value_upper_limit", "C052";
     at Holding 0x112D;
     const MODICON: u32 = 4398;
     const REFERENCE: u32 = 404_398;
@@ -3543,7 +3543,7 @@ point! {
     ///
     /// `C053` at holding 112Eh (4398), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C053")]
-    PidProcessValueLowerLimit: u16 = "pid_process_value_lower_limit", "C053";
+    PidProcessValueLowerLimit of crate::HitachiL200: u16 = "pid_process_value_lower_limit", "C053";
     at Holding 0x112E;
     const MODICON: u32 = 4399;
     const REFERENCE: u32 = 404_399;
@@ -3560,7 +3560,7 @@ point! {
     ///
     /// `C081` at holding 1140h (4416), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C081")]
-    InputOCalibration: u16 = "input_o_calibration", "C081";
+    InputOCalibration of crate::HitachiL200: u16 = "input_o_calibration", "C081";
     at Holding 0x1140;
     const MODICON: u32 = 4417;
     const REFERENCE: u32 = 404_417;
@@ -3577,7 +3577,7 @@ point! {
     ///
     /// `C082` at holding 1141h (4417), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C082")]
-    InputOiCalibration: u16 = "input_oi_calibration", "C082";
+    InputOiCalibration of crate::HitachiL200: u16 = "input_oi_calibration", "C082";
     at Holding 0x1141;
     const MODICON: u32 = 4418;
     const REFERENCE: u32 = 404_418;
@@ -3594,7 +3594,7 @@ point! {
     ///
     /// `C085` at holding 1143h (4419), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
     #[doc(alias = "C085")]
-    ThermistorInputCalibration: u16 = "thermistor_input_calibration", "C085";
+    ThermistorInputCalibration of crate::HitachiL200: u16 = "thermistor_input_calibration", "C085";
     at Holding 0x1143;
     const MODICON: u32 = 4420;
     const REFERENCE: u32 = 404_420;
@@ -3611,7 +3611,7 @@ point! {
     ///
     /// `C086` at holding 1144h (4420), `u16`, raw `0..100`, one count is `0.1 V`, read and write.
     #[doc(alias = "C086")]
-    AnalogOutputOffset: u16 = "analog_output_offset", "C086";
+    AnalogOutputOffset of crate::HitachiL200: u16 = "analog_output_offset", "C086";
     at Holding 0x1144;
     const MODICON: u32 = 4421;
     const REFERENCE: u32 = 404_421;
@@ -3628,7 +3628,7 @@ point! {
     ///
     /// `C101` at holding 1148h (4424), `u16`, raw `0, 1`, read and write.
     #[doc(alias = "C101")]
-    MotorPotentiometerMemory: u16 = "motor_potentiometer_memory", "C101";
+    MotorPotentiometerMemory of crate::HitachiL200: u16 = "motor_potentiometer_memory", "C101";
     at Holding 0x1148;
     const MODICON: u32 = 4425;
     const REFERENCE: u32 = 404_425;
@@ -3643,7 +3643,7 @@ point! {
     ///
     /// `C102` at holding 1149h (4425), `u16`, raw `0..2`, read and write.
     #[doc(alias = "C102")]
-    ResetMode: u16 = "reset_mode", "C102";
+    ResetMode of crate::HitachiL200: u16 = "reset_mode", "C102";
     at Holding 0x1149;
     const MODICON: u32 = 4426;
     const REFERENCE: u32 = 404_426;
@@ -3658,7 +3658,7 @@ point! {
     ///
     /// `C141` at holding 114Fh (4431), `u16`, raw `0..10`, read and write.
     #[doc(alias = "C141")]
-    LogicInputA: u16 = "logic_input_a", "C141";
+    LogicInputA of crate::HitachiL200: u16 = "logic_input_a", "C141";
     at Holding 0x114F;
     const MODICON: u32 = 4432;
     const REFERENCE: u32 = 404_432;
@@ -3673,7 +3673,7 @@ point! {
     ///
     /// `C142` at holding 1150h (4432), `u16`, raw `0..10`, read and write.
     #[doc(alias = "C142")]
-    LogicInputB: u16 = "logic_input_b", "C142";
+    LogicInputB of crate::HitachiL200: u16 = "logic_input_b", "C142";
     at Holding 0x1150;
     const MODICON: u32 = 4433;
     const REFERENCE: u32 = 404_433;
@@ -3688,7 +3688,7 @@ point! {
     ///
     /// `C143` at holding 1151h (4433), `u16`, raw `0..2`, read and write.
     #[doc(alias = "C143")]
-    LogicOperator: u16 = "logic_operator", "C143";
+    LogicOperator of crate::HitachiL200: u16 = "logic_operator", "C143";
     at Holding 0x1151;
     const MODICON: u32 = 4434;
     const REFERENCE: u32 = 404_434;
@@ -3703,7 +3703,7 @@ point! {
     ///
     /// `C144` at holding 1152h (4434), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C144")]
-    DigitalOutput11OnDelay: u16 = "digital_output_11_on_delay", "C144";
+    DigitalOutput11OnDelay of crate::HitachiL200: u16 = "digital_output_11_on_delay", "C144";
     at Holding 0x1152;
     const MODICON: u32 = 4435;
     const REFERENCE: u32 = 404_435;
@@ -3720,7 +3720,7 @@ point! {
     ///
     /// `C145` at holding 1153h (4435), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C145")]
-    DigitalOutput11OffDelay: u16 = "digital_output_11_off_delay", "C145";
+    DigitalOutput11OffDelay of crate::HitachiL200: u16 = "digital_output_11_off_delay", "C145";
     at Holding 0x1153;
     const MODICON: u32 = 4436;
     const REFERENCE: u32 = 404_436;
@@ -3737,7 +3737,7 @@ point! {
     ///
     /// `C146` at holding 1154h (4436), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C146")]
-    DigitalOutput12OnDelay: u16 = "digital_output_12_on_delay", "C146";
+    DigitalOutput12OnDelay of crate::HitachiL200: u16 = "digital_output_12_on_delay", "C146";
     at Holding 0x1154;
     const MODICON: u32 = 4437;
     const REFERENCE: u32 = 404_437;
@@ -3754,7 +3754,7 @@ point! {
     ///
     /// `C147` at holding 1155h (4437), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C147")]
-    DigitalOutput12OffDelay: u16 = "digital_output_12_off_delay", "C147";
+    DigitalOutput12OffDelay of crate::HitachiL200: u16 = "digital_output_12_off_delay", "C147";
     at Holding 0x1155;
     const MODICON: u32 = 4438;
     const REFERENCE: u32 = 404_438;
@@ -3771,7 +3771,7 @@ point! {
     ///
     /// `C148` at holding 1156h (4438), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C148")]
-    RelayOutputOnDelay: u16 = "relay_output_on_delay", "C148";
+    RelayOutputOnDelay of crate::HitachiL200: u16 = "relay_output_on_delay", "C148";
     at Holding 0x1156;
     const MODICON: u32 = 4439;
     const REFERENCE: u32 = 404_439;
@@ -3788,7 +3788,7 @@ point! {
     ///
     /// `C149` at holding 1157h (4439), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
     #[doc(alias = "C149")]
-    RelayOutputOffDelay: u16 = "relay_output_off_delay", "C149";
+    RelayOutputOffDelay of crate::HitachiL200: u16 = "relay_output_off_delay", "C149";
     at Holding 0x1157;
     const MODICON: u32 = 4440;
     const REFERENCE: u32 = 404_440;
@@ -3805,7 +3805,7 @@ point! {
     ///
     /// `H003` at holding 1164h (4452), `u16`, raw `0..12`, read and write.
     #[doc(alias = "H003")]
-    MotorPower: u16 = "motor_power", "H003";
+    MotorPower of crate::HitachiL200: u16 = "motor_power", "H003";
     at Holding 0x1164;
     const MODICON: u32 = 4453;
     const REFERENCE: u32 = 404_453;
@@ -3820,7 +3820,7 @@ point! {
     ///
     /// `H203` at holding 153Fh (5439), `u16`, raw `0..12`, read and write.
     #[doc(alias = "H203")]
-    MotorPowerSet2: u16 = "motor_power_set_2", "H203";
+    MotorPowerSet2 of crate::HitachiL200: u16 = "motor_power_set_2", "H203";
     at Holding 0x153F;
     const MODICON: u32 = 5440;
     const REFERENCE: u32 = 405_440;
@@ -3835,7 +3835,7 @@ point! {
     ///
     /// `H004` at holding 1165h (4453), `u16`, raw `2, 4, 6, 8`, read and write.
     #[doc(alias = "H004")]
-    MotorPoles: u16 = "motor_poles", "H004";
+    MotorPoles of crate::HitachiL200: u16 = "motor_poles", "H004";
     at Holding 0x1165;
     const MODICON: u32 = 4454;
     const REFERENCE: u32 = 404_454;
@@ -3850,7 +3850,7 @@ point! {
     ///
     /// `H204` at holding 1540h (5440), `u16`, raw `2, 4, 6, 8`, read and write.
     #[doc(alias = "H204")]
-    MotorPolesSet2: u16 = "motor_poles_set_2", "H204";
+    MotorPolesSet2 of crate::HitachiL200: u16 = "motor_poles_set_2", "H204";
     at Holding 0x1540;
     const MODICON: u32 = 5441;
     const REFERENCE: u32 = 405_441;
@@ -3865,7 +3865,7 @@ point! {
     ///
     /// `H006` at holding 1167h (4455), `u16`, raw `0..255`, read and write.
     #[doc(alias = "H006")]
-    StabilizationConstant: u16 = "stabilization_constant", "H006";
+    StabilizationConstant of crate::HitachiL200: u16 = "stabilization_constant", "H006";
     at Holding 0x1167;
     const MODICON: u32 = 4456;
     const REFERENCE: u32 = 404_456;
@@ -3880,7 +3880,7 @@ point! {
     ///
     /// `H206` at holding 1542h (5442), `u16`, raw `0..255`, read and write.
     #[doc(alias = "H206")]
-    StabilizationConstantSet2: u16 = "stabilization_constant_set_2", "H206";
+    StabilizationConstantSet2 of crate::HitachiL200: u16 = "stabilization_constant_set_2", "H206";
     at Holding 0x1542;
     const MODICON: u32 = 5443;
     const REFERENCE: u32 = 405_443;

@@ -15,11 +15,11 @@
 //!
 #![cfg_attr(feature = "std", doc = "```no_run")]
 #![cfg_attr(not(feature = "std"), doc = "```ignore")]
-//! use jumo_controller::{points as p, runtime::transports::tcp::TcpLine, Client, Framing, PROFILE};
+//! use jumo_controller::{points as p, runtime::transports::tcp::TcpLine, Client, Framing};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
 //!     let line = TcpLine::new("192.168.0.20:4001");
-//!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+//!     let mut client = Client::new(line, Framing::Rtu, 1);
 //!     println!("{:?}", client.read::<p::ProgramStatus>()?);
 //!     Ok(())
 //! }
@@ -28,7 +28,7 @@
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use jumo_controller::{blocks, points as p, Client, ClientError, Framing, PROFILE, Transport};
+//! use jumo_controller::{blocks, points as p, Client, ClientError, Framing, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -53,7 +53,7 @@
 //!     Ok(())
 //! }
 //!
-//! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
+//! let mut client = Client::new(Line, Framing::Rtu, 1);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
@@ -66,14 +66,13 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::LocalClient;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
+pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Function, Profile};
+use fieldscribe_runtime::modbus::{Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "jumo_controller";
@@ -124,9 +123,28 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     TimerCommands
 };
 
+/// The device: its points, its blocks and its clients name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct JumoController;
+
+impl runtime::Device for JumoController {
+    type Profile = Profile;
+    const NAME: &'static str = DEVICE;
+    const PROFILE: &'static Profile = &PROFILE;
+}
+
+/// A device behind a transport that blocks.
+pub type Client<T> = runtime::modbus::Client<T, JumoController>;
+
+/// A device behind a transport that does not block.
+pub type AsyncClient<T> = runtime::modbus::AsyncClient<T, JumoController>;
+
+/// A device behind a transport of one thread, which does not block.
+pub type LocalClient<T> = runtime::modbus::LocalClient<T, JumoController>;
+
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:
-/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
-pub static PROFILE: Profile =
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);` and [`Client::with_profile`].
+pub const PROFILE: Profile =
     Profile::new(FUNCTIONS, FRAMINGS, (1, 254), Some(0)).naming(exceptions::name);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
@@ -197,6 +215,9 @@ pub mod blocks {
     /// The reads of the group `command_words`.
     pub const COMMAND_WORDS: &[Block] = &[Block::new(Space::Holding, 3, 0x006F, 4)];
 }
+
+/// A read of consecutive addresses of this device.
+pub type Block = runtime::modbus::Block<JumoController>;
 
 /// The reads by group.
 pub const BLOCKS: &[(&str, &[Block])] = &[

@@ -15,7 +15,7 @@ point! {
     /// Program status.
     ///
     /// At holding 001Fh (31), `u16`, raw `0..65535`, read only.
-    ProgramStatus: u16 = "program_status";
+    ProgramStatus of crate::JumoController: u16 = "program_status";
     at Holding 0x001F;
     => value flags::ProgramStatus as flags();
     read { count i32; }
@@ -25,7 +25,7 @@ point! {
     /// Controller status.
     ///
     /// At holding 0020h (32), `u16`, raw `0..65535`, read only.
-    ControllerStatus: u16 = "controller_status";
+    ControllerStatus of crate::JumoController: u16 = "controller_status";
     at Holding 0x0020;
     => value u16 as plain();
     read { count i32; }
@@ -35,7 +35,7 @@ point! {
     /// Binary outputs.
     ///
     /// At holding 0021h (33), `u16`, raw `0..65535`, read only.
-    BinaryOutputs: u16 = "binary_outputs";
+    BinaryOutputs of crate::JumoController: u16 = "binary_outputs";
     at Holding 0x0021;
     => value flags::BinaryOutputs as flags();
     read { count i32; }
@@ -47,7 +47,7 @@ point! {
     /// At holding 0023h (35), `u16`, raw `0..65535`, read only.
     ///
     /// Errata: `binary_input_8_bit`, `binary_input_7_bit`.
-    BinaryInputs: u16 = "binary_inputs";
+    BinaryInputs of crate::JumoController: u16 = "binary_inputs";
     at Holding 0x0023;
     => value flags::BinaryInputs as flags();
     read { count i32; }
@@ -57,7 +57,7 @@ point! {
     /// Control contacts.
     ///
     /// At holding 0025h (37), `u16`, raw `0..65535`, read only.
-    ControlContacts: u16 = "control_contacts";
+    ControlContacts of crate::JumoController: u16 = "control_contacts";
     at Holding 0x0025;
     => value flags::ControlContacts as flags();
     read { count i32; }
@@ -67,7 +67,7 @@ point! {
     /// Binary signals.
     ///
     /// At holding 0026h (38), `u16`, raw `0..65535`, read only.
-    BinarySignals: u16 = "binary_signals";
+    BinarySignals of crate::JumoController: u16 = "binary_signals";
     at Holding 0x0026;
     => value flags::BinarySignals as flags();
     read { count i32; }
@@ -77,7 +77,7 @@ point! {
     /// Binary output control.
     ///
     /// At holding 0027h (39), `u16`, raw `0..65535`, read and write.
-    BinaryOutputControl: u16 = "binary_output_control";
+    BinaryOutputControl of crate::JumoController: u16 = "binary_output_control";
     at Holding 0x0027;
     fixed 0x8000 0x8000;
     => value flags::BinaryOutputControl as flags();
@@ -89,7 +89,7 @@ point! {
     /// Program run time.
     ///
     /// At holding 005Bh (91), `u32`, raw `0..4294967295`, read only.
-    ProgramRunTime: u32 = "program_run_time";
+    ProgramRunTime of crate::JumoController: u32 = "program_run_time";
     at Holding 0x005B;
     addresses [0x005B, 0x005C];
     words 2;
@@ -102,7 +102,7 @@ point! {
     /// Program remaining time.
     ///
     /// At holding 005Dh (93), `u32`, raw `0..4294967295`, read only.
-    ProgramRemainingTime: u32 = "program_remaining_time";
+    ProgramRemainingTime of crate::JumoController: u32 = "program_remaining_time";
     at Holding 0x005D;
     addresses [0x005D, 0x005E];
     words 2;
@@ -115,7 +115,7 @@ point! {
     /// Section run time.
     ///
     /// At holding 0061h (97), `u32`, raw `0..4294967295`, read only.
-    SectionRunTime: u32 = "section_run_time";
+    SectionRunTime of crate::JumoController: u32 = "section_run_time";
     at Holding 0x0061;
     addresses [0x0061, 0x0062];
     words 2;
@@ -127,7 +127,7 @@ point! {
     /// Section remaining time.
     ///
     /// At holding 0063h (99), `u32`, raw `0..4294967295`, read only.
-    SectionRemainingTime: u32 = "section_remaining_time";
+    SectionRemainingTime of crate::JumoController: u32 = "section_remaining_time";
     at Holding 0x0063;
     addresses [0x0063, 0x0064];
     words 2;
@@ -139,7 +139,7 @@ point! {
     /// Timer 1 run time.
     ///
     /// At holding 0067h (103), `u32`, raw `0..4294967295`, read only.
-    Timer1RunTime: u32 = "timer_1_run_time";
+    Timer1RunTime of crate::JumoController: u32 = "timer_1_run_time";
     at Holding 0x0067;
     addresses [0x0067, 0x0068];
     words 2;
@@ -151,7 +151,7 @@ point! {
     /// Timer 2 run time.
     ///
     /// At holding 0069h (105), `u32`, raw `0..4294967295`, read only.
-    Timer2RunTime: u32 = "timer_2_run_time";
+    Timer2RunTime of crate::JumoController: u32 = "timer_2_run_time";
     at Holding 0x0069;
     addresses [0x0069, 0x006A];
     words 2;
@@ -163,7 +163,7 @@ point! {
     /// Timer 3 run time.
     ///
     /// At holding 006Bh (107), `u32`, raw `0..4294967295`, read only.
-    Timer3RunTime: u32 = "timer_3_run_time";
+    Timer3RunTime of crate::JumoController: u32 = "timer_3_run_time";
     at Holding 0x006B;
     addresses [0x006B, 0x006C];
     words 2;
@@ -175,7 +175,7 @@ point! {
     /// Timer 4 run time.
     ///
     /// At holding 006Dh (109), `u32`, raw `0..4294967295`, read only.
-    Timer4RunTime: u32 = "timer_4_run_time";
+    Timer4RunTime of crate::JumoController: u32 = "timer_4_run_time";
     at Holding 0x006D;
     addresses [0x006D, 0x006E];
     words 2;
@@ -187,7 +187,7 @@ point! {
     /// Setpoint 1.
     ///
     /// At holding 3100h (12544), `f32`, read and write.
-    Setpoint1: u32 = "setpoint_1";
+    Setpoint1 of crate::JumoController: u32 = "setpoint_1";
     at Holding 0x3100;
     addresses [0x3101, 0x3100];
     words 2;
@@ -200,7 +200,7 @@ point! {
     /// Setpoint 2.
     ///
     /// At holding 3102h (12546), `f32`, read and write.
-    Setpoint2: u32 = "setpoint_2";
+    Setpoint2 of crate::JumoController: u32 = "setpoint_2";
     at Holding 0x3102;
     addresses [0x3103, 0x3102];
     words 2;
@@ -214,7 +214,7 @@ point! {
     ///
     /// `Pb1` at holding 3014h (12308), `f32`, read and write.
     #[doc(alias = "Pb1")]
-    ProportionalBand1Set2: u32 = "proportional_band_1_set_2", "Pb1";
+    ProportionalBand1Set2 of crate::JumoController: u32 = "proportional_band_1_set_2", "Pb1";
     at Holding 0x3014;
     addresses [0x3015, 0x3014];
     words 2;
@@ -227,7 +227,7 @@ point! {
     /// Value 0077.
     ///
     /// At holding 0077h (119), `f32`, write only.
-    Value0077: u32 = "value_0077";
+    Value0077 of crate::JumoController: u32 = "value_0077";
     at Holding 0x0077;
     addresses [0x0078, 0x0077];
     words 2;
@@ -239,7 +239,7 @@ point! {
     /// Value 00ce.
     ///
     /// At holding 00CEh (206), `f32`, read only.
-    Value00ce: u32 = "value_00ce";
+    Value00ce of crate::JumoController: u32 = "value_00ce";
     at Holding 0x00CE;
     addresses [0x00CF, 0x00CE];
     words 2;
@@ -251,7 +251,7 @@ point! {
     /// Program controller commands.
     ///
     /// At holding 006Fh (111), `u16`, raw `0..65535`, read and write.
-    ProgramControllerCommands: u16 = "program_controller_commands";
+    ProgramControllerCommands of crate::JumoController: u16 = "program_controller_commands";
     at Holding 0x006F;
     => value flags::ProgramControllerCommands as flags();
     read { count i32; }
@@ -262,7 +262,7 @@ point! {
     /// Controller commands.
     ///
     /// At holding 0070h (112), `u16`, raw `0..65535`, read and write.
-    ControllerCommands: u16 = "controller_commands";
+    ControllerCommands of crate::JumoController: u16 = "controller_commands";
     at Holding 0x0070;
     => value flags::ControllerCommands as flags();
     read { count i32; }
@@ -273,7 +273,7 @@ point! {
     /// Operation commands.
     ///
     /// At holding 0071h (113), `u16`, raw `0..65535`, read and write.
-    OperationCommands: u16 = "operation_commands";
+    OperationCommands of crate::JumoController: u16 = "operation_commands";
     at Holding 0x0071;
     => value flags::OperationCommands as flags();
     read { count i32; }
@@ -284,7 +284,7 @@ point! {
     /// Timer commands.
     ///
     /// At holding 0072h (114), `u16`, raw `0..65535`, read and write.
-    TimerCommands: u16 = "timer_commands";
+    TimerCommands of crate::JumoController: u16 = "timer_commands";
     at Holding 0x0072;
     => value flags::TimerCommands as flags();
     read { count i32; }

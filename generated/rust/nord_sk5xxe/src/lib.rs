@@ -15,11 +15,11 @@
 //!
 #![cfg_attr(feature = "std", doc = "```no_run")]
 #![cfg_attr(not(feature = "std"), doc = "```ignore")]
-//! use nord_sk5xxe::{points as p, runtime::transports::tcp::TcpLine, Client, Framing, PROFILE};
+//! use nord_sk5xxe::{points as p, runtime::transports::tcp::TcpLine, Client, Framing};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
 //!     let line = TcpLine::new("192.168.0.20:4001");
-//!     let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+//!     let mut client = Client::new(line, Framing::Rtu, 1);
 //!     println!("{:?}", client.read::<p::ControlWord>()?);
 //!     Ok(())
 //! }
@@ -28,7 +28,7 @@
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use nord_sk5xxe::{blocks, commands, points as p, Client, ClientError, Framing, PROFILE, Transport};
+//! use nord_sk5xxe::{blocks, commands, points as p, Client, ClientError, Framing, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -54,7 +54,7 @@
 //!     Ok(())
 //! }
 //!
-//! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
+//! let mut client = Client::new(Line, Framing::Rtu, 1);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
@@ -67,14 +67,13 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::modbus::LocalClient;
-pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError, Framing};
+pub use fieldscribe_runtime::modbus::{ClientError, Framing};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
 
-use fieldscribe_runtime::modbus::{Block, Function, Profile};
+use fieldscribe_runtime::modbus::{Function, Profile};
 
 /// The device's name in its description.
 pub const DEVICE: &str = "nord_sk5xxe";
@@ -113,9 +112,28 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     ActualValue5
 };
 
+/// The device: its points, its blocks and its clients name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct NordSk5xxe;
+
+impl runtime::Device for NordSk5xxe {
+    type Profile = Profile;
+    const NAME: &'static str = DEVICE;
+    const PROFILE: &'static Profile = &PROFILE;
+}
+
+/// A device behind a transport that blocks.
+pub type Client<T> = runtime::modbus::Client<T, NordSk5xxe>;
+
+/// A device behind a transport that does not block.
+pub type AsyncClient<T> = runtime::modbus::AsyncClient<T, NordSk5xxe>;
+
+/// A device behind a transport of one thread, which does not block.
+pub type LocalClient<T> = runtime::modbus::LocalClient<T, NordSk5xxe>;
+
 /// What the frames need to know of the device. Behind a gateway that speaks another framing:
-/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);`
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 247), None);
+/// `static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);` and [`Client::with_profile`].
+pub const PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 247), None);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 
@@ -142,15 +160,21 @@ pub mod blocks {
     pub const PARAMETERS: &[Block] = &[];
 }
 
+/// A read of consecutive addresses of this device.
+pub type Block = runtime::modbus::Block<NordSk5xxe>;
+
 /// The reads by group.
 pub const BLOCKS: &[(&str, &[Block])] = &[
     ("process_data", blocks::PROCESS_DATA),
     ("parameters", blocks::PARAMETERS),
 ];
 
+/// A named constant write to this device.
+pub type Command = runtime::modbus::Command<NordSk5xxe>;
+
 /// Named constant writes.
 pub mod commands {
-    use fieldscribe_runtime::modbus::Command;
+    use super::Command;
 
     /// Make ready to switch on.
     pub const MAKE_READY_TO_SWITCH_ON: Command = Command::new(6, 0x0C80, Some(1150));

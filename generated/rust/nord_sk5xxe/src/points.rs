@@ -213,7 +213,7 @@ point! {
     /// Control word.
     ///
     /// `P050[1]` at holding 0C80h (3200) index 1, `u16`, raw `0..65535`, read and write.
-    ControlWord: u16 = "control_word", "P050[1]";
+    ControlWord of crate::NordSk5xxe: u16 = "control_word", "P050[1]";
     at Holding 0x0C80;
     index 1;
     => value flags::ControlWord as flags();
@@ -225,7 +225,7 @@ point! {
     /// Setpoint 1.
     ///
     /// `P050[2]` at holding 0C81h (3201) index 2, `u16`, raw `0..65535`, read and write.
-    Setpoint1: u16 = "setpoint_1", "P050[2]";
+    Setpoint1 of crate::NordSk5xxe: u16 = "setpoint_1", "P050[2]";
     at Holding 0x0C81;
     index 2;
     => value u16 as plain();
@@ -237,7 +237,7 @@ point! {
     /// Setpoint 2.
     ///
     /// `P050[3]` at holding 0C82h (3202) index 3, `u16`, raw `0..65535`, read and write.
-    Setpoint2: u16 = "setpoint_2", "P050[3]";
+    Setpoint2 of crate::NordSk5xxe: u16 = "setpoint_2", "P050[3]";
     at Holding 0x0C82;
     index 3;
     => value u16 as plain();
@@ -249,7 +249,7 @@ point! {
     /// Setpoint 3.
     ///
     /// `P050[4]` at holding 0C83h (3203) index 4, `u16`, raw `0..65535`, read and write.
-    Setpoint3: u16 = "setpoint_3", "P050[4]";
+    Setpoint3 of crate::NordSk5xxe: u16 = "setpoint_3", "P050[4]";
     at Holding 0x0C83;
     index 4;
     => value u16 as plain();
@@ -261,7 +261,7 @@ point! {
     /// Setpoint 4.
     ///
     /// `P050[5]` at holding 0C84h (3204) index 5, `u16`, raw `0..65535`, read and write.
-    Setpoint4: u16 = "setpoint_4", "P050[5]";
+    Setpoint4 of crate::NordSk5xxe: u16 = "setpoint_4", "P050[5]";
     at Holding 0x0C84;
     index 5;
     => value u16 as plain();
@@ -273,7 +273,7 @@ point! {
     /// Setpoint 5.
     ///
     /// `P050[6]` at holding 0C85h (3205) index 6, `u16`, raw `0..65535`, read and write.
-    Setpoint5: u16 = "setpoint_5", "P050[6]";
+    Setpoint5 of crate::NordSk5xxe: u16 = "setpoint_5", "P050[6]";
     at Holding 0x0C85;
     index 6;
     => value u16 as plain();
@@ -285,7 +285,7 @@ point! {
     /// Status word.
     ///
     /// `P051[1]` at holding 0CC0h (3264) index 1, `u16`, raw `0..65535`, read only.
-    StatusWord: u16 = "status_word", "P051[1]";
+    StatusWord of crate::NordSk5xxe: u16 = "status_word", "P051[1]";
     at Holding 0x0CC0;
     index 1;
     => value flags::StatusWord as flags();
@@ -296,7 +296,7 @@ point! {
     /// Actual value 1.
     ///
     /// `P051[2]` at holding 0CC1h (3265) index 2, `u16`, raw `0..65535`, read only.
-    ActualValue1: u16 = "actual_value_1", "P051[2]";
+    ActualValue1 of crate::NordSk5xxe: u16 = "actual_value_1", "P051[2]";
     at Holding 0x0CC1;
     index 2;
     => value u16 as plain();
@@ -307,7 +307,7 @@ point! {
     /// Actual value 2.
     ///
     /// `P051[3]` at holding 0CC2h (3266) index 3, `u16`, raw `0..65535`, read only.
-    ActualValue2: u16 = "actual_value_2", "P051[3]";
+    ActualValue2 of crate::NordSk5xxe: u16 = "actual_value_2", "P051[3]";
     at Holding 0x0CC2;
     index 3;
     => value u16 as plain();
@@ -318,7 +318,7 @@ point! {
     /// Actual value 3.
     ///
     /// `P051[4]` at holding 0CC3h (3267) index 4, `u16`, raw `0..65535`, read only.
-    ActualValue3: u16 = "actual_value_3", "P051[4]";
+    ActualValue3 of crate::NordSk5xxe: u16 = "actual_value_3", "P051[4]";
     at Holding 0x0CC3;
     index 4;
     => value u16 as plain();
@@ -329,7 +329,7 @@ point! {
     /// Actual value 4.
     ///
     /// `P051[5]` at holding 0CC4h (3268) index 5, `u16`, raw `0..65535`, read only.
-    ActualValue4: u16 = "actual_value_4", "P051[5]";
+    ActualValue4 of crate::NordSk5xxe: u16 = "actual_value_4", "P051[5]";
     at Holding 0x0CC4;
     index 5;
     => value u16 as plain();
@@ -340,7 +340,7 @@ point! {
     /// Actual value 5.
     ///
     /// `P051[6]` at holding 0CC5h (3269) index 6, `u16`, raw `0..65535`, read only.
-    ActualValue5: u16 = "actual_value_5", "P051[6]";
+    ActualValue5 of crate::NordSk5xxe: u16 = "actual_value_5", "P051[6]";
     at Holding 0x0CC5;
     index 6;
     => value u16 as plain();

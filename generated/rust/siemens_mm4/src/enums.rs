@@ -4,333 +4,60 @@
 
 //! Named numbers, shown by their names.
 
-use core::fmt;
+use fieldscribe_runtime::named_numbers;
 
-/// User access level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UserAccessLevel {
+named_numbers! {
+    /// User access level.
+    UserAccessLevel: u16, else Unknown;
     /// Level 2.
-    Level2,
+    Level2 = 2 "level_2";
     /// Expert.
-    Expert,
-    /// A number without a name here.
-    Unknown(u16),
+    Expert = 3 "expert";
 }
 
-impl UserAccessLevel {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Level2 => Some("level_2"),
-            Self::Expert => Some("expert"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for UserAccessLevel {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for UserAccessLevel {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            2 => Self::Level2,
-            3 => Self::Expert,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<UserAccessLevel> for u16 {
-    #[inline]
-    fn from(value: UserAccessLevel) -> Self {
-        match value {
-            UserAccessLevel::Level2 => 2,
-            UserAccessLevel::Expert => 3,
-            UserAccessLevel::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Command source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CommandSource {
+named_numbers! {
+    /// Command source.
+    CommandSource: u16, else Unknown;
     /// Uss rs232.
-    UssRs232,
+    UssRs232 = 4 "uss_rs232";
     /// Uss rs485.
-    UssRs485,
-    /// A number without a name here.
-    Unknown(u16),
+    UssRs485 = 5 "uss_rs485";
 }
 
-impl CommandSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::UssRs232 => Some("uss_rs232"),
-            Self::UssRs485 => Some("uss_rs485"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CommandSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for CommandSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            4 => Self::UssRs232,
-            5 => Self::UssRs485,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CommandSource> for u16 {
-    #[inline]
-    fn from(value: CommandSource) -> Self {
-        match value {
-            CommandSource::UssRs232 => 4,
-            CommandSource::UssRs485 => 5,
-            CommandSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Main setpoint source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum MainSetpointSource {
+named_numbers! {
+    /// Main setpoint source.
+    MainSetpointSource: u16, else Unknown;
     /// Uss rs232.
-    UssRs232,
+    UssRs232 = 4 "uss_rs232";
     /// Uss rs485.
-    UssRs485,
-    /// A number without a name here.
-    Unknown(u16),
+    UssRs485 = 5 "uss_rs485";
 }
 
-impl MainSetpointSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::UssRs232 => Some("uss_rs232"),
-            Self::UssRs485 => Some("uss_rs485"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for MainSetpointSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for MainSetpointSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            4 => Self::UssRs232,
-            5 => Self::UssRs485,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<MainSetpointSource> for u16 {
-    #[inline]
-    fn from(value: MainSetpointSource) -> Self {
-        match value {
-            MainSetpointSource::UssRs232 => 4,
-            MainSetpointSource::UssRs485 => 5,
-            MainSetpointSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Output phase sequence.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum OutputPhaseSequence {
+named_numbers! {
+    /// Output phase sequence.
+    OutputPhaseSequence: u16, else Unknown;
     /// Reversed.
-    Reversed,
-    /// A number without a name here.
-    Unknown(u16),
+    Reversed = 1 "reversed";
 }
 
-impl OutputPhaseSequence {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Reversed => Some("reversed"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for OutputPhaseSequence {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for OutputPhaseSequence {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            1 => Self::Reversed,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<OutputPhaseSequence> for u16 {
-    #[inline]
-    fn from(value: OutputPhaseSequence) -> Self {
-        match value {
-            OutputPhaseSequence::Reversed => 1,
-            OutputPhaseSequence::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Uss normalisation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UssNormalisation {
+named_numbers! {
+    /// Uss normalisation.
+    UssNormalisation: u16, else Unknown;
     /// By reference frequency.
-    ByReferenceFrequency,
+    ByReferenceFrequency = 0 "by_reference_frequency";
     /// Hundredths of hertz.
-    HundredthsOfHertz,
-    /// A number without a name here.
-    Unknown(u16),
+    HundredthsOfHertz = 1 "hundredths_of_hertz";
 }
 
-impl UssNormalisation {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::ByReferenceFrequency => Some("by_reference_frequency"),
-            Self::HundredthsOfHertz => Some("hundredths_of_hertz"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for UssNormalisation {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for UssNormalisation {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::ByReferenceFrequency,
-            1 => Self::HundredthsOfHertz,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<UssNormalisation> for u16 {
-    #[inline]
-    fn from(value: UssNormalisation) -> Self {
-        match value {
-            UssNormalisation::ByReferenceFrequency => 0,
-            UssNormalisation::HundredthsOfHertz => 1,
-            UssNormalisation::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Uss pkw length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UssPkwLength {
+named_numbers! {
+    /// Uss pkw length.
+    UssPkwLength: u16, else Unknown;
     /// None.
-    None_,
+    None_ = 0 "none";
     /// Words 3.
-    Words3,
+    Words3 = 3 "words_3";
     /// Words 4.
-    Words4,
+    Words4 = 4 "words_4";
     /// Variable.
-    Variable,
-    /// A number without a name here.
-    Unknown(u16),
-}
-
-impl UssPkwLength {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::None_ => Some("none"),
-            Self::Words3 => Some("words_3"),
-            Self::Words4 => Some("words_4"),
-            Self::Variable => Some("variable"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for UssPkwLength {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for UssPkwLength {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::None_,
-            3 => Self::Words3,
-            4 => Self::Words4,
-            127 => Self::Variable,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<UssPkwLength> for u16 {
-    #[inline]
-    fn from(value: UssPkwLength) -> Self {
-        match value {
-            UssPkwLength::None_ => 0,
-            UssPkwLength::Words3 => 3,
-            UssPkwLength::Words4 => 4,
-            UssPkwLength::Variable => 127,
-            UssPkwLength::Unknown(raw) => raw,
-        }
-    }
+    Variable = 127 "variable";
 }

@@ -14,11 +14,11 @@
 //!
 #![cfg_attr(feature = "std", doc = "```no_run")]
 #![cfg_attr(not(feature = "std"), doc = "```ignore")]
-//! use siemens_mm4::{points as p, runtime::transports::{tcp::TcpLine, Protocol}, Client, Link, PROFILE};
+//! use siemens_mm4::{points as p, runtime::transports::{tcp::TcpLine, Protocol}, Client, Link};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
 //!     let line = TcpLine::speaking(Protocol::Uss, "192.168.0.20:4001");
-//!     let mut client = Client::new(line, &PROFILE, Link::new(127, 0), 0);
+//!     let mut client = Client::new(line, Link::new(127, 0), 0);
 //!     println!("{:?}", client.read::<p::UserAccessLevel>()?);
 //!     Ok(())
 //! }
@@ -27,7 +27,7 @@
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use siemens_mm4::{points as p, Client, ClientError, Link, PROFILE, Reading, Transport};
+//! use siemens_mm4::{points as p, Client, ClientError, Link, Reading, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -50,7 +50,7 @@
 //!     Ok(())
 //! }
 //!
-//! let mut client = Client::new(Line, &PROFILE, Link::new(127, 0), 0);
+//! let mut client = Client::new(Line, Link::new(127, 0), 0);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //! ```
 
@@ -63,8 +63,7 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::uss::LocalClient;
-pub use fieldscribe_runtime::uss::{AsyncClient, Client, ClientError, Link};
+pub use fieldscribe_runtime::uss::{ClientError, Link};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{AsyncTransport, LocalTransport, Transport};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
@@ -139,8 +138,27 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     SecondStatusWord
 };
 
+/// The device: its points, its blocks and its clients name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SiemensMm4;
+
+impl runtime::Device for SiemensMm4 {
+    type Profile = Profile;
+    const NAME: &'static str = DEVICE;
+    const PROFILE: &'static Profile = &PROFILE;
+}
+
+/// A device behind a transport that blocks.
+pub type Client<T> = runtime::uss::Client<T, SiemensMm4>;
+
+/// A device behind a transport that does not block.
+pub type AsyncClient<T> = runtime::uss::AsyncClient<T, SiemensMm4>;
+
+/// A device behind a transport of one thread, which does not block.
+pub type LocalClient<T> = runtime::uss::LocalClient<T, SiemensMm4>;
+
 /// What the telegrams need to know of the device.
-pub static PROFILE: Profile =
+pub const PROFILE: Profile =
     Profile::new(TASKS, (0, 31), PKW, (0, 8), Some(32), FIXED).naming(exceptions::name);
 
 const TASKS: &[Task] = &[

@@ -102,7 +102,7 @@ point! {
     ///
     /// `P0003` at parameter 0003h (3), `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P0003")]
-    UserAccessLevel: u16 = "user_access_level", "P0003";
+    UserAccessLevel of crate::SiemensMm4: u16 = "user_access_level", "P0003";
     at Parameter 0x0003;
     => value enums::UserAccessLevel as named(u16);
     read { count i32; }
@@ -115,7 +115,7 @@ point! {
     ///
     /// `r0052` at parameter 0034h (52), `u16`, raw `0..65535`, read only.
     #[doc(alias = "r0052")]
-    InverterStatusWord: u16 = "inverter_status_word", "r0052";
+    InverterStatusWord of crate::SiemensMm4: u16 = "inverter_status_word", "r0052";
     at Parameter 0x0034;
     => value flags::InverterStatusWord as flags();
     read { count i32; }
@@ -127,7 +127,7 @@ point! {
     ///
     /// `P0700` at parameter 02BCh (700), `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P0700")]
-    CommandSource: u16 = "command_source", "P0700";
+    CommandSource of crate::SiemensMm4: u16 = "command_source", "P0700";
     at Parameter 0x02BC;
     => value enums::CommandSource as named(u16);
     read { count i32; }
@@ -140,7 +140,7 @@ point! {
     ///
     /// `P0731` at parameter 02DBh (731), `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P0731")]
-    P0731Source: u32 = "p0731_source", "P0731";
+    P0731Source of crate::SiemensMm4: u32 = "p0731_source", "P0731";
     at Parameter 0x02DB;
     words 2;
     => value flags::P0731Source as flags();
@@ -154,7 +154,7 @@ point! {
     ///
     /// `P1000` at parameter 03E8h (1000), `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P1000")]
-    MainSetpointSource: u16 = "main_setpoint_source", "P1000";
+    MainSetpointSource of crate::SiemensMm4: u16 = "main_setpoint_source", "P1000";
     at Parameter 0x03E8;
     => value enums::MainSetpointSource as named(u16);
     read { count i32; }
@@ -167,7 +167,7 @@ point! {
     ///
     /// `P1082` at parameter 043Ah (1082), `f32`, read and write.
     #[doc(alias = "P1082")]
-    MaximumFrequency: u32 = "maximum_frequency", "P1082";
+    MaximumFrequency of crate::SiemensMm4: u32 = "maximum_frequency", "P1082";
     at Parameter 0x043A;
     words 2;
     unit "Hz";
@@ -182,7 +182,7 @@ point! {
     ///
     /// `P1124` at parameter 0464h (1124), `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P1124")]
-    JogTimeSelectionSource: u32 = "jog_time_selection_source", "P1124";
+    JogTimeSelectionSource of crate::SiemensMm4: u32 = "jog_time_selection_source", "P1124";
     at Parameter 0x0464;
     words 2;
     => value flags::JogTimeSelectionSource as flags();
@@ -196,7 +196,7 @@ point! {
     ///
     /// `P1230` at parameter 04CEh (1230), `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P1230")]
-    DcBrakingSource: u32 = "dc_braking_source", "P1230";
+    DcBrakingSource of crate::SiemensMm4: u32 = "dc_braking_source", "P1230";
     at Parameter 0x04CE;
     words 2;
     => value flags::DcBrakingSource as flags();
@@ -210,7 +210,7 @@ point! {
     ///
     /// `P1820` at parameter 071Ch (1820), `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P1820")]
-    OutputPhaseSequence: u16 = "output_phase_sequence", "P1820";
+    OutputPhaseSequence of crate::SiemensMm4: u16 = "output_phase_sequence", "P1820";
     at Parameter 0x071C;
     => value enums::OutputPhaseSequence as named(u16);
     read { count i32; }
@@ -223,7 +223,7 @@ point! {
     ///
     /// `P2000` at parameter 07D0h (2000), `f32`, read and write.
     #[doc(alias = "P2000")]
-    ReferenceFrequency: u32 = "reference_frequency", "P2000";
+    ReferenceFrequency of crate::SiemensMm4: u32 = "reference_frequency", "P2000";
     at Parameter 0x07D0;
     words 2;
     unit "Hz";
@@ -238,7 +238,7 @@ point! {
     ///
     /// `P2009` at parameter 07D9h (2009) index 0, `u16`, raw `0, 1`, read and write, for `interface=rs485`.
     #[doc(alias = "P2009")]
-    UssNormalisationRs485: u16 = "uss_normalisation_rs485", "P2009";
+    UssNormalisationRs485 of crate::SiemensMm4: u16 = "uss_normalisation_rs485", "P2009";
     at Parameter 0x07D9;
     index 0;
     raw 0..=1;
@@ -253,7 +253,7 @@ point! {
     ///
     /// `P2009` at parameter 07D9h (2009) index 1, `u16`, raw `0, 1`, read and write, for `interface=rs232`.
     #[doc(alias = "P2009")]
-    UssNormalisationRs232: u16 = "uss_normalisation_rs232", "P2009";
+    UssNormalisationRs232 of crate::SiemensMm4: u16 = "uss_normalisation_rs232", "P2009";
     at Parameter 0x07D9;
     index 1;
     raw 0..=1;
@@ -268,7 +268,7 @@ point! {
     ///
     /// `P2010` at parameter 07DAh (2010) index 0, `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P2010")]
-    UssBaudRateIndex0: u16 = "uss_baud_rate_index_0", "P2010";
+    UssBaudRateIndex0 of crate::SiemensMm4: u16 = "uss_baud_rate_index_0", "P2010";
     at Parameter 0x07DA;
     index 0;
     => value u16 as plain();
@@ -282,7 +282,7 @@ point! {
     ///
     /// `P2010` at parameter 07DAh (2010) index 1, `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P2010")]
-    UssBaudRateIndex1: u16 = "uss_baud_rate_index_1", "P2010";
+    UssBaudRateIndex1 of crate::SiemensMm4: u16 = "uss_baud_rate_index_1", "P2010";
     at Parameter 0x07DA;
     index 1;
     => value u16 as plain();
@@ -296,7 +296,7 @@ point! {
     ///
     /// `P2011` at parameter 07DBh (2011) index 0, `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P2011")]
-    UssSlaveAddressIndex0: u16 = "uss_slave_address_index_0", "P2011";
+    UssSlaveAddressIndex0 of crate::SiemensMm4: u16 = "uss_slave_address_index_0", "P2011";
     at Parameter 0x07DB;
     index 0;
     => value u16 as plain();
@@ -310,7 +310,7 @@ point! {
     ///
     /// `P2011` at parameter 07DBh (2011) index 1, `u16`, raw `0..65535`, read and write.
     #[doc(alias = "P2011")]
-    UssSlaveAddressIndex1: u16 = "uss_slave_address_index_1", "P2011";
+    UssSlaveAddressIndex1 of crate::SiemensMm4: u16 = "uss_slave_address_index_1", "P2011";
     at Parameter 0x07DB;
     index 1;
     => value u16 as plain();
@@ -324,7 +324,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm410`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex0Mm410: u16 = "uss_pzd_length_index_0_mm410", "P2012";
+    UssPzdLengthIndex0Mm410 of crate::SiemensMm4: u16 = "uss_pzd_length_index_0_mm410", "P2012";
     at Parameter 0x07DC;
     index 0;
     raw 0..=4;
@@ -339,7 +339,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm420`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex0Mm420: u16 = "uss_pzd_length_index_0_mm420", "P2012";
+    UssPzdLengthIndex0Mm420 of crate::SiemensMm4: u16 = "uss_pzd_length_index_0_mm420", "P2012";
     at Parameter 0x07DC;
     index 0;
     raw 0..=4;
@@ -354,7 +354,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm430`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex0Mm430: u16 = "uss_pzd_length_index_0_mm430", "P2012";
+    UssPzdLengthIndex0Mm430 of crate::SiemensMm4: u16 = "uss_pzd_length_index_0_mm430", "P2012";
     at Parameter 0x07DC;
     index 0;
     raw 0..=8;
@@ -369,7 +369,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm440`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex0Mm440: u16 = "uss_pzd_length_index_0_mm440", "P2012";
+    UssPzdLengthIndex0Mm440 of crate::SiemensMm4: u16 = "uss_pzd_length_index_0_mm440", "P2012";
     at Parameter 0x07DC;
     index 0;
     raw 0..=8;
@@ -384,7 +384,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm410`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex1Mm410: u16 = "uss_pzd_length_index_1_mm410", "P2012";
+    UssPzdLengthIndex1Mm410 of crate::SiemensMm4: u16 = "uss_pzd_length_index_1_mm410", "P2012";
     at Parameter 0x07DC;
     index 1;
     raw 0..=4;
@@ -399,7 +399,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm420`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex1Mm420: u16 = "uss_pzd_length_index_1_mm420", "P2012";
+    UssPzdLengthIndex1Mm420 of crate::SiemensMm4: u16 = "uss_pzd_length_index_1_mm420", "P2012";
     at Parameter 0x07DC;
     index 1;
     raw 0..=4;
@@ -414,7 +414,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm430`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex1Mm430: u16 = "uss_pzd_length_index_1_mm430", "P2012";
+    UssPzdLengthIndex1Mm430 of crate::SiemensMm4: u16 = "uss_pzd_length_index_1_mm430", "P2012";
     at Parameter 0x07DC;
     index 1;
     raw 0..=8;
@@ -429,7 +429,7 @@ point! {
     ///
     /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm440`.
     #[doc(alias = "P2012")]
-    UssPzdLengthIndex1Mm440: u16 = "uss_pzd_length_index_1_mm440", "P2012";
+    UssPzdLengthIndex1Mm440 of crate::SiemensMm4: u16 = "uss_pzd_length_index_1_mm440", "P2012";
     at Parameter 0x07DC;
     index 1;
     raw 0..=8;
@@ -444,7 +444,7 @@ point! {
     ///
     /// `P2013` at parameter 07DDh (2013) index 0, `u16`, raw `0, 3, 4, 127`, read and write.
     #[doc(alias = "P2013")]
-    UssPkwLengthIndex0: u16 = "uss_pkw_length_index_0", "P2013";
+    UssPkwLengthIndex0 of crate::SiemensMm4: u16 = "uss_pkw_length_index_0", "P2013";
     at Parameter 0x07DD;
     index 0;
     raw 0..=127;
@@ -459,7 +459,7 @@ point! {
     ///
     /// `P2013` at parameter 07DDh (2013) index 1, `u16`, raw `0, 3, 4, 127`, read and write.
     #[doc(alias = "P2013")]
-    UssPkwLengthIndex1: u16 = "uss_pkw_length_index_1", "P2013";
+    UssPkwLengthIndex1 of crate::SiemensMm4: u16 = "uss_pkw_length_index_1", "P2013";
     at Parameter 0x07DD;
     index 1;
     raw 0..=127;
@@ -476,7 +476,7 @@ point! {
     ///
     /// Special code: `0` `monitoring_off` (may be written).
     #[doc(alias = "P2014")]
-    UssTelegramOffTimeIndex0: u16 = "uss_telegram_off_time_index_0", "P2014";
+    UssTelegramOffTimeIndex0 of crate::SiemensMm4: u16 = "uss_telegram_off_time_index_0", "P2014";
     at Parameter 0x07DE;
     index 0;
     unit "ms";
@@ -498,7 +498,7 @@ point! {
     ///
     /// Special code: `0` `monitoring_off` (may be written).
     #[doc(alias = "P2014")]
-    UssTelegramOffTimeIndex1: u16 = "uss_telegram_off_time_index_1", "P2014";
+    UssTelegramOffTimeIndex1 of crate::SiemensMm4: u16 = "uss_telegram_off_time_index_1", "P2014";
     at Parameter 0x07DE;
     index 1;
     unit "ms";
@@ -518,7 +518,7 @@ point! {
     ///
     /// `P2016` at parameter 07E0h (2016) index 0, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2016")]
-    UssRs232AnswerSourceIndex0: u32 = "uss_rs232_answer_source_index_0", "P2016";
+    UssRs232AnswerSourceIndex0 of crate::SiemensMm4: u32 = "uss_rs232_answer_source_index_0", "P2016";
     at Parameter 0x07E0;
     words 2;
     index 0;
@@ -533,7 +533,7 @@ point! {
     ///
     /// `P2016` at parameter 07E0h (2016) index 1, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2016")]
-    UssRs232AnswerSourceIndex1: u32 = "uss_rs232_answer_source_index_1", "P2016";
+    UssRs232AnswerSourceIndex1 of crate::SiemensMm4: u32 = "uss_rs232_answer_source_index_1", "P2016";
     at Parameter 0x07E0;
     words 2;
     index 1;
@@ -548,7 +548,7 @@ point! {
     ///
     /// `P2016` at parameter 07E0h (2016) index 2, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2016")]
-    UssRs232AnswerSourceIndex2: u32 = "uss_rs232_answer_source_index_2", "P2016";
+    UssRs232AnswerSourceIndex2 of crate::SiemensMm4: u32 = "uss_rs232_answer_source_index_2", "P2016";
     at Parameter 0x07E0;
     words 2;
     index 2;
@@ -563,7 +563,7 @@ point! {
     ///
     /// `P2016` at parameter 07E0h (2016) index 3, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2016")]
-    UssRs232AnswerSourceIndex3: u32 = "uss_rs232_answer_source_index_3", "P2016";
+    UssRs232AnswerSourceIndex3 of crate::SiemensMm4: u32 = "uss_rs232_answer_source_index_3", "P2016";
     at Parameter 0x07E0;
     words 2;
     index 3;
@@ -578,7 +578,7 @@ point! {
     ///
     /// `P2019` at parameter 07E3h (2019) index 0, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2019")]
-    UssRs485AnswerSourceIndex0: u32 = "uss_rs485_answer_source_index_0", "P2019";
+    UssRs485AnswerSourceIndex0 of crate::SiemensMm4: u32 = "uss_rs485_answer_source_index_0", "P2019";
     at Parameter 0x07E3;
     words 2;
     index 0;
@@ -593,7 +593,7 @@ point! {
     ///
     /// `P2019` at parameter 07E3h (2019) index 1, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2019")]
-    UssRs485AnswerSourceIndex1: u32 = "uss_rs485_answer_source_index_1", "P2019";
+    UssRs485AnswerSourceIndex1 of crate::SiemensMm4: u32 = "uss_rs485_answer_source_index_1", "P2019";
     at Parameter 0x07E3;
     words 2;
     index 1;
@@ -608,7 +608,7 @@ point! {
     ///
     /// `P2019` at parameter 07E3h (2019) index 2, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2019")]
-    UssRs485AnswerSourceIndex2: u32 = "uss_rs485_answer_source_index_2", "P2019";
+    UssRs485AnswerSourceIndex2 of crate::SiemensMm4: u32 = "uss_rs485_answer_source_index_2", "P2019";
     at Parameter 0x07E3;
     words 2;
     index 2;
@@ -623,7 +623,7 @@ point! {
     ///
     /// `P2019` at parameter 07E3h (2019) index 3, `u32`, raw `0..4294967295`, read and write.
     #[doc(alias = "P2019")]
-    UssRs485AnswerSourceIndex3: u32 = "uss_rs485_answer_source_index_3", "P2019";
+    UssRs485AnswerSourceIndex3 of crate::SiemensMm4: u32 = "uss_rs485_answer_source_index_3", "P2019";
     at Parameter 0x07E3;
     words 2;
     index 3;
@@ -638,7 +638,7 @@ point! {
     ///
     /// `STW` at telegram `task` word 0000h (0), `u16`, raw `0..65535`, write only.
     #[doc(alias = "STW")]
-    ControlWord: u16 = "control_word", "STW";
+    ControlWord of crate::SiemensMm4: u16 = "control_word", "STW";
     at Telegram 0x0000;
     telegram "task";
     fixed 0x0400 0x0400;
@@ -655,7 +655,7 @@ point! {
     /// reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is
     /// 1`, one count is `0.00001 Hz`, write only.
     #[doc(alias = "HSW")]
-    MainSetpoint: u16 = "main_setpoint", "HSW";
+    MainSetpoint of crate::SiemensMm4: u16 = "main_setpoint", "HSW";
     at Telegram 0x0001;
     telegram "task";
     const PZD: u32 = 2;
@@ -680,7 +680,7 @@ point! {
     ///
     /// `STW2` at telegram `task` word 0003h (3), `u16`, raw `0..65535`, write only.
     #[doc(alias = "STW2")]
-    SecondControlWord: u16 = "second_control_word", "STW2";
+    SecondControlWord of crate::SiemensMm4: u16 = "second_control_word", "STW2";
     at Telegram 0x0003;
     telegram "task";
     const PZD: u32 = 4;
@@ -694,7 +694,7 @@ point! {
     ///
     /// `ZSW` at telegram `answer` word 0000h (0), `u16`, raw `0..65535`, read only.
     #[doc(alias = "ZSW")]
-    StatusWord: u16 = "status_word", "ZSW";
+    StatusWord of crate::SiemensMm4: u16 = "status_word", "ZSW";
     at Telegram 0x0000;
     telegram "answer";
     const PZD: u32 = 1;
@@ -710,7 +710,7 @@ point! {
     /// reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is
     /// 1`, one count is `0.00001 Hz`, read only.
     #[doc(alias = "HIW")]
-    MainActualValue: u16 = "main_actual_value", "HIW";
+    MainActualValue of crate::SiemensMm4: u16 = "main_actual_value", "HIW";
     at Telegram 0x0001;
     telegram "answer";
     const PZD: u32 = 2;
@@ -737,7 +737,7 @@ point! {
     ///
     /// Erratum: `zsw2_position`.
     #[doc(alias = "ZSW2")]
-    SecondStatusWord: u16 = "second_status_word", "ZSW2";
+    SecondStatusWord of crate::SiemensMm4: u16 = "second_status_word", "ZSW2";
     at Telegram 0x0003;
     telegram "answer";
     const PZD: u32 = 4;

@@ -4,1406 +4,386 @@
 
 //! Named numbers, shown by their names.
 
-#![allow(clippy::too_many_lines, reason = "a line for each name")]
+use fieldscribe_runtime::named_numbers;
 
-use core::fmt;
-
-/// Supply presence.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SupplyPresence {
+named_numbers! {
+    /// Supply presence.
+    SupplyPresence: u8, else Unknown;
     /// Absent.
-    Absent,
+    Absent = 0 "absent";
     /// Present.
-    Present,
-    /// A number without a name here.
-    Unknown(u8),
+    Present = 255 "present";
 }
 
-impl SupplyPresence {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Absent => Some("absent"),
-            Self::Present => Some("present"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for SupplyPresence {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for SupplyPresence {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Absent,
-            255 => Self::Present,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<SupplyPresence> for u8 {
-    #[inline]
-    fn from(value: SupplyPresence) -> Self {
-        match value {
-            SupplyPresence::Absent => 0,
-            SupplyPresence::Present => 255,
-            SupplyPresence::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Power measurement phases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PowerMeasurementPhases {
+named_numbers! {
+    /// Power measurement phases.
+    PowerMeasurementPhases: u8, else Unknown;
     /// Single phase.
-    SinglePhase,
+    SinglePhase = 0 "single_phase";
     /// Three phase.
-    ThreePhase,
-    /// A number without a name here.
-    Unknown(u8),
+    ThreePhase = 1 "three_phase";
 }
 
-impl PowerMeasurementPhases {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::SinglePhase => Some("single_phase"),
-            Self::ThreePhase => Some("three_phase"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PowerMeasurementPhases {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for PowerMeasurementPhases {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::SinglePhase,
-            1 => Self::ThreePhase,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PowerMeasurementPhases> for u8 {
-    #[inline]
-    fn from(value: PowerMeasurementPhases) -> Self {
-        match value {
-            PowerMeasurementPhases::SinglePhase => 0,
-            PowerMeasurementPhases::ThreePhase => 1,
-            PowerMeasurementPhases::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Switch2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Switch2 {
+named_numbers! {
+    /// Switch2.
+    Switch2: u8, else Unknown;
     /// Off.
-    Off,
+    Off = 0 "off";
     /// On.
-    On,
-    /// A number without a name here.
-    Unknown(u8),
+    On = 3 "on";
 }
 
-impl Switch2 {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Off => Some("off"),
-            Self::On => Some("on"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for Switch2 {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for Switch2 {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Off,
-            3 => Self::On,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<Switch2> for u8 {
-    #[inline]
-    fn from(value: Switch2) -> Self {
-        match value {
-            Switch2::Off => 0,
-            Switch2::On => 3,
-            Switch2::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Breaker logic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BreakerLogic {
+named_numbers! {
+    /// Breaker logic.
+    BreakerLogic: u8, else Unknown;
     /// External.
-    External,
+    External = 0 "external";
     /// Parallel.
-    Parallel,
-    /// A number without a name here.
-    Unknown(u8),
+    Parallel = 1 "parallel";
 }
 
-impl BreakerLogic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::External => Some("external"),
-            Self::Parallel => Some("parallel"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for BreakerLogic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for BreakerLogic {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::External,
-            1 => Self::Parallel,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<BreakerLogic> for u8 {
-    #[inline]
-    fn from(value: BreakerLogic) -> Self {
-        match value {
-            BreakerLogic::External => 0,
-            BreakerLogic::Parallel => 1,
-            BreakerLogic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Generator breaker signal logic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum GeneratorBreakerSignalLogic {
+named_numbers! {
+    /// Generator breaker signal logic.
+    GeneratorBreakerSignalLogic: u8, else Unknown;
     /// Pulse.
-    Pulse,
+    Pulse = 0 "pulse";
     /// Constant.
-    Constant,
-    /// A number without a name here.
-    Unknown(u8),
+    Constant = 1 "constant";
 }
 
-impl GeneratorBreakerSignalLogic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Pulse => Some("pulse"),
-            Self::Constant => Some("constant"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for GeneratorBreakerSignalLogic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for GeneratorBreakerSignalLogic {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Pulse,
-            1 => Self::Constant,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<GeneratorBreakerSignalLogic> for u8 {
-    #[inline]
-    fn from(value: GeneratorBreakerSignalLogic) -> Self {
-        match value {
-            GeneratorBreakerSignalLogic::Pulse => 0,
-            GeneratorBreakerSignalLogic::Constant => 1,
-            GeneratorBreakerSignalLogic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Contact logic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ContactLogic {
+named_numbers! {
+    /// Contact logic.
+    ContactLogic: u8, else Unknown;
     /// Normally closed.
-    NormallyClosed,
+    NormallyClosed = 0 "normally_closed";
     /// Normally open.
-    NormallyOpen,
-    /// A number without a name here.
-    Unknown(u8),
+    NormallyOpen = 1 "normally_open";
 }
 
-impl ContactLogic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NormallyClosed => Some("normally_closed"),
-            Self::NormallyOpen => Some("normally_open"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for ContactLogic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for ContactLogic {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NormallyClosed,
-            1 => Self::NormallyOpen,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<ContactLogic> for u8 {
-    #[inline]
-    fn from(value: ContactLogic) -> Self {
-        match value {
-            ContactLogic::NormallyClosed => 0,
-            ContactLogic::NormallyOpen => 1,
-            ContactLogic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Off on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum OffOn {
+named_numbers! {
+    /// Off on.
+    OffOn: u8, else Unknown;
     /// Off.
-    Off,
+    Off = 0 "off";
     /// On.
-    On,
-    /// A number without a name here.
-    Unknown(u8),
+    On = 1 "on";
 }
 
-impl OffOn {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Off => Some("off"),
-            Self::On => Some("on"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for OffOn {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for OffOn {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Off,
-            1 => Self::On,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<OffOn> for u8 {
-    #[inline]
-    fn from(value: OffOn) -> Self {
-        match value {
-            OffOn::Off => 0,
-            OffOn::On => 1,
-            OffOn::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Inverse time overcurrent characteristic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InverseTimeOvercurrentCharacteristic {
+named_numbers! {
+    /// Inverse time overcurrent characteristic.
+    InverseTimeOvercurrentCharacteristic: u8, else Unknown;
     /// Normal inverse.
-    NormalInverse,
+    NormalInverse = 0 "normal_inverse";
     /// Very inverse.
-    VeryInverse,
+    VeryInverse = 1 "very_inverse";
     /// Extremely inverse.
-    ExtremelyInverse,
-    /// A number without a name here.
-    Unknown(u8),
+    ExtremelyInverse = 2 "extremely_inverse";
 }
 
-impl InverseTimeOvercurrentCharacteristic {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::NormalInverse => Some("normal_inverse"),
-            Self::VeryInverse => Some("very_inverse"),
-            Self::ExtremelyInverse => Some("extremely_inverse"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InverseTimeOvercurrentCharacteristic {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for InverseTimeOvercurrentCharacteristic {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::NormalInverse,
-            1 => Self::VeryInverse,
-            2 => Self::ExtremelyInverse,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InverseTimeOvercurrentCharacteristic> for u8 {
-    #[inline]
-    fn from(value: InverseTimeOvercurrentCharacteristic) -> Self {
-        match value {
-            InverseTimeOvercurrentCharacteristic::NormalInverse => 0,
-            InverseTimeOvercurrentCharacteristic::VeryInverse => 1,
-            InverseTimeOvercurrentCharacteristic::ExtremelyInverse => 2,
-            InverseTimeOvercurrentCharacteristic::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Phase shift monitoring phases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PhaseShiftMonitoringPhases {
+named_numbers! {
+    /// Phase shift monitoring phases.
+    PhaseShiftMonitoringPhases: u8, else Unknown;
     /// Three phase.
-    ThreePhase,
+    ThreePhase = 0 "three_phase";
     /// Single and three phase.
-    SingleAndThreePhase,
-    /// A number without a name here.
-    Unknown(u8),
+    SingleAndThreePhase = 1 "single_and_three_phase";
 }
 
-impl PhaseShiftMonitoringPhases {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::ThreePhase => Some("three_phase"),
-            Self::SingleAndThreePhase => Some("single_and_three_phase"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for PhaseShiftMonitoringPhases {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for PhaseShiftMonitoringPhases {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::ThreePhase,
-            1 => Self::SingleAndThreePhase,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<PhaseShiftMonitoringPhases> for u8 {
-    #[inline]
-    fn from(value: PhaseShiftMonitoringPhases) -> Self {
-        match value {
-            PhaseShiftMonitoringPhases::ThreePhase => 0,
-            PhaseShiftMonitoringPhases::SingleAndThreePhase => 1,
-            PhaseShiftMonitoringPhases::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Input delay.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum InputDelay {
+named_numbers! {
+    /// Input delay.
+    InputDelay: u16, else Unknown;
     /// Ms 100.
-    Ms100,
+    Ms100 = 0 "ms_100";
     /// Ms 200.
-    Ms200,
+    Ms200 = 1 "ms_200";
     /// Ms 500.
-    Ms500,
+    Ms500 = 2 "ms_500";
     /// S 1.
-    S1,
+    S1 = 3 "s_1";
     /// S 2.
-    S2,
+    S2 = 4 "s_2";
     /// S 5.
-    S5,
+    S5 = 5 "s_5";
     /// S 10.
-    S10,
+    S10 = 6 "s_10";
     /// S 20.
-    S20,
+    S20 = 7 "s_20";
     /// S 50.
-    S50,
+    S50 = 8 "s_50";
     /// S 100.
-    S100,
-    /// A number without a name here.
-    Unknown(u16),
+    S100 = 9 "s_100";
 }
 
-impl InputDelay {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Ms100 => Some("ms_100"),
-            Self::Ms200 => Some("ms_200"),
-            Self::Ms500 => Some("ms_500"),
-            Self::S1 => Some("s_1"),
-            Self::S2 => Some("s_2"),
-            Self::S5 => Some("s_5"),
-            Self::S10 => Some("s_10"),
-            Self::S20 => Some("s_20"),
-            Self::S50 => Some("s_50"),
-            Self::S100 => Some("s_100"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for InputDelay {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for InputDelay {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Ms100,
-            1 => Self::Ms200,
-            2 => Self::Ms500,
-            3 => Self::S1,
-            4 => Self::S2,
-            5 => Self::S5,
-            6 => Self::S10,
-            7 => Self::S20,
-            8 => Self::S50,
-            9 => Self::S100,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<InputDelay> for u16 {
-    #[inline]
-    fn from(value: InputDelay) -> Self {
-        match value {
-            InputDelay::Ms100 => 0,
-            InputDelay::Ms200 => 1,
-            InputDelay::Ms500 => 2,
-            InputDelay::S1 => 3,
-            InputDelay::S2 => 4,
-            InputDelay::S5 => 5,
-            InputDelay::S10 => 6,
-            InputDelay::S20 => 7,
-            InputDelay::S50 => 8,
-            InputDelay::S100 => 9,
-            InputDelay::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Fault class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FaultClass {
+named_numbers! {
+    /// Fault class.
+    FaultClass: u16, else Unknown;
     /// Fault class 0.
-    FaultClass0,
+    FaultClass0 = 0 "fault_class_0";
     /// Fault class 1.
-    FaultClass1,
+    FaultClass1 = 1 "fault_class_1";
     /// Fault class 2.
-    FaultClass2,
+    FaultClass2 = 2 "fault_class_2";
     /// Fault class 3.
-    FaultClass3,
-    /// A number without a name here.
-    Unknown(u16),
+    FaultClass3 = 3 "fault_class_3";
 }
 
-impl FaultClass {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::FaultClass0 => Some("fault_class_0"),
-            Self::FaultClass1 => Some("fault_class_1"),
-            Self::FaultClass2 => Some("fault_class_2"),
-            Self::FaultClass3 => Some("fault_class_3"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for FaultClass {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for FaultClass {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::FaultClass0,
-            1 => Self::FaultClass1,
-            2 => Self::FaultClass2,
-            3 => Self::FaultClass3,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<FaultClass> for u16 {
-    #[inline]
-    fn from(value: FaultClass) -> Self {
-        match value {
-            FaultClass::FaultClass0 => 0,
-            FaultClass::FaultClass1 => 1,
-            FaultClass::FaultClass2 => 2,
-            FaultClass::FaultClass3 => 3,
-            FaultClass::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Analog source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum AnalogSource {
+named_numbers! {
+    /// Analog source.
+    AnalogSource: u16, else Unknown;
     /// Inactive.
-    Inactive,
+    Inactive = 0 "inactive";
     /// Generator active power.
-    GeneratorActivePower,
+    GeneratorActivePower = 1 "generator_active_power";
     /// Generator cos phi.
-    GeneratorCosPhi,
+    GeneratorCosPhi = 2 "generator_cos_phi";
     /// Generator frequency.
-    GeneratorFrequency,
+    GeneratorFrequency = 3 "generator_frequency";
     /// Generator reactive power.
-    GeneratorReactivePower,
+    GeneratorReactivePower = 4 "generator_reactive_power";
     /// Generator busbar power reserve.
-    GeneratorBusbarPowerReserve,
+    GeneratorBusbarPowerReserve = 5 "generator_busbar_power_reserve";
     /// Generator busbar active power.
-    GeneratorBusbarActivePower,
+    GeneratorBusbarActivePower = 6 "generator_busbar_active_power";
     /// Generator apparent current l1.
-    GeneratorApparentCurrentL1,
+    GeneratorApparentCurrentL1 = 7 "generator_apparent_current_l1";
     /// Generator apparent current l2.
-    GeneratorApparentCurrentL2,
+    GeneratorApparentCurrentL2 = 8 "generator_apparent_current_l2";
     /// Generator apparent current l3.
-    GeneratorApparentCurrentL3,
+    GeneratorApparentCurrentL3 = 9 "generator_apparent_current_l3";
     /// Pickup speed.
-    PickupSpeed,
+    PickupSpeed = 10 "pickup_speed";
     /// Analog input t1.
-    AnalogInputT1,
+    AnalogInputT1 = 11 "analog_input_t1";
     /// Analog input t2.
-    AnalogInputT2,
+    AnalogInputT2 = 12 "analog_input_t2";
     /// Analog input t3.
-    AnalogInputT3,
+    AnalogInputT3 = 13 "analog_input_t3";
     /// Analog input t4.
-    AnalogInputT4,
+    AnalogInputT4 = 14 "analog_input_t4";
     /// Analog input t5.
-    AnalogInputT5,
+    AnalogInputT5 = 15 "analog_input_t5";
     /// Analog input t6.
-    AnalogInputT6,
+    AnalogInputT6 = 16 "analog_input_t6";
     /// Analog input t7.
-    AnalogInputT7,
+    AnalogInputT7 = 17 "analog_input_t7";
     /// Additional analog input.
-    AdditionalAnalogInput,
+    AdditionalAnalogInput = 18 "additional_analog_input";
     /// Mains active power.
-    MainsActivePower,
+    MainsActivePower = 19 "mains_active_power";
     /// Mains apparent current l1.
-    MainsApparentCurrentL1,
+    MainsApparentCurrentL1 = 20 "mains_apparent_current_l1";
     /// Mains cos phi.
-    MainsCosPhi,
+    MainsCosPhi = 21 "mains_cos_phi";
     /// Mains reactive power.
-    MainsReactivePower,
-    /// A number without a name here.
-    Unknown(u16),
+    MainsReactivePower = 22 "mains_reactive_power";
 }
 
-impl AnalogSource {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Inactive => Some("inactive"),
-            Self::GeneratorActivePower => Some("generator_active_power"),
-            Self::GeneratorCosPhi => Some("generator_cos_phi"),
-            Self::GeneratorFrequency => Some("generator_frequency"),
-            Self::GeneratorReactivePower => Some("generator_reactive_power"),
-            Self::GeneratorBusbarPowerReserve => Some("generator_busbar_power_reserve"),
-            Self::GeneratorBusbarActivePower => Some("generator_busbar_active_power"),
-            Self::GeneratorApparentCurrentL1 => Some("generator_apparent_current_l1"),
-            Self::GeneratorApparentCurrentL2 => Some("generator_apparent_current_l2"),
-            Self::GeneratorApparentCurrentL3 => Some("generator_apparent_current_l3"),
-            Self::PickupSpeed => Some("pickup_speed"),
-            Self::AnalogInputT1 => Some("analog_input_t1"),
-            Self::AnalogInputT2 => Some("analog_input_t2"),
-            Self::AnalogInputT3 => Some("analog_input_t3"),
-            Self::AnalogInputT4 => Some("analog_input_t4"),
-            Self::AnalogInputT5 => Some("analog_input_t5"),
-            Self::AnalogInputT6 => Some("analog_input_t6"),
-            Self::AnalogInputT7 => Some("analog_input_t7"),
-            Self::AdditionalAnalogInput => Some("additional_analog_input"),
-            Self::MainsActivePower => Some("mains_active_power"),
-            Self::MainsApparentCurrentL1 => Some("mains_apparent_current_l1"),
-            Self::MainsCosPhi => Some("mains_cos_phi"),
-            Self::MainsReactivePower => Some("mains_reactive_power"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for AnalogSource {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u16::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u16> for AnalogSource {
-    #[inline]
-    fn from(raw: u16) -> Self {
-        match raw {
-            0 => Self::Inactive,
-            1 => Self::GeneratorActivePower,
-            2 => Self::GeneratorCosPhi,
-            3 => Self::GeneratorFrequency,
-            4 => Self::GeneratorReactivePower,
-            5 => Self::GeneratorBusbarPowerReserve,
-            6 => Self::GeneratorBusbarActivePower,
-            7 => Self::GeneratorApparentCurrentL1,
-            8 => Self::GeneratorApparentCurrentL2,
-            9 => Self::GeneratorApparentCurrentL3,
-            10 => Self::PickupSpeed,
-            11 => Self::AnalogInputT1,
-            12 => Self::AnalogInputT2,
-            13 => Self::AnalogInputT3,
-            14 => Self::AnalogInputT4,
-            15 => Self::AnalogInputT5,
-            16 => Self::AnalogInputT6,
-            17 => Self::AnalogInputT7,
-            18 => Self::AdditionalAnalogInput,
-            19 => Self::MainsActivePower,
-            20 => Self::MainsApparentCurrentL1,
-            21 => Self::MainsCosPhi,
-            22 => Self::MainsReactivePower,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<AnalogSource> for u16 {
-    #[inline]
-    fn from(value: AnalogSource) -> Self {
-        match value {
-            AnalogSource::Inactive => 0,
-            AnalogSource::GeneratorActivePower => 1,
-            AnalogSource::GeneratorCosPhi => 2,
-            AnalogSource::GeneratorFrequency => 3,
-            AnalogSource::GeneratorReactivePower => 4,
-            AnalogSource::GeneratorBusbarPowerReserve => 5,
-            AnalogSource::GeneratorBusbarActivePower => 6,
-            AnalogSource::GeneratorApparentCurrentL1 => 7,
-            AnalogSource::GeneratorApparentCurrentL2 => 8,
-            AnalogSource::GeneratorApparentCurrentL3 => 9,
-            AnalogSource::PickupSpeed => 10,
-            AnalogSource::AnalogInputT1 => 11,
-            AnalogSource::AnalogInputT2 => 12,
-            AnalogSource::AnalogInputT3 => 13,
-            AnalogSource::AnalogInputT4 => 14,
-            AnalogSource::AnalogInputT5 => 15,
-            AnalogSource::AnalogInputT6 => 16,
-            AnalogSource::AnalogInputT7 => 17,
-            AnalogSource::AdditionalAnalogInput => 18,
-            AnalogSource::MainsActivePower => 19,
-            AnalogSource::MainsApparentCurrentL1 => 20,
-            AnalogSource::MainsCosPhi => 21,
-            AnalogSource::MainsReactivePower => 22,
-            AnalogSource::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Current range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CurrentRange {
+named_numbers! {
+    /// Current range.
+    CurrentRange: u8, else Unknown;
     /// Ma 4 20.
-    Ma4_20,
+    Ma4_20 = 0 "ma_4_20";
     /// Ma 0 20.
-    Ma0_20,
-    /// A number without a name here.
-    Unknown(u8),
+    Ma0_20 = 1 "ma_0_20";
 }
 
-impl CurrentRange {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Ma4_20 => Some("ma_4_20"),
-            Self::Ma0_20 => Some("ma_0_20"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for CurrentRange {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for CurrentRange {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            0 => Self::Ma4_20,
-            1 => Self::Ma0_20,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<CurrentRange> for u8 {
-    #[inline]
-    fn from(value: CurrentRange) -> Self {
-        match value {
-            CurrentRange::Ma4_20 => 0,
-            CurrentRange::Ma0_20 => 1,
-            CurrentRange::Unknown(raw) => raw,
-        }
-    }
-}
-
-/// Relay event.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RelayEvent {
+named_numbers! {
+    /// Relay event.
+    RelayEvent: u8, else Unknown;
     /// Fault class 1.
-    FaultClass1,
+    FaultClass1 = 1 "fault_class_1";
     /// Fault class 2.
-    FaultClass2,
+    FaultClass2 = 2 "fault_class_2";
     /// Fault class 3.
-    FaultClass3,
+    FaultClass3 = 3 "fault_class_3";
     /// Common fault f1 f2 f3.
-    CommonFaultF1F2F3,
+    CommonFaultF1F2F3 = 4 "common_fault_f1_f2_f3";
     /// Common fault f2 f3.
-    CommonFaultF2F3,
+    CommonFaultF2F3 = 5 "common_fault_f2_f3";
     /// Ignition speed reached.
-    IgnitionSpeedReached,
+    IgnitionSpeedReached = 6 "ignition_speed_reached";
     /// Generator in range.
-    GeneratorInRange,
+    GeneratorInRange = 7 "generator_in_range";
     /// Busbar in range.
-    BusbarInRange,
+    BusbarInRange = 8 "busbar_in_range";
     /// Mains in range.
-    MainsInRange,
+    MainsInRange = 9 "mains_in_range";
     /// Automatic mode.
-    AutomaticMode,
+    AutomaticMode = 10 "automatic_mode";
     /// Manual mode.
-    ManualMode,
+    ManualMode = 11 "manual_mode";
     /// Mains overfrequency.
-    MainsOverfrequency,
+    MainsOverfrequency = 12 "mains_overfrequency";
     /// Mains underfrequency.
-    MainsUnderfrequency,
+    MainsUnderfrequency = 13 "mains_underfrequency";
     /// Mains overvoltage.
-    MainsOvervoltage,
+    MainsOvervoltage = 14 "mains_overvoltage";
     /// Mains undervoltage.
-    MainsUndervoltage,
+    MainsUndervoltage = 15 "mains_undervoltage";
     /// Mains phase shift.
-    MainsPhaseShift,
+    MainsPhaseShift = 16 "mains_phase_shift";
     /// Mains frequency gradient.
-    MainsFrequencyGradient,
+    MainsFrequencyGradient = 17 "mains_frequency_gradient";
     /// Generator underfrequency stage 1.
-    GeneratorUnderfrequencyStage1,
+    GeneratorUnderfrequencyStage1 = 18 "generator_underfrequency_stage_1";
     /// Generator overfrequency stage 1.
-    GeneratorOverfrequencyStage1,
+    GeneratorOverfrequencyStage1 = 19 "generator_overfrequency_stage_1";
     /// Engine overspeed pickup.
-    EngineOverspeedPickup,
+    EngineOverspeedPickup = 20 "engine_overspeed_pickup";
     /// Pickup generator frequency difference.
-    PickupGeneratorFrequencyDifference,
+    PickupGeneratorFrequencyDifference = 21 "pickup_generator_frequency_difference";
     /// Generator undervoltage stage 1.
-    GeneratorUndervoltageStage1,
+    GeneratorUndervoltageStage1 = 22 "generator_undervoltage_stage_1";
     /// Generator overvoltage stage 1.
-    GeneratorOvervoltageStage1,
+    GeneratorOvervoltageStage1 = 23 "generator_overvoltage_stage_1";
     /// Generator overcurrent stage 1.
-    GeneratorOvercurrentStage1,
+    GeneratorOvercurrentStage1 = 24 "generator_overcurrent_stage_1";
     /// Generator overcurrent stage 2.
-    GeneratorOvercurrentStage2,
+    GeneratorOvercurrentStage2 = 25 "generator_overcurrent_stage_2";
     /// Generator unbalanced load.
-    GeneratorUnbalancedLoad,
+    GeneratorUnbalancedLoad = 26 "generator_unbalanced_load";
     /// Generator overload.
-    GeneratorOverload,
+    GeneratorOverload = 27 "generator_overload";
     /// Generator reverse power.
-    GeneratorReversePower,
+    GeneratorReversePower = 28 "generator_reverse_power";
     /// Generator breaker closing time fault.
-    GeneratorBreakerClosingTimeFault,
+    GeneratorBreakerClosingTimeFault = 29 "generator_breaker_closing_time_fault";
     /// Reactive power capacitive.
-    ReactivePowerCapacitive,
+    ReactivePowerCapacitive = 30 "reactive_power_capacitive";
     /// Reactive power inductive.
-    ReactivePowerInductive,
+    ReactivePowerInductive = 31 "reactive_power_inductive";
     /// Earth current.
-    EarthCurrent,
+    EarthCurrent = 32 "earth_current";
     /// Battery undervoltage.
-    BatteryUndervoltage,
+    BatteryUndervoltage = 33 "battery_undervoltage";
     /// Interface x1 x5 fault.
-    InterfaceX1X5Fault,
+    InterfaceX1X5Fault = 34 "interface_x1_x5_fault";
     /// Analog terminals 93 95 stage 1.
-    AnalogTerminals93_95Stage1,
+    AnalogTerminals93_95Stage1 = 35 "analog_terminals_93_95_stage_1";
     /// Analog terminals 93 95 stage 2.
-    AnalogTerminals93_95Stage2,
+    AnalogTerminals93_95Stage2 = 36 "analog_terminals_93_95_stage_2";
     /// Analog terminals 96 98 stage 1.
-    AnalogTerminals96_98Stage1,
+    AnalogTerminals96_98Stage1 = 37 "analog_terminals_96_98_stage_1";
     /// Analog terminals 96 98 stage 2.
-    AnalogTerminals96_98Stage2,
+    AnalogTerminals96_98Stage2 = 38 "analog_terminals_96_98_stage_2";
     /// Analog terminals 99 101 stage 1.
-    AnalogTerminals99_101Stage1,
+    AnalogTerminals99_101Stage1 = 39 "analog_terminals_99_101_stage_1";
     /// Analog terminals 99 101 stage 2.
-    AnalogTerminals99_101Stage2,
+    AnalogTerminals99_101Stage2 = 40 "analog_terminals_99_101_stage_2";
     /// Analog terminals 102 104 stage 1.
-    AnalogTerminals102_104Stage1,
+    AnalogTerminals102_104Stage1 = 41 "analog_terminals_102_104_stage_1";
     /// Analog terminals 102 104 stage 2.
-    AnalogTerminals102_104Stage2,
+    AnalogTerminals102_104Stage2 = 42 "analog_terminals_102_104_stage_2";
     /// Analog terminals 105 107 stage 1.
-    AnalogTerminals105_107Stage1,
+    AnalogTerminals105_107Stage1 = 43 "analog_terminals_105_107_stage_1";
     /// Analog terminals 105 107 stage 2.
-    AnalogTerminals105_107Stage2,
+    AnalogTerminals105_107Stage2 = 44 "analog_terminals_105_107_stage_2";
     /// Analog terminals 108 110 stage 1.
-    AnalogTerminals108_110Stage1,
+    AnalogTerminals108_110Stage1 = 45 "analog_terminals_108_110_stage_1";
     /// Analog terminals 108 110 stage 2.
-    AnalogTerminals108_110Stage2,
+    AnalogTerminals108_110Stage2 = 46 "analog_terminals_108_110_stage_2";
     /// Analog terminals 111 113 stage 1.
-    AnalogTerminals111_113Stage1,
+    AnalogTerminals111_113Stage1 = 47 "analog_terminals_111_113_stage_1";
     /// Analog terminals 111 113 stage 2.
-    AnalogTerminals111_113Stage2,
+    AnalogTerminals111_113Stage2 = 48 "analog_terminals_111_113_stage_2";
     /// Analog terminals 90 92 stage 1.
-    AnalogTerminals90_92Stage1,
+    AnalogTerminals90_92Stage1 = 49 "analog_terminals_90_92_stage_1";
     /// Analog terminals 90 92 stage 2.
-    AnalogTerminals90_92Stage2,
+    AnalogTerminals90_92Stage2 = 50 "analog_terminals_90_92_stage_2";
     /// Digital input 1.
-    DigitalInput1,
+    DigitalInput1 = 51 "digital_input_1";
     /// Digital input 2.
-    DigitalInput2,
+    DigitalInput2 = 52 "digital_input_2";
     /// Digital input 3.
-    DigitalInput3,
+    DigitalInput3 = 53 "digital_input_3";
     /// Digital input 4.
-    DigitalInput4,
+    DigitalInput4 = 54 "digital_input_4";
     /// Digital input 5.
-    DigitalInput5,
+    DigitalInput5 = 55 "digital_input_5";
     /// Digital input 6.
-    DigitalInput6,
+    DigitalInput6 = 56 "digital_input_6";
     /// Digital input 7.
-    DigitalInput7,
+    DigitalInput7 = 57 "digital_input_7";
     /// Digital input 8.
-    DigitalInput8,
+    DigitalInput8 = 58 "digital_input_8";
     /// Digital input 9.
-    DigitalInput9,
+    DigitalInput9 = 59 "digital_input_9";
     /// Digital input 10.
-    DigitalInput10,
+    DigitalInput10 = 60 "digital_input_10";
     /// Digital input 11.
-    DigitalInput11,
+    DigitalInput11 = 61 "digital_input_11";
     /// Digital input 12.
-    DigitalInput12,
+    DigitalInput12 = 62 "digital_input_12";
     /// Digital input 13.
-    DigitalInput13,
+    DigitalInput13 = 63 "digital_input_13";
     /// Digital input 14.
-    DigitalInput14,
+    DigitalInput14 = 64 "digital_input_14";
     /// Digital input 15.
-    DigitalInput15,
+    DigitalInput15 = 65 "digital_input_15";
     /// Digital input 16.
-    DigitalInput16,
+    DigitalInput16 = 66 "digital_input_16";
     /// Mains breaker closed.
-    MainsBreakerClosed,
+    MainsBreakerClosed = 67 "mains_breaker_closed";
     /// Generator breaker closed.
-    GeneratorBreakerClosed,
+    GeneratorBreakerClosed = 68 "generator_breaker_closed";
     /// Mains parallel intended.
-    MainsParallelIntended,
+    MainsParallelIntended = 69 "mains_parallel_intended";
     /// Generator power monitor stage 1.
-    GeneratorPowerMonitorStage1,
+    GeneratorPowerMonitorStage1 = 70 "generator_power_monitor_stage_1";
     /// Mains fault.
-    MainsFault,
+    MainsFault = 71 "mains_fault";
     /// Overcurrent inverse time.
-    OvercurrentInverseTime,
+    OvercurrentInverseTime = 72 "overcurrent_inverse_time";
     /// Acknowledge f1.
-    AcknowledgeF1,
+    AcknowledgeF1 = 73 "acknowledge_f1";
     /// Acknowledge f2 f3.
-    AcknowledgeF2F3,
+    AcknowledgeF2F3 = 74 "acknowledge_f2_f3";
     /// Generator undervoltage stage 2.
-    GeneratorUndervoltageStage2,
+    GeneratorUndervoltageStage2 = 75 "generator_undervoltage_stage_2";
     /// Generator overvoltage stage 2.
-    GeneratorOvervoltageStage2,
+    GeneratorOvervoltageStage2 = 76 "generator_overvoltage_stage_2";
     /// Generator underfrequency stage 2.
-    GeneratorUnderfrequencyStage2,
+    GeneratorUnderfrequencyStage2 = 77 "generator_underfrequency_stage_2";
     /// Generator overfrequency stage 2.
-    GeneratorOverfrequencyStage2,
+    GeneratorOverfrequencyStage2 = 78 "generator_overfrequency_stage_2";
     /// Genset ready to run.
-    GensetReadyToRun,
+    GensetReadyToRun = 79 "genset_ready_to_run";
     /// Generator power monitor stage 2.
-    GeneratorPowerMonitorStage2,
+    GeneratorPowerMonitorStage2 = 80 "generator_power_monitor_stage_2";
     /// Interface y1 y5 fault.
-    InterfaceY1Y5Fault,
+    InterfaceY1Y5Fault = 81 "interface_y1_y5_fault";
     /// Load shedding generator breaker closed.
-    LoadSheddingGeneratorBreakerClosed,
+    LoadSheddingGeneratorBreakerClosed = 82 "load_shedding_generator_breaker_closed";
     /// Mains breaker closing done.
-    MainsBreakerClosingDone,
+    MainsBreakerClosingDone = 83 "mains_breaker_closing_done";
     /// Mains import power monitor.
-    MainsImportPowerMonitor,
+    MainsImportPowerMonitor = 84 "mains_import_power_monitor";
     /// Maintenance call.
-    MaintenanceCall,
+    MaintenanceCall = 85 "maintenance_call";
     /// Mains breaker closing time fault.
-    MainsBreakerClosingTimeFault,
+    MainsBreakerClosingTimeFault = 86 "mains_breaker_closing_time_fault";
     /// Mains breaker synchronisation.
-    MainsBreakerSynchronisation,
+    MainsBreakerSynchronisation = 87 "mains_breaker_synchronisation";
     /// Lamp test.
-    LampTest,
+    LampTest = 88 "lamp_test";
     /// Generator breaker close fault.
-    GeneratorBreakerCloseFault,
+    GeneratorBreakerCloseFault = 89 "generator_breaker_close_fault";
     /// Mains breaker close fault.
-    MainsBreakerCloseFault,
+    MainsBreakerCloseFault = 90 "mains_breaker_close_fault";
     /// Generator breaker open fault.
-    GeneratorBreakerOpenFault,
+    GeneratorBreakerOpenFault = 91 "generator_breaker_open_fault";
     /// Mains breaker open fault.
-    MainsBreakerOpenFault,
+    MainsBreakerOpenFault = 92 "mains_breaker_open_fault";
     /// Zero import power not reached.
-    ZeroImportPowerNotReached,
+    ZeroImportPowerNotReached = 93 "zero_import_power_not_reached";
     /// Dead bus start closing time.
-    DeadBusStartClosingTime,
+    DeadBusStartClosingTime = 94 "dead_bus_start_closing_time";
     /// Mains counter clockwise field.
-    MainsCounterClockwiseField,
+    MainsCounterClockwiseField = 95 "mains_counter_clockwise_field";
     /// Engine enable.
-    EngineEnable,
+    EngineEnable = 96 "engine_enable";
     /// Acknowledge key pressed.
-    AcknowledgeKeyPressed,
+    AcknowledgeKeyPressed = 97 "acknowledge_key_pressed";
     /// Common fault.
-    CommonFault,
-    /// A number without a name here.
-    Unknown(u8),
-}
-
-impl RelayEvent {
-    /// The name in the description, if the number has one.
-    #[must_use]
-    pub const fn name(self) -> Option<&'static str> {
-        match self {
-            Self::FaultClass1 => Some("fault_class_1"),
-            Self::FaultClass2 => Some("fault_class_2"),
-            Self::FaultClass3 => Some("fault_class_3"),
-            Self::CommonFaultF1F2F3 => Some("common_fault_f1_f2_f3"),
-            Self::CommonFaultF2F3 => Some("common_fault_f2_f3"),
-            Self::IgnitionSpeedReached => Some("ignition_speed_reached"),
-            Self::GeneratorInRange => Some("generator_in_range"),
-            Self::BusbarInRange => Some("busbar_in_range"),
-            Self::MainsInRange => Some("mains_in_range"),
-            Self::AutomaticMode => Some("automatic_mode"),
-            Self::ManualMode => Some("manual_mode"),
-            Self::MainsOverfrequency => Some("mains_overfrequency"),
-            Self::MainsUnderfrequency => Some("mains_underfrequency"),
-            Self::MainsOvervoltage => Some("mains_overvoltage"),
-            Self::MainsUndervoltage => Some("mains_undervoltage"),
-            Self::MainsPhaseShift => Some("mains_phase_shift"),
-            Self::MainsFrequencyGradient => Some("mains_frequency_gradient"),
-            Self::GeneratorUnderfrequencyStage1 => Some("generator_underfrequency_stage_1"),
-            Self::GeneratorOverfrequencyStage1 => Some("generator_overfrequency_stage_1"),
-            Self::EngineOverspeedPickup => Some("engine_overspeed_pickup"),
-            Self::PickupGeneratorFrequencyDifference => {
-                Some("pickup_generator_frequency_difference")
-            }
-            Self::GeneratorUndervoltageStage1 => Some("generator_undervoltage_stage_1"),
-            Self::GeneratorOvervoltageStage1 => Some("generator_overvoltage_stage_1"),
-            Self::GeneratorOvercurrentStage1 => Some("generator_overcurrent_stage_1"),
-            Self::GeneratorOvercurrentStage2 => Some("generator_overcurrent_stage_2"),
-            Self::GeneratorUnbalancedLoad => Some("generator_unbalanced_load"),
-            Self::GeneratorOverload => Some("generator_overload"),
-            Self::GeneratorReversePower => Some("generator_reverse_power"),
-            Self::GeneratorBreakerClosingTimeFault => Some("generator_breaker_closing_time_fault"),
-            Self::ReactivePowerCapacitive => Some("reactive_power_capacitive"),
-            Self::ReactivePowerInductive => Some("reactive_power_inductive"),
-            Self::EarthCurrent => Some("earth_current"),
-            Self::BatteryUndervoltage => Some("battery_undervoltage"),
-            Self::InterfaceX1X5Fault => Some("interface_x1_x5_fault"),
-            Self::AnalogTerminals93_95Stage1 => Some("analog_terminals_93_95_stage_1"),
-            Self::AnalogTerminals93_95Stage2 => Some("analog_terminals_93_95_stage_2"),
-            Self::AnalogTerminals96_98Stage1 => Some("analog_terminals_96_98_stage_1"),
-            Self::AnalogTerminals96_98Stage2 => Some("analog_terminals_96_98_stage_2"),
-            Self::AnalogTerminals99_101Stage1 => Some("analog_terminals_99_101_stage_1"),
-            Self::AnalogTerminals99_101Stage2 => Some("analog_terminals_99_101_stage_2"),
-            Self::AnalogTerminals102_104Stage1 => Some("analog_terminals_102_104_stage_1"),
-            Self::AnalogTerminals102_104Stage2 => Some("analog_terminals_102_104_stage_2"),
-            Self::AnalogTerminals105_107Stage1 => Some("analog_terminals_105_107_stage_1"),
-            Self::AnalogTerminals105_107Stage2 => Some("analog_terminals_105_107_stage_2"),
-            Self::AnalogTerminals108_110Stage1 => Some("analog_terminals_108_110_stage_1"),
-            Self::AnalogTerminals108_110Stage2 => Some("analog_terminals_108_110_stage_2"),
-            Self::AnalogTerminals111_113Stage1 => Some("analog_terminals_111_113_stage_1"),
-            Self::AnalogTerminals111_113Stage2 => Some("analog_terminals_111_113_stage_2"),
-            Self::AnalogTerminals90_92Stage1 => Some("analog_terminals_90_92_stage_1"),
-            Self::AnalogTerminals90_92Stage2 => Some("analog_terminals_90_92_stage_2"),
-            Self::DigitalInput1 => Some("digital_input_1"),
-            Self::DigitalInput2 => Some("digital_input_2"),
-            Self::DigitalInput3 => Some("digital_input_3"),
-            Self::DigitalInput4 => Some("digital_input_4"),
-            Self::DigitalInput5 => Some("digital_input_5"),
-            Self::DigitalInput6 => Some("digital_input_6"),
-            Self::DigitalInput7 => Some("digital_input_7"),
-            Self::DigitalInput8 => Some("digital_input_8"),
-            Self::DigitalInput9 => Some("digital_input_9"),
-            Self::DigitalInput10 => Some("digital_input_10"),
-            Self::DigitalInput11 => Some("digital_input_11"),
-            Self::DigitalInput12 => Some("digital_input_12"),
-            Self::DigitalInput13 => Some("digital_input_13"),
-            Self::DigitalInput14 => Some("digital_input_14"),
-            Self::DigitalInput15 => Some("digital_input_15"),
-            Self::DigitalInput16 => Some("digital_input_16"),
-            Self::MainsBreakerClosed => Some("mains_breaker_closed"),
-            Self::GeneratorBreakerClosed => Some("generator_breaker_closed"),
-            Self::MainsParallelIntended => Some("mains_parallel_intended"),
-            Self::GeneratorPowerMonitorStage1 => Some("generator_power_monitor_stage_1"),
-            Self::MainsFault => Some("mains_fault"),
-            Self::OvercurrentInverseTime => Some("overcurrent_inverse_time"),
-            Self::AcknowledgeF1 => Some("acknowledge_f1"),
-            Self::AcknowledgeF2F3 => Some("acknowledge_f2_f3"),
-            Self::GeneratorUndervoltageStage2 => Some("generator_undervoltage_stage_2"),
-            Self::GeneratorOvervoltageStage2 => Some("generator_overvoltage_stage_2"),
-            Self::GeneratorUnderfrequencyStage2 => Some("generator_underfrequency_stage_2"),
-            Self::GeneratorOverfrequencyStage2 => Some("generator_overfrequency_stage_2"),
-            Self::GensetReadyToRun => Some("genset_ready_to_run"),
-            Self::GeneratorPowerMonitorStage2 => Some("generator_power_monitor_stage_2"),
-            Self::InterfaceY1Y5Fault => Some("interface_y1_y5_fault"),
-            Self::LoadSheddingGeneratorBreakerClosed => {
-                Some("load_shedding_generator_breaker_closed")
-            }
-            Self::MainsBreakerClosingDone => Some("mains_breaker_closing_done"),
-            Self::MainsImportPowerMonitor => Some("mains_import_power_monitor"),
-            Self::MaintenanceCall => Some("maintenance_call"),
-            Self::MainsBreakerClosingTimeFault => Some("mains_breaker_closing_time_fault"),
-            Self::MainsBreakerSynchronisation => Some("mains_breaker_synchronisation"),
-            Self::LampTest => Some("lamp_test"),
-            Self::GeneratorBreakerCloseFault => Some("generator_breaker_close_fault"),
-            Self::MainsBreakerCloseFault => Some("mains_breaker_close_fault"),
-            Self::GeneratorBreakerOpenFault => Some("generator_breaker_open_fault"),
-            Self::MainsBreakerOpenFault => Some("mains_breaker_open_fault"),
-            Self::ZeroImportPowerNotReached => Some("zero_import_power_not_reached"),
-            Self::DeadBusStartClosingTime => Some("dead_bus_start_closing_time"),
-            Self::MainsCounterClockwiseField => Some("mains_counter_clockwise_field"),
-            Self::EngineEnable => Some("engine_enable"),
-            Self::AcknowledgeKeyPressed => Some("acknowledge_key_pressed"),
-            Self::CommonFault => Some("common_fault"),
-            Self::Unknown(_) => None,
-        }
-    }
-}
-
-impl fmt::Display for RelayEvent {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name() {
-            Some(name) => formatter.pad(name),
-            None => u8::from(*self).fmt(formatter),
-        }
-    }
-}
-
-impl From<u8> for RelayEvent {
-    #[inline]
-    fn from(raw: u8) -> Self {
-        match raw {
-            1 => Self::FaultClass1,
-            2 => Self::FaultClass2,
-            3 => Self::FaultClass3,
-            4 => Self::CommonFaultF1F2F3,
-            5 => Self::CommonFaultF2F3,
-            6 => Self::IgnitionSpeedReached,
-            7 => Self::GeneratorInRange,
-            8 => Self::BusbarInRange,
-            9 => Self::MainsInRange,
-            10 => Self::AutomaticMode,
-            11 => Self::ManualMode,
-            12 => Self::MainsOverfrequency,
-            13 => Self::MainsUnderfrequency,
-            14 => Self::MainsOvervoltage,
-            15 => Self::MainsUndervoltage,
-            16 => Self::MainsPhaseShift,
-            17 => Self::MainsFrequencyGradient,
-            18 => Self::GeneratorUnderfrequencyStage1,
-            19 => Self::GeneratorOverfrequencyStage1,
-            20 => Self::EngineOverspeedPickup,
-            21 => Self::PickupGeneratorFrequencyDifference,
-            22 => Self::GeneratorUndervoltageStage1,
-            23 => Self::GeneratorOvervoltageStage1,
-            24 => Self::GeneratorOvercurrentStage1,
-            25 => Self::GeneratorOvercurrentStage2,
-            26 => Self::GeneratorUnbalancedLoad,
-            27 => Self::GeneratorOverload,
-            28 => Self::GeneratorReversePower,
-            29 => Self::GeneratorBreakerClosingTimeFault,
-            30 => Self::ReactivePowerCapacitive,
-            31 => Self::ReactivePowerInductive,
-            32 => Self::EarthCurrent,
-            33 => Self::BatteryUndervoltage,
-            34 => Self::InterfaceX1X5Fault,
-            35 => Self::AnalogTerminals93_95Stage1,
-            36 => Self::AnalogTerminals93_95Stage2,
-            37 => Self::AnalogTerminals96_98Stage1,
-            38 => Self::AnalogTerminals96_98Stage2,
-            39 => Self::AnalogTerminals99_101Stage1,
-            40 => Self::AnalogTerminals99_101Stage2,
-            41 => Self::AnalogTerminals102_104Stage1,
-            42 => Self::AnalogTerminals102_104Stage2,
-            43 => Self::AnalogTerminals105_107Stage1,
-            44 => Self::AnalogTerminals105_107Stage2,
-            45 => Self::AnalogTerminals108_110Stage1,
-            46 => Self::AnalogTerminals108_110Stage2,
-            47 => Self::AnalogTerminals111_113Stage1,
-            48 => Self::AnalogTerminals111_113Stage2,
-            49 => Self::AnalogTerminals90_92Stage1,
-            50 => Self::AnalogTerminals90_92Stage2,
-            51 => Self::DigitalInput1,
-            52 => Self::DigitalInput2,
-            53 => Self::DigitalInput3,
-            54 => Self::DigitalInput4,
-            55 => Self::DigitalInput5,
-            56 => Self::DigitalInput6,
-            57 => Self::DigitalInput7,
-            58 => Self::DigitalInput8,
-            59 => Self::DigitalInput9,
-            60 => Self::DigitalInput10,
-            61 => Self::DigitalInput11,
-            62 => Self::DigitalInput12,
-            63 => Self::DigitalInput13,
-            64 => Self::DigitalInput14,
-            65 => Self::DigitalInput15,
-            66 => Self::DigitalInput16,
-            67 => Self::MainsBreakerClosed,
-            68 => Self::GeneratorBreakerClosed,
-            69 => Self::MainsParallelIntended,
-            70 => Self::GeneratorPowerMonitorStage1,
-            71 => Self::MainsFault,
-            72 => Self::OvercurrentInverseTime,
-            73 => Self::AcknowledgeF1,
-            74 => Self::AcknowledgeF2F3,
-            75 => Self::GeneratorUndervoltageStage2,
-            76 => Self::GeneratorOvervoltageStage2,
-            77 => Self::GeneratorUnderfrequencyStage2,
-            78 => Self::GeneratorOverfrequencyStage2,
-            79 => Self::GensetReadyToRun,
-            80 => Self::GeneratorPowerMonitorStage2,
-            81 => Self::InterfaceY1Y5Fault,
-            82 => Self::LoadSheddingGeneratorBreakerClosed,
-            83 => Self::MainsBreakerClosingDone,
-            84 => Self::MainsImportPowerMonitor,
-            85 => Self::MaintenanceCall,
-            86 => Self::MainsBreakerClosingTimeFault,
-            87 => Self::MainsBreakerSynchronisation,
-            88 => Self::LampTest,
-            89 => Self::GeneratorBreakerCloseFault,
-            90 => Self::MainsBreakerCloseFault,
-            91 => Self::GeneratorBreakerOpenFault,
-            92 => Self::MainsBreakerOpenFault,
-            93 => Self::ZeroImportPowerNotReached,
-            94 => Self::DeadBusStartClosingTime,
-            95 => Self::MainsCounterClockwiseField,
-            96 => Self::EngineEnable,
-            97 => Self::AcknowledgeKeyPressed,
-            98 => Self::CommonFault,
-            _ => Self::Unknown(raw),
-        }
-    }
-}
-
-impl From<RelayEvent> for u8 {
-    #[inline]
-    fn from(value: RelayEvent) -> Self {
-        match value {
-            RelayEvent::FaultClass1 => 1,
-            RelayEvent::FaultClass2 => 2,
-            RelayEvent::FaultClass3 => 3,
-            RelayEvent::CommonFaultF1F2F3 => 4,
-            RelayEvent::CommonFaultF2F3 => 5,
-            RelayEvent::IgnitionSpeedReached => 6,
-            RelayEvent::GeneratorInRange => 7,
-            RelayEvent::BusbarInRange => 8,
-            RelayEvent::MainsInRange => 9,
-            RelayEvent::AutomaticMode => 10,
-            RelayEvent::ManualMode => 11,
-            RelayEvent::MainsOverfrequency => 12,
-            RelayEvent::MainsUnderfrequency => 13,
-            RelayEvent::MainsOvervoltage => 14,
-            RelayEvent::MainsUndervoltage => 15,
-            RelayEvent::MainsPhaseShift => 16,
-            RelayEvent::MainsFrequencyGradient => 17,
-            RelayEvent::GeneratorUnderfrequencyStage1 => 18,
-            RelayEvent::GeneratorOverfrequencyStage1 => 19,
-            RelayEvent::EngineOverspeedPickup => 20,
-            RelayEvent::PickupGeneratorFrequencyDifference => 21,
-            RelayEvent::GeneratorUndervoltageStage1 => 22,
-            RelayEvent::GeneratorOvervoltageStage1 => 23,
-            RelayEvent::GeneratorOvercurrentStage1 => 24,
-            RelayEvent::GeneratorOvercurrentStage2 => 25,
-            RelayEvent::GeneratorUnbalancedLoad => 26,
-            RelayEvent::GeneratorOverload => 27,
-            RelayEvent::GeneratorReversePower => 28,
-            RelayEvent::GeneratorBreakerClosingTimeFault => 29,
-            RelayEvent::ReactivePowerCapacitive => 30,
-            RelayEvent::ReactivePowerInductive => 31,
-            RelayEvent::EarthCurrent => 32,
-            RelayEvent::BatteryUndervoltage => 33,
-            RelayEvent::InterfaceX1X5Fault => 34,
-            RelayEvent::AnalogTerminals93_95Stage1 => 35,
-            RelayEvent::AnalogTerminals93_95Stage2 => 36,
-            RelayEvent::AnalogTerminals96_98Stage1 => 37,
-            RelayEvent::AnalogTerminals96_98Stage2 => 38,
-            RelayEvent::AnalogTerminals99_101Stage1 => 39,
-            RelayEvent::AnalogTerminals99_101Stage2 => 40,
-            RelayEvent::AnalogTerminals102_104Stage1 => 41,
-            RelayEvent::AnalogTerminals102_104Stage2 => 42,
-            RelayEvent::AnalogTerminals105_107Stage1 => 43,
-            RelayEvent::AnalogTerminals105_107Stage2 => 44,
-            RelayEvent::AnalogTerminals108_110Stage1 => 45,
-            RelayEvent::AnalogTerminals108_110Stage2 => 46,
-            RelayEvent::AnalogTerminals111_113Stage1 => 47,
-            RelayEvent::AnalogTerminals111_113Stage2 => 48,
-            RelayEvent::AnalogTerminals90_92Stage1 => 49,
-            RelayEvent::AnalogTerminals90_92Stage2 => 50,
-            RelayEvent::DigitalInput1 => 51,
-            RelayEvent::DigitalInput2 => 52,
-            RelayEvent::DigitalInput3 => 53,
-            RelayEvent::DigitalInput4 => 54,
-            RelayEvent::DigitalInput5 => 55,
-            RelayEvent::DigitalInput6 => 56,
-            RelayEvent::DigitalInput7 => 57,
-            RelayEvent::DigitalInput8 => 58,
-            RelayEvent::DigitalInput9 => 59,
-            RelayEvent::DigitalInput10 => 60,
-            RelayEvent::DigitalInput11 => 61,
-            RelayEvent::DigitalInput12 => 62,
-            RelayEvent::DigitalInput13 => 63,
-            RelayEvent::DigitalInput14 => 64,
-            RelayEvent::DigitalInput15 => 65,
-            RelayEvent::DigitalInput16 => 66,
-            RelayEvent::MainsBreakerClosed => 67,
-            RelayEvent::GeneratorBreakerClosed => 68,
-            RelayEvent::MainsParallelIntended => 69,
-            RelayEvent::GeneratorPowerMonitorStage1 => 70,
-            RelayEvent::MainsFault => 71,
-            RelayEvent::OvercurrentInverseTime => 72,
-            RelayEvent::AcknowledgeF1 => 73,
-            RelayEvent::AcknowledgeF2F3 => 74,
-            RelayEvent::GeneratorUndervoltageStage2 => 75,
-            RelayEvent::GeneratorOvervoltageStage2 => 76,
-            RelayEvent::GeneratorUnderfrequencyStage2 => 77,
-            RelayEvent::GeneratorOverfrequencyStage2 => 78,
-            RelayEvent::GensetReadyToRun => 79,
-            RelayEvent::GeneratorPowerMonitorStage2 => 80,
-            RelayEvent::InterfaceY1Y5Fault => 81,
-            RelayEvent::LoadSheddingGeneratorBreakerClosed => 82,
-            RelayEvent::MainsBreakerClosingDone => 83,
-            RelayEvent::MainsImportPowerMonitor => 84,
-            RelayEvent::MaintenanceCall => 85,
-            RelayEvent::MainsBreakerClosingTimeFault => 86,
-            RelayEvent::MainsBreakerSynchronisation => 87,
-            RelayEvent::LampTest => 88,
-            RelayEvent::GeneratorBreakerCloseFault => 89,
-            RelayEvent::MainsBreakerCloseFault => 90,
-            RelayEvent::GeneratorBreakerOpenFault => 91,
-            RelayEvent::MainsBreakerOpenFault => 92,
-            RelayEvent::ZeroImportPowerNotReached => 93,
-            RelayEvent::DeadBusStartClosingTime => 94,
-            RelayEvent::MainsCounterClockwiseField => 95,
-            RelayEvent::EngineEnable => 96,
-            RelayEvent::AcknowledgeKeyPressed => 97,
-            RelayEvent::CommonFault => 98,
-            RelayEvent::Unknown(raw) => raw,
-        }
-    }
+    CommonFault = 98 "common_fault";
 }

@@ -13,8 +13,7 @@
 //! Many points are called as types of Rust are, so import their module and not all of them:
 //!
 //! ```
-//! use woodward_mpu2s::{points as p, telegrams, with, Client, ClientError, Frame, PROFILE, Receiver,
-//!     Transport};
+//! use woodward_mpu2s::{points as p, telegrams, with, Client, ClientError, Frame, Receiver, Transport};
 //!
 //! struct Line; // your port
 //!
@@ -44,7 +43,7 @@
 //!     Ok(())
 //! }
 //!
-//! let mut client = Client::new(Line, &PROFILE, 0);
+//! let mut client = Client::new(Line, 0);
 //! assert!(matches!(talk(&mut client), Err(ClientError::Transport(..)))); // nothing answered
 //!
 //! // What the device sends on its own, frame by frame, goes to a receiver of the telegram.
@@ -80,9 +79,8 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
-pub use fieldscribe_runtime::can::Transport;
-pub use fieldscribe_runtime::can::{AsyncClient, AsyncTransport, Client, ClientError};
-pub use fieldscribe_runtime::can::{Frame, Listener, LocalClient, LocalTransport, Receiver};
+pub use fieldscribe_runtime::can::{AsyncTransport, ClientError, Frame, Listener};
+pub use fieldscribe_runtime::can::{LocalTransport, Receiver, Transport};
 pub use fieldscribe_runtime::{Access, BitGroup, Coded, CountReadable, CountWritable, Encodable};
 pub use fieldscribe_runtime::{Error, Point, PointInfo, Readable, Reading, Scaled, Space, Special};
 pub use fieldscribe_runtime::{Whole, Writable};
@@ -382,8 +380,27 @@ pub const POINTS: &[PointInfo] = runtime::point_table! { points:
     MonitoringStartFrequency
 };
 
+/// The device: its points, its blocks and its clients name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct WoodwardMpu2s;
+
+impl runtime::Device for WoodwardMpu2s {
+    type Profile = Profile;
+    const NAME: &'static str = DEVICE;
+    const PROFILE: &'static Profile = &PROFILE;
+}
+
+/// A device behind a transport that blocks.
+pub type Client<T, L = ()> = runtime::can::Client<T, L, WoodwardMpu2s>;
+
+/// A device behind a transport that does not block.
+pub type AsyncClient<T, L = ()> = runtime::can::AsyncClient<T, L, WoodwardMpu2s>;
+
+/// A device behind a transport of one thread, which does not block.
+pub type LocalClient<T, L = ()> = runtime::can::LocalClient<T, L, WoodwardMpu2s>;
+
 /// What the messages need to know of the device.
-pub static PROFILE: Profile = Profile::new((0, 30), 11, READ, WRITE);
+pub const PROFILE: Profile = Profile::new((0, 30), 11, READ, WRITE);
 
 const READ: Option<Dialogue> = Some(Dialogue {
     request: &messages::READ_REQUEST,

@@ -84,7 +84,7 @@ point! {
     /// Telegram identification.
     ///
     /// At telegram `visualisation` word 0000h (0), `u16`, raw `0..65535`, read only.
-    TelegramIdentification: u16 = "telegram_identification";
+    TelegramIdentification of crate::WoodwardMpu2s: u16 = "telegram_identification";
     at Telegram 0x0000;
     telegram "visualisation";
     const MUX: u32 = 0;
@@ -99,7 +99,7 @@ point! {
     /// Generator frequency.
     ///
     /// At telegram `visualisation` word 0001h (1), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
-    GeneratorFrequency: u16 = "generator_frequency";
+    GeneratorFrequency of crate::WoodwardMpu2s: u16 = "generator_frequency";
     at Telegram 0x0001;
     telegram "visualisation";
     const MUX: u32 = 0;
@@ -117,7 +117,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0002h (2), `s16`, raw `-32768..32767`, value `raw x
     /// 10^generator_power_exponent.raw W`, one count is `1 W`, read only.
-    GeneratorActivePower: i16 = "generator_active_power";
+    GeneratorActivePower of crate::WoodwardMpu2s: i16 = "generator_active_power";
     at Telegram 0x0002;
     telegram "visualisation";
     const MUX: u32 = 0;
@@ -135,7 +135,7 @@ point! {
     ///
     /// `PGNEXPO` at telegram `visualisation` word 0003h (3) bits 15 to 8, `s8`, raw `0..5`, read only.
     #[doc(alias = "PGNEXPO")]
-    GeneratorPowerExponent: i8 = "generator_power_exponent", "PGNEXPO";
+    GeneratorPowerExponent of crate::WoodwardMpu2s: i8 = "generator_power_exponent", "PGNEXPO";
     at Telegram 0x0003;
     telegram "visualisation";
     bits 8 0xFF00 signed_group;
@@ -153,7 +153,7 @@ point! {
     ///
     /// `UGNEXPO` at telegram `visualisation` word 0003h (3) bits 7 to 0, `s8`, raw `-4..4`, read only.
     #[doc(alias = "UGNEXPO")]
-    GeneratorVoltageExponent: i8 = "generator_voltage_exponent", "UGNEXPO";
+    GeneratorVoltageExponent of crate::WoodwardMpu2s: i8 = "generator_voltage_exponent", "UGNEXPO";
     at Telegram 0x0003;
     telegram "visualisation";
     bits 0 0x00FF signed_group;
@@ -172,7 +172,7 @@ point! {
     /// At telegram `visualisation` word 0004h (4), `s16`, raw `-32768..32767`, value `raw / 2800 x
     /// active_power_setpoint_factor.raw x 10^generator_power_exponent.raw W`, one count is `0.0001 W`, read
     /// only.
-    PresentActivePowerSetpoint: i16 = "present_active_power_setpoint";
+    PresentActivePowerSetpoint of crate::WoodwardMpu2s: i16 = "present_active_power_setpoint";
     at Telegram 0x0004;
     telegram "visualisation";
     const MUX: u32 = 1;
@@ -192,7 +192,7 @@ point! {
     ///
     /// `PGNWWD` at telegram `visualisation` word 0005h (5), `u16`, raw `0..65535`, read only.
     #[doc(alias = "PGNWWD")]
-    ActivePowerSetpointFactor: u16 = "active_power_setpoint_factor", "PGNWWD";
+    ActivePowerSetpointFactor of crate::WoodwardMpu2s: u16 = "active_power_setpoint_factor", "PGNWWD";
     at Telegram 0x0005;
     telegram "visualisation";
     const MUX: u32 = 1;
@@ -208,7 +208,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0006h (6), `u16`, raw `0..65535`, value `raw x
     /// 10^busbar_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    BusbarVoltageL1L2: u16 = "busbar_voltage_l1_l2";
+    BusbarVoltageL1L2 of crate::WoodwardMpu2s: u16 = "busbar_voltage_l1_l2";
     at Telegram 0x0006;
     telegram "visualisation";
     const MUX: u32 = 2;
@@ -227,7 +227,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0007h (7), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL1L2: u16 = "mains_voltage_l1_l2";
+    MainsVoltageL1L2 of crate::WoodwardMpu2s: u16 = "mains_voltage_l1_l2";
     at Telegram 0x0007;
     telegram "visualisation";
     const MUX: u32 = 2;
@@ -245,7 +245,7 @@ point! {
     /// Present fault classes.
     ///
     /// At telegram `visualisation` word 0008h (8), `u16`, raw `0..65535`, read only.
-    PresentFaultClasses: u16 = "present_fault_classes";
+    PresentFaultClasses of crate::WoodwardMpu2s: u16 = "present_fault_classes";
     at Telegram 0x0008;
     telegram "visualisation";
     const MUX: u32 = 2;
@@ -260,7 +260,7 @@ point! {
     /// Control register 2.
     ///
     /// At telegram `visualisation` word 0009h (9), `u16`, raw `0..65535`, read only.
-    ControlRegister2: u16 = "control_register_2";
+    ControlRegister2 of crate::WoodwardMpu2s: u16 = "control_register_2";
     at Telegram 0x0009;
     telegram "visualisation";
     const MUX: u32 = 3;
@@ -275,7 +275,7 @@ point! {
     /// Control register 1.
     ///
     /// At telegram `visualisation` word 000Bh (11), `u16`, raw `0..65535`, read only.
-    ControlRegister1: u16 = "control_register_1";
+    ControlRegister1 of crate::WoodwardMpu2s: u16 = "control_register_1";
     at Telegram 0x000B;
     telegram "visualisation";
     const MUX: u32 = 3;
@@ -290,7 +290,7 @@ point! {
     /// Internal faults 8.
     ///
     /// At telegram `visualisation` word 000Ch (12), `u16`, raw `0..65535`, read only.
-    InternalFaults8: u16 = "internal_faults_8";
+    InternalFaults8 of crate::WoodwardMpu2s: u16 = "internal_faults_8";
     at Telegram 0x000C;
     telegram "visualisation";
     const MUX: u32 = 4;
@@ -305,7 +305,7 @@ point! {
     /// Internal faults 6.
     ///
     /// At telegram `visualisation` word 000Dh (13), `u16`, raw `0..65535`, read only.
-    InternalFaults6: u16 = "internal_faults_6";
+    InternalFaults6 of crate::WoodwardMpu2s: u16 = "internal_faults_6";
     at Telegram 0x000D;
     telegram "visualisation";
     const MUX: u32 = 4;
@@ -321,7 +321,7 @@ point! {
     ///
     /// At telegram `visualisation` word 000Eh (14), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL2L3: u16 = "generator_voltage_l2_l3";
+    GeneratorVoltageL2L3 of crate::WoodwardMpu2s: u16 = "generator_voltage_l2_l3";
     at Telegram 0x000E;
     telegram "visualisation";
     const MUX: u32 = 4;
@@ -340,7 +340,7 @@ point! {
     ///
     /// At telegram `visualisation` word 000Fh (15), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL3L1: u16 = "generator_voltage_l3_l1";
+    GeneratorVoltageL3L1 of crate::WoodwardMpu2s: u16 = "generator_voltage_l3_l1";
     at Telegram 0x000F;
     telegram "visualisation";
     const MUX: u32 = 5;
@@ -359,7 +359,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0010h (16), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL1N: u16 = "generator_voltage_l1_n";
+    GeneratorVoltageL1N of crate::WoodwardMpu2s: u16 = "generator_voltage_l1_n";
     at Telegram 0x0010;
     telegram "visualisation";
     const MUX: u32 = 5;
@@ -378,7 +378,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0011h (17), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL2N: u16 = "generator_voltage_l2_n";
+    GeneratorVoltageL2N of crate::WoodwardMpu2s: u16 = "generator_voltage_l2_n";
     at Telegram 0x0011;
     telegram "visualisation";
     const MUX: u32 = 5;
@@ -397,7 +397,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0012h (18), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL3N: u16 = "generator_voltage_l3_n";
+    GeneratorVoltageL3N of crate::WoodwardMpu2s: u16 = "generator_voltage_l3_n";
     at Telegram 0x0012;
     telegram "visualisation";
     const MUX: u32 = 6;
@@ -416,7 +416,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0013h (19), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    GeneratorVoltageL1L2: u16 = "generator_voltage_l1_l2";
+    GeneratorVoltageL1L2 of crate::WoodwardMpu2s: u16 = "generator_voltage_l1_l2";
     at Telegram 0x0013;
     telegram "visualisation";
     const MUX: u32 = 6;
@@ -435,7 +435,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0015h (21), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
-    GeneratorCurrentL1: u16 = "generator_current_l1";
+    GeneratorCurrentL1 of crate::WoodwardMpu2s: u16 = "generator_current_l1";
     at Telegram 0x0015;
     telegram "visualisation";
     const MUX: u32 = 7;
@@ -454,7 +454,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0016h (22), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
-    GeneratorCurrentL2: u16 = "generator_current_l2";
+    GeneratorCurrentL2 of crate::WoodwardMpu2s: u16 = "generator_current_l2";
     at Telegram 0x0016;
     telegram "visualisation";
     const MUX: u32 = 7;
@@ -473,7 +473,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0017h (23), `u16`, raw `0..65535`, value `raw x
     /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
-    GeneratorCurrentL3: u16 = "generator_current_l3";
+    GeneratorCurrentL3 of crate::WoodwardMpu2s: u16 = "generator_current_l3";
     at Telegram 0x0017;
     telegram "visualisation";
     const MUX: u32 = 7;
@@ -491,7 +491,7 @@ point! {
     /// Generator cos phi.
     ///
     /// At telegram `visualisation` word 0019h (25), `s16`, raw `-32768..32767`, one count is `0.01`, read only.
-    GeneratorCosPhi: i16 = "generator_cos_phi";
+    GeneratorCosPhi of crate::WoodwardMpu2s: i16 = "generator_cos_phi";
     at Telegram 0x0019;
     telegram "visualisation";
     const MUX: u32 = 8;
@@ -507,7 +507,7 @@ point! {
     /// Load sharing participants.
     ///
     /// At telegram `visualisation` word 001Ch (28), `u16`, raw `0..65535`, read only.
-    LoadSharingParticipants: u16 = "load_sharing_participants";
+    LoadSharingParticipants of crate::WoodwardMpu2s: u16 = "load_sharing_participants";
     at Telegram 0x001C;
     telegram "visualisation";
     const MUX: u32 = 9;
@@ -522,7 +522,7 @@ point! {
     /// Mains state.
     ///
     /// At telegram `visualisation` word 001Dh (29) bits 15 to 8, `u8`, raw `0, 255`, read only.
-    MainsState: u8 = "mains_state";
+    MainsState of crate::WoodwardMpu2s: u8 = "mains_state";
     at Telegram 0x001D;
     telegram "visualisation";
     bits 8 0xFF00 group;
@@ -538,7 +538,7 @@ point! {
     /// Generator state.
     ///
     /// At telegram `visualisation` word 001Dh (29) bits 7 to 0, `u8`, raw `0, 255`, read only.
-    GeneratorState: u8 = "generator_state";
+    GeneratorState of crate::WoodwardMpu2s: u8 = "generator_state";
     at Telegram 0x001D;
     telegram "visualisation";
     bits 0 0x00FF group;
@@ -555,7 +555,7 @@ point! {
     ///
     /// `IGNEXPO` at telegram `visualisation` word 001Eh (30) bits 15 to 8, `s8`, raw `-3..3`, read only.
     #[doc(alias = "IGNEXPO")]
-    GeneratorCurrentExponent: i8 = "generator_current_exponent", "IGNEXPO";
+    GeneratorCurrentExponent of crate::WoodwardMpu2s: i8 = "generator_current_exponent", "IGNEXPO";
     at Telegram 0x001E;
     telegram "visualisation";
     bits 8 0xFF00 signed_group;
@@ -572,7 +572,7 @@ point! {
     /// Busbar frequency.
     ///
     /// At telegram `visualisation` word 001Fh (31), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
-    BusbarFrequency: u16 = "busbar_frequency";
+    BusbarFrequency of crate::WoodwardMpu2s: u16 = "busbar_frequency";
     at Telegram 0x001F;
     telegram "visualisation";
     const MUX: u32 = 10;
@@ -589,7 +589,7 @@ point! {
     /// Busbar state.
     ///
     /// At telegram `visualisation` word 0020h (32) bits 15 to 8, `u8`, raw `0, 255`, read only.
-    BusbarState: u8 = "busbar_state";
+    BusbarState of crate::WoodwardMpu2s: u8 = "busbar_state";
     at Telegram 0x0020;
     telegram "visualisation";
     bits 8 0xFF00 group;
@@ -606,7 +606,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0021h (33), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL2L3: u16 = "mains_voltage_l2_l3";
+    MainsVoltageL2L3 of crate::WoodwardMpu2s: u16 = "mains_voltage_l2_l3";
     at Telegram 0x0021;
     telegram "visualisation";
     const MUX: u32 = 11;
@@ -625,7 +625,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0022h (34), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL3L1: u16 = "mains_voltage_l3_l1";
+    MainsVoltageL3L1 of crate::WoodwardMpu2s: u16 = "mains_voltage_l3_l1";
     at Telegram 0x0022;
     telegram "visualisation";
     const MUX: u32 = 11;
@@ -644,7 +644,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0023h (35), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL1N: u16 = "mains_voltage_l1_n";
+    MainsVoltageL1N of crate::WoodwardMpu2s: u16 = "mains_voltage_l1_n";
     at Telegram 0x0023;
     telegram "visualisation";
     const MUX: u32 = 11;
@@ -663,7 +663,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0024h (36), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL2N: u16 = "mains_voltage_l2_n";
+    MainsVoltageL2N of crate::WoodwardMpu2s: u16 = "mains_voltage_l2_n";
     at Telegram 0x0024;
     telegram "visualisation";
     const MUX: u32 = 12;
@@ -682,7 +682,7 @@ point! {
     ///
     /// At telegram `visualisation` word 0025h (37), `u16`, raw `0..65535`, value `raw x
     /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
-    MainsVoltageL3N: u16 = "mains_voltage_l3_n";
+    MainsVoltageL3N of crate::WoodwardMpu2s: u16 = "mains_voltage_l3_n";
     at Telegram 0x0025;
     telegram "visualisation";
     const MUX: u32 = 12;
@@ -700,7 +700,7 @@ point! {
     /// Mains frequency.
     ///
     /// At telegram `visualisation` word 0026h (38), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
-    MainsFrequency: u16 = "mains_frequency";
+    MainsFrequency of crate::WoodwardMpu2s: u16 = "mains_frequency";
     at Telegram 0x0026;
     telegram "visualisation";
     const MUX: u32 = 12;
@@ -718,7 +718,7 @@ point! {
     ///
     /// `UNTEXPO` at telegram `visualisation` word 002Ah (42) bits 7 to 0, `s8`, raw `-4..4`, read only.
     #[doc(alias = "UNTEXPO")]
-    MainsVoltageExponent: i8 = "mains_voltage_exponent", "UNTEXPO";
+    MainsVoltageExponent of crate::WoodwardMpu2s: i8 = "mains_voltage_exponent", "UNTEXPO";
     at Telegram 0x002A;
     telegram "visualisation";
     bits 0 0x00FF signed_group;
@@ -736,7 +736,7 @@ point! {
     ///
     /// `USSEXPO` at telegram `visualisation` word 002Bh (43) bits 7 to 0, `s8`, raw `-4..4`, read only.
     #[doc(alias = "USSEXPO")]
-    BusbarVoltageExponent: i8 = "busbar_voltage_exponent", "USSEXPO";
+    BusbarVoltageExponent of crate::WoodwardMpu2s: i8 = "busbar_voltage_exponent", "USSEXPO";
     at Telegram 0x002B;
     telegram "visualisation";
     bits 0 0x00FF signed_group;
@@ -753,7 +753,7 @@ point! {
     /// Operating hours.
     ///
     /// At telegram `visualisation` word 002Ch (44), `u32`, raw `0..4294967295`, read only.
-    OperatingHours: u32 = "operating_hours";
+    OperatingHours of crate::WoodwardMpu2s: u32 = "operating_hours";
     at Telegram 0x002C;
     addresses [0x002C, 0x002D];
     words 2;
@@ -771,7 +771,7 @@ point! {
     /// Hours until maintenance.
     ///
     /// At telegram `visualisation` word 002Eh (46), `u16`, raw `0..65535`, read only.
-    HoursUntilMaintenance: u16 = "hours_until_maintenance";
+    HoursUntilMaintenance of crate::WoodwardMpu2s: u16 = "hours_until_maintenance";
     at Telegram 0x002E;
     telegram "visualisation";
     const MUX: u32 = 15;
@@ -787,7 +787,7 @@ point! {
     /// Engine start counter.
     ///
     /// At telegram `visualisation` word 002Fh (47), `u16`, raw `0..65535`, read only.
-    EngineStartCounter: u16 = "engine_start_counter";
+    EngineStartCounter of crate::WoodwardMpu2s: u16 = "engine_start_counter";
     at Telegram 0x002F;
     telegram "visualisation";
     const MUX: u32 = 15;
@@ -802,7 +802,7 @@ point! {
     /// Generator active energy.
     ///
     /// At telegram `visualisation` word 0031h (49), `u32`, raw `0..4294967295`, read only.
-    GeneratorActiveEnergy: u32 = "generator_active_energy";
+    GeneratorActiveEnergy of crate::WoodwardMpu2s: u32 = "generator_active_energy";
     at Telegram 0x0031;
     addresses [0x0031, 0x0032];
     words 2;
@@ -820,7 +820,7 @@ point! {
     /// Battery voltage.
     ///
     /// At telegram `visualisation` word 0033h (51), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
-    BatteryVoltage: u16 = "battery_voltage";
+    BatteryVoltage of crate::WoodwardMpu2s: u16 = "battery_voltage";
     at Telegram 0x0033;
     telegram "visualisation";
     const MUX: u32 = 17;
@@ -837,7 +837,7 @@ point! {
     /// Internal faults 1.
     ///
     /// At telegram `visualisation` word 0034h (52), `u16`, raw `0..65535`, read only.
-    InternalFaults1: u16 = "internal_faults_1";
+    InternalFaults1 of crate::WoodwardMpu2s: u16 = "internal_faults_1";
     at Telegram 0x0034;
     telegram "visualisation";
     const MUX: u32 = 17;
@@ -852,7 +852,7 @@ point! {
     /// Internal faults 2.
     ///
     /// At telegram `visualisation` word 0035h (53), `u16`, raw `0..65535`, read only.
-    InternalFaults2: u16 = "internal_faults_2";
+    InternalFaults2 of crate::WoodwardMpu2s: u16 = "internal_faults_2";
     at Telegram 0x0035;
     telegram "visualisation";
     const MUX: u32 = 17;
@@ -867,7 +867,7 @@ point! {
     /// Internal faults 3.
     ///
     /// At telegram `visualisation` word 0036h (54), `u16`, raw `0..65535`, read only.
-    InternalFaults3: u16 = "internal_faults_3";
+    InternalFaults3 of crate::WoodwardMpu2s: u16 = "internal_faults_3";
     at Telegram 0x0036;
     telegram "visualisation";
     const MUX: u32 = 18;
@@ -882,7 +882,7 @@ point! {
     /// Internal faults 4.
     ///
     /// At telegram `visualisation` word 0037h (55), `u16`, raw `0..65535`, read only.
-    InternalFaults4: u16 = "internal_faults_4";
+    InternalFaults4 of crate::WoodwardMpu2s: u16 = "internal_faults_4";
     at Telegram 0x0037;
     telegram "visualisation";
     const MUX: u32 = 18;
@@ -897,7 +897,7 @@ point! {
     /// Internal faults 5.
     ///
     /// At telegram `visualisation` word 0038h (56), `u16`, raw `0..65535`, read only.
-    InternalFaults5: u16 = "internal_faults_5";
+    InternalFaults5 of crate::WoodwardMpu2s: u16 = "internal_faults_5";
     at Telegram 0x0038;
     telegram "visualisation";
     const MUX: u32 = 18;
@@ -912,7 +912,7 @@ point! {
     /// Digital input faults 1 to 8.
     ///
     /// At telegram `visualisation` word 0039h (57), `u16`, raw `0..65535`, read only.
-    DigitalInputFaults1To8: u16 = "digital_input_faults_1_to_8";
+    DigitalInputFaults1To8 of crate::WoodwardMpu2s: u16 = "digital_input_faults_1_to_8";
     at Telegram 0x0039;
     telegram "visualisation";
     const MUX: u32 = 19;
@@ -927,7 +927,7 @@ point! {
     /// Digital input faults 9 to 16.
     ///
     /// At telegram `visualisation` word 003Ah (58), `u16`, raw `0..65535`, read only.
-    DigitalInputFaults9To16: u16 = "digital_input_faults_9_to_16";
+    DigitalInputFaults9To16 of crate::WoodwardMpu2s: u16 = "digital_input_faults_9_to_16";
     at Telegram 0x003A;
     telegram "visualisation";
     const MUX: u32 = 19;
@@ -942,7 +942,7 @@ point! {
     /// Internal faults 7.
     ///
     /// At telegram `visualisation` word 003Bh (59), `u16`, raw `0..65535`, read only.
-    InternalFaults7: u16 = "internal_faults_7";
+    InternalFaults7 of crate::WoodwardMpu2s: u16 = "internal_faults_7";
     at Telegram 0x003B;
     telegram "visualisation";
     const MUX: u32 = 19;
@@ -957,7 +957,7 @@ point! {
     /// Password level 2.
     ///
     /// At parameter 01F4h (500), `u16`, raw `0..9999`, read and write.
-    PasswordLevel2: u16 = "password_level_2";
+    PasswordLevel2 of crate::WoodwardMpu2s: u16 = "password_level_2";
     at Parameter 0x01F4;
     raw 0..=9999;
     => value u16 as plain();
@@ -971,7 +971,7 @@ point! {
     ///
     /// At parameter 000Bh (11), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorFrequencySetpoint: u16 = "generator_frequency_setpoint";
+    GeneratorFrequencySetpoint of crate::WoodwardMpu2s: u16 = "generator_frequency_setpoint";
     at Parameter 0x000B;
     unit "Hz";
     decimals 3;
@@ -987,7 +987,7 @@ point! {
     ///
     /// At parameter 000Ch (12), `u16`, raw `12800..15360`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorRatedFrequency: u16 = "generator_rated_frequency";
+    GeneratorRatedFrequency of crate::WoodwardMpu2s: u16 = "generator_rated_frequency";
     at Parameter 0x000C;
     unit "Hz";
     decimals 3;
@@ -1002,7 +1002,7 @@ point! {
     /// Generator vt secondary 100v.
     ///
     /// At parameter 0009h (9), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-    GeneratorVtSecondary100v: u16 = "generator_vt_secondary_100v";
+    GeneratorVtSecondary100v of crate::WoodwardMpu2s: u16 = "generator_vt_secondary_100v";
     at Parameter 0x0009;
     unit "V";
     raw 50..=125;
@@ -1016,7 +1016,7 @@ point! {
     /// Generator vt secondary 400v.
     ///
     /// At parameter 0009h (9), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-    GeneratorVtSecondary400v: u16 = "generator_vt_secondary_400v";
+    GeneratorVtSecondary400v of crate::WoodwardMpu2s: u16 = "generator_vt_secondary_400v";
     at Parameter 0x0009;
     unit "V";
     raw 50..=480;
@@ -1030,7 +1030,7 @@ point! {
     /// Generator vt primary.
     ///
     /// At parameter 0001h (1), `u16`, raw `5..65000`, read and write.
-    GeneratorVtPrimary: u16 = "generator_vt_primary";
+    GeneratorVtPrimary of crate::WoodwardMpu2s: u16 = "generator_vt_primary";
     at Parameter 0x0001;
     unit "V";
     raw 5..=65_000;
@@ -1044,7 +1044,7 @@ point! {
     /// Busbar vt secondary 100v.
     ///
     /// At parameter 01F2h (498), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-    BusbarVtSecondary100v: u16 = "busbar_vt_secondary_100v";
+    BusbarVtSecondary100v of crate::WoodwardMpu2s: u16 = "busbar_vt_secondary_100v";
     at Parameter 0x01F2;
     unit "V";
     raw 50..=125;
@@ -1058,7 +1058,7 @@ point! {
     /// Busbar vt secondary 400v.
     ///
     /// At parameter 01F2h (498), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-    BusbarVtSecondary400v: u16 = "busbar_vt_secondary_400v";
+    BusbarVtSecondary400v of crate::WoodwardMpu2s: u16 = "busbar_vt_secondary_400v";
     at Parameter 0x01F2;
     unit "V";
     raw 50..=480;
@@ -1072,7 +1072,7 @@ point! {
     /// Busbar vt primary.
     ///
     /// At parameter 01F3h (499), `u16`, raw `5..65000`, read and write.
-    BusbarVtPrimary: u16 = "busbar_vt_primary";
+    BusbarVtPrimary of crate::WoodwardMpu2s: u16 = "busbar_vt_primary";
     at Parameter 0x01F3;
     unit "V";
     raw 5..=65_000;
@@ -1086,7 +1086,7 @@ point! {
     /// Mains vt secondary 100v.
     ///
     /// At parameter 011Ah (282), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-    MainsVtSecondary100v: u16 = "mains_vt_secondary_100v";
+    MainsVtSecondary100v of crate::WoodwardMpu2s: u16 = "mains_vt_secondary_100v";
     at Parameter 0x011A;
     unit "V";
     raw 50..=125;
@@ -1100,7 +1100,7 @@ point! {
     /// Mains vt secondary 400v.
     ///
     /// At parameter 011Ah (282), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-    MainsVtSecondary400v: u16 = "mains_vt_secondary_400v";
+    MainsVtSecondary400v of crate::WoodwardMpu2s: u16 = "mains_vt_secondary_400v";
     at Parameter 0x011A;
     unit "V";
     raw 50..=480;
@@ -1114,7 +1114,7 @@ point! {
     /// Mains vt primary.
     ///
     /// At parameter 0003h (3), `u16`, raw `5..65000`, read and write.
-    MainsVtPrimary: u16 = "mains_vt_primary";
+    MainsVtPrimary of crate::WoodwardMpu2s: u16 = "mains_vt_primary";
     at Parameter 0x0003;
     unit "V";
     raw 5..=65_000;
@@ -1129,7 +1129,7 @@ point! {
     ///
     /// `KWUGNSEK` at parameter 01FBh (507), `u16`, raw `0..65535`, read only.
     #[doc(alias = "KWUGNSEK")]
-    GeneratorVoltageFactor: u16 = "generator_voltage_factor", "KWUGNSEK";
+    GeneratorVoltageFactor of crate::WoodwardMpu2s: u16 = "generator_voltage_factor", "KWUGNSEK";
     at Parameter 0x01FB;
     => value u16 as plain();
     read { count i32; }
@@ -1142,7 +1142,7 @@ point! {
     /// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480,
     /// generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, one count
     /// is `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorVoltageSetpoint100v: u16 = "generator_voltage_setpoint_100v";
+    GeneratorVoltageSetpoint100v of crate::WoodwardMpu2s: u16 = "generator_voltage_setpoint_100v";
     at Parameter 0x000A;
     unit "V";
     decimals 3;
@@ -1169,7 +1169,7 @@ point! {
     /// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw
     /// x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorVoltageSetpoint400v: u16 = "generator_voltage_setpoint_400v";
+    GeneratorVoltageSetpoint400v of crate::WoodwardMpu2s: u16 = "generator_voltage_setpoint_400v";
     at Parameter 0x000A;
     unit "V";
     decimals 3;
@@ -1195,7 +1195,7 @@ point! {
     /// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480,
     /// generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, one count
     /// is `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorRatedVoltage100v: u16 = "generator_rated_voltage_100v";
+    GeneratorRatedVoltage100v of crate::WoodwardMpu2s: u16 = "generator_rated_voltage_100v";
     at Parameter 0x0128;
     unit "V";
     decimals 3;
@@ -1222,7 +1222,7 @@ point! {
     /// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw
     /// x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorRatedVoltage400v: u16 = "generator_rated_voltage_400v";
+    GeneratorRatedVoltage400v of crate::WoodwardMpu2s: u16 = "generator_rated_voltage_400v";
     at Parameter 0x0128;
     unit "V";
     decimals 3;
@@ -1246,7 +1246,7 @@ point! {
     /// Generator current transformer ratio.
     ///
     /// At parameter 0002h (2), `u16`, raw `10..7000`, read and write.
-    GeneratorCurrentTransformerRatio: u16 = "generator_current_transformer_ratio";
+    GeneratorCurrentTransformerRatio of crate::WoodwardMpu2s: u16 = "generator_current_transformer_ratio";
     at Parameter 0x0002;
     unit "A";
     raw 10..=7000;
@@ -1260,7 +1260,7 @@ point! {
     /// Power measurement phases.
     ///
     /// At parameter 0015h (21) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-    PowerMeasurementPhases: u8 = "power_measurement_phases";
+    PowerMeasurementPhases of crate::WoodwardMpu2s: u8 = "power_measurement_phases";
     at Parameter 0x0015;
     bits 11 0x0800 group;
     raw 0..=1;
@@ -1274,7 +1274,7 @@ point! {
     /// Generator rated power.
     ///
     /// At parameter 0007h (7), `u16`, raw `5..9999`, read and write.
-    GeneratorRatedPower: u16 = "generator_rated_power";
+    GeneratorRatedPower of crate::WoodwardMpu2s: u16 = "generator_rated_power";
     at Parameter 0x0007;
     unit "kW";
     raw 5..=9999;
@@ -1288,7 +1288,7 @@ point! {
     /// Generator rated current.
     ///
     /// At parameter 0047h (71), `u16`, raw `0..7000`, read and write.
-    GeneratorRatedCurrent: u16 = "generator_rated_current";
+    GeneratorRatedCurrent of crate::WoodwardMpu2s: u16 = "generator_rated_current";
     at Parameter 0x0047;
     unit "A";
     raw 0..=7000;
@@ -1302,7 +1302,7 @@ point! {
     /// Generator power setpoint 1.
     ///
     /// At parameter 0045h (69), `s16`, raw `-9999..9999`, read and write.
-    GeneratorPowerSetpoint1: i16 = "generator_power_setpoint_1";
+    GeneratorPowerSetpoint1 of crate::WoodwardMpu2s: i16 = "generator_power_setpoint_1";
     at Parameter 0x0045;
     unit "kW";
     raw -9999..=9999;
@@ -1316,7 +1316,7 @@ point! {
     /// Generator power setpoint 2.
     ///
     /// At parameter 0046h (70), `s16`, raw `-9999..9999`, read and write.
-    GeneratorPowerSetpoint2: i16 = "generator_power_setpoint_2";
+    GeneratorPowerSetpoint2 of crate::WoodwardMpu2s: i16 = "generator_power_setpoint_2";
     at Parameter 0x0046;
     unit "kW";
     raw -9999..=9999;
@@ -1330,7 +1330,7 @@ point! {
     /// Frequency controller.
     ///
     /// At parameter 0013h (19) bits 15 to 14, `u8`, raw `0, 3`, read and write.
-    FrequencyController: u8 = "frequency_controller";
+    FrequencyController of crate::WoodwardMpu2s: u8 = "frequency_controller";
     at Parameter 0x0013;
     bits 14 0xC000 group;
     raw 0..=3;
@@ -1345,7 +1345,7 @@ point! {
     ///
     /// At parameter 0039h (57), `u16`, raw `0..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
     /// and write.
-    FrequencyControllerStartFrequency: u16 = "frequency_controller_start_frequency";
+    FrequencyControllerStartFrequency of crate::WoodwardMpu2s: u16 = "frequency_controller_start_frequency";
     at Parameter 0x0039;
     unit "Hz";
     decimals 3;
@@ -1361,7 +1361,7 @@ point! {
     ///
     /// At parameter 01F1h (497), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    FrequencyControllerStartDelay: u16 = "frequency_controller_start_delay";
+    FrequencyControllerStartDelay of crate::WoodwardMpu2s: u16 = "frequency_controller_start_delay";
     at Parameter 0x01F1;
     unit "s";
     decimals 2;
@@ -1377,7 +1377,7 @@ point! {
     ///
     /// At parameter 002Ch (44), `u16`, raw `5..256`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
     /// and write.
-    FrequencyControllerDeadBand: u16 = "frequency_controller_dead_band";
+    FrequencyControllerDeadBand of crate::WoodwardMpu2s: u16 = "frequency_controller_dead_band";
     at Parameter 0x002C;
     unit "Hz";
     decimals 3;
@@ -1392,7 +1392,7 @@ point! {
     /// Frequency controller pulse time.
     ///
     /// At parameter 002Dh (45), `u16`, raw `5..125`, steps of `2 ms`, one count is `1 ms`, read and write.
-    FrequencyControllerPulseTime: u16 = "frequency_controller_pulse_time";
+    FrequencyControllerPulseTime of crate::WoodwardMpu2s: u16 = "frequency_controller_pulse_time";
     at Parameter 0x002D;
     unit "ms";
     raw 5..=125;
@@ -1406,7 +1406,7 @@ point! {
     /// Frequency controller gain.
     ///
     /// At parameter 002Eh (46), `u16`, raw `1..999`, one count is `0.1`, read and write.
-    FrequencyControllerGain: u16 = "frequency_controller_gain";
+    FrequencyControllerGain of crate::WoodwardMpu2s: u16 = "frequency_controller_gain";
     at Parameter 0x002E;
     decimals 1;
     raw 1..=999;
@@ -1420,7 +1420,7 @@ point! {
     /// Voltage controller.
     ///
     /// At parameter 0013h (19) bits 11 to 10, `u8`, raw `0, 3`, read and write.
-    VoltageController: u8 = "voltage_controller";
+    VoltageController of crate::WoodwardMpu2s: u8 = "voltage_controller";
     at Parameter 0x0013;
     bits 10 0x0C00 group;
     raw 0..=3;
@@ -1434,7 +1434,7 @@ point! {
     /// Voltage controller dead band.
     ///
     /// At parameter 0025h (37), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and write.
-    VoltageControllerDeadBand: u16 = "voltage_controller_dead_band";
+    VoltageControllerDeadBand of crate::WoodwardMpu2s: u16 = "voltage_controller_dead_band";
     at Parameter 0x0025;
     unit "%";
     decimals 2;
@@ -1449,7 +1449,7 @@ point! {
     /// Voltage controller pulse time.
     ///
     /// At parameter 0026h (38), `u16`, raw `10..125`, steps of `2 ms`, one count is `1 ms`, read and write.
-    VoltageControllerPulseTime: u16 = "voltage_controller_pulse_time";
+    VoltageControllerPulseTime of crate::WoodwardMpu2s: u16 = "voltage_controller_pulse_time";
     at Parameter 0x0026;
     unit "ms";
     raw 10..=125;
@@ -1463,7 +1463,7 @@ point! {
     /// Voltage controller gain.
     ///
     /// At parameter 0027h (39), `u16`, raw `1..999`, one count is `0.1`, read and write.
-    VoltageControllerGain: u16 = "voltage_controller_gain";
+    VoltageControllerGain of crate::WoodwardMpu2s: u16 = "voltage_controller_gain";
     at Parameter 0x0027;
     decimals 1;
     raw 1..=999;
@@ -1477,7 +1477,7 @@ point! {
     /// Cos phi controller.
     ///
     /// At parameter 0013h (19) bits 9 to 8, `u8`, raw `0, 3`, read and write.
-    CosPhiController: u8 = "cos_phi_controller";
+    CosPhiController of crate::WoodwardMpu2s: u8 = "cos_phi_controller";
     at Parameter 0x0013;
     bits 8 0x0300 group;
     raw 0..=3;
@@ -1491,7 +1491,7 @@ point! {
     /// Cos phi controller setpoint.
     ///
     /// At parameter 000Dh (13), `s16`, raw `-99..-70 or 70..100`, one count is `0.01`, read and write.
-    CosPhiControllerSetpoint: i16 = "cos_phi_controller_setpoint";
+    CosPhiControllerSetpoint of crate::WoodwardMpu2s: i16 = "cos_phi_controller_setpoint";
     at Parameter 0x000D;
     decimals 2;
     raw -99..=100;
@@ -1505,7 +1505,7 @@ point! {
     /// Cos phi controller dead band.
     ///
     /// At parameter 0028h (40), `u16`, raw `5..250`, one count is `0.1 %`, read and write.
-    CosPhiControllerDeadBand: u16 = "cos_phi_controller_dead_band";
+    CosPhiControllerDeadBand of crate::WoodwardMpu2s: u16 = "cos_phi_controller_dead_band";
     at Parameter 0x0028;
     unit "%";
     decimals 1;
@@ -1520,7 +1520,7 @@ point! {
     /// Cos phi controller gain.
     ///
     /// At parameter 002Ah (42), `u16`, raw `1..999`, one count is `0.1`, read and write.
-    CosPhiControllerGain: u16 = "cos_phi_controller_gain";
+    CosPhiControllerGain of crate::WoodwardMpu2s: u16 = "cos_phi_controller_gain";
     at Parameter 0x002A;
     decimals 1;
     raw 1..=999;
@@ -1534,7 +1534,7 @@ point! {
     /// Active power controller.
     ///
     /// At parameter 0013h (19) bits 13 to 12, `u8`, raw `0, 3`, read and write.
-    ActivePowerController: u8 = "active_power_controller";
+    ActivePowerController of crate::WoodwardMpu2s: u8 = "active_power_controller";
     at Parameter 0x0013;
     bits 12 0x3000 group;
     raw 0..=3;
@@ -1548,7 +1548,7 @@ point! {
     /// Active power controller ramp.
     ///
     /// At parameter 0043h (67), `u16`, raw `0..100`, read and write.
-    ActivePowerControllerRamp: u16 = "active_power_controller_ramp";
+    ActivePowerControllerRamp of crate::WoodwardMpu2s: u16 = "active_power_controller_ramp";
     at Parameter 0x0043;
     unit "%/s";
     raw 0..=100;
@@ -1562,7 +1562,7 @@ point! {
     /// Active power controller maximum.
     ///
     /// At parameter 0049h (73), `u16`, raw `100..1200`, one count is `0.1 %`, read and write.
-    ActivePowerControllerMaximum: u16 = "active_power_controller_maximum";
+    ActivePowerControllerMaximum of crate::WoodwardMpu2s: u16 = "active_power_controller_maximum";
     at Parameter 0x0049;
     unit "%";
     decimals 1;
@@ -1577,7 +1577,7 @@ point! {
     /// Active power controller minimum.
     ///
     /// At parameter 004Ah (74), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
-    ActivePowerControllerMinimum: u16 = "active_power_controller_minimum";
+    ActivePowerControllerMinimum of crate::WoodwardMpu2s: u16 = "active_power_controller_minimum";
     at Parameter 0x004A;
     unit "%";
     decimals 1;
@@ -1592,7 +1592,7 @@ point! {
     /// Active power controller dead band.
     ///
     /// At parameter 002Fh (47), `u16`, raw `1..250`, one count is `0.1 %`, read and write.
-    ActivePowerControllerDeadBand: u16 = "active_power_controller_dead_band";
+    ActivePowerControllerDeadBand of crate::WoodwardMpu2s: u16 = "active_power_controller_dead_band";
     at Parameter 0x002F;
     unit "%";
     decimals 1;
@@ -1607,7 +1607,7 @@ point! {
     /// Active power controller gain.
     ///
     /// At parameter 0031h (49), `u16`, raw `1..999`, one count is `0.1`, read and write.
-    ActivePowerControllerGain: u16 = "active_power_controller_gain";
+    ActivePowerControllerGain of crate::WoodwardMpu2s: u16 = "active_power_controller_gain";
     at Parameter 0x0031;
     decimals 1;
     raw 1..=999;
@@ -1621,7 +1621,7 @@ point! {
     /// Active power controller reduction factor.
     ///
     /// At parameter 0032h (50), `u16`, raw `10..99`, one count is `0.1`, read and write.
-    ActivePowerControllerReductionFactor: u16 = "active_power_controller_reduction_factor";
+    ActivePowerControllerReductionFactor of crate::WoodwardMpu2s: u16 = "active_power_controller_reduction_factor";
     at Parameter 0x0032;
     decimals 1;
     raw 10..=99;
@@ -1635,7 +1635,7 @@ point! {
     /// Part load lead setpoint.
     ///
     /// At parameter 004Ch (76), `u16`, raw `50..1100`, one count is `0.1 %`, read and write.
-    PartLoadLeadSetpoint: u16 = "part_load_lead_setpoint";
+    PartLoadLeadSetpoint of crate::WoodwardMpu2s: u16 = "part_load_lead_setpoint";
     at Parameter 0x004C;
     unit "%";
     decimals 1;
@@ -1651,7 +1651,7 @@ point! {
     ///
     /// At parameter 004Bh (75), `u16`, raw `0..30000`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    PartLoadLeadTime: u16 = "part_load_lead_time";
+    PartLoadLeadTime of crate::WoodwardMpu2s: u16 = "part_load_lead_time";
     at Parameter 0x004B;
     unit "s";
     decimals 2;
@@ -1666,7 +1666,7 @@ point! {
     /// Control by interface x1 x5.
     ///
     /// At parameter 00C9h (201) bits 7 to 6, `u8`, raw `0, 3`, read and write.
-    ControlByInterfaceX1X5: u8 = "control_by_interface_x1_x5";
+    ControlByInterfaceX1X5 of crate::WoodwardMpu2s: u8 = "control_by_interface_x1_x5";
     at Parameter 0x00C9;
     bits 6 0x00C0 group;
     raw 0..=3;
@@ -1680,7 +1680,7 @@ point! {
     /// Breaker logic.
     ///
     /// At parameter 0010h (16) bits 11 to 8, `u8`, raw `0, 1`, read and write.
-    BreakerLogic: u8 = "breaker_logic";
+    BreakerLogic of crate::WoodwardMpu2s: u8 = "breaker_logic";
     at Parameter 0x0010;
     bits 8 0x0F00 group;
     raw 0..=1;
@@ -1695,7 +1695,7 @@ point! {
     ///
     /// At parameter 008Dh (141), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    LoadRampMaximumTime: u16 = "load_ramp_maximum_time";
+    LoadRampMaximumTime of crate::WoodwardMpu2s: u16 = "load_ramp_maximum_time";
     at Parameter 0x008D;
     unit "s";
     decimals 2;
@@ -1710,7 +1710,7 @@ point! {
     /// Generator breaker signal logic.
     ///
     /// At parameter 0015h (21) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-    GeneratorBreakerSignalLogic: u8 = "generator_breaker_signal_logic";
+    GeneratorBreakerSignalLogic of crate::WoodwardMpu2s: u8 = "generator_breaker_signal_logic";
     at Parameter 0x0015;
     bits 3 0x0008 group;
     raw 0..=1;
@@ -1724,7 +1724,7 @@ point! {
     /// Generator breaker open relay logic.
     ///
     /// At parameter 00F8h (248) bits 2 to 2, `bit`, raw `0, 1`, read and write.
-    GeneratorBreakerOpenRelayLogic: u8 = "generator_breaker_open_relay_logic";
+    GeneratorBreakerOpenRelayLogic of crate::WoodwardMpu2s: u8 = "generator_breaker_open_relay_logic";
     at Parameter 0x00F8;
     bits 2 0x0004 group;
     raw 0..=1;
@@ -1739,7 +1739,7 @@ point! {
     ///
     /// At parameter 001Ah (26), `u16`, raw `5..125`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
     /// and write.
-    SynchronisationFrequencyDifferenceMax: u16 = "synchronisation_frequency_difference_max";
+    SynchronisationFrequencyDifferenceMax of crate::WoodwardMpu2s: u16 = "synchronisation_frequency_difference_max";
     at Parameter 0x001A;
     unit "Hz";
     decimals 3;
@@ -1755,7 +1755,7 @@ point! {
     ///
     /// At parameter 001Bh (27), `u16`, raw `0..125`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
     /// and write.
-    SynchronisationFrequencyDifferenceMin: u16 = "synchronisation_frequency_difference_min";
+    SynchronisationFrequencyDifferenceMin of crate::WoodwardMpu2s: u16 = "synchronisation_frequency_difference_min";
     at Parameter 0x001B;
     unit "Hz";
     decimals 3;
@@ -1770,7 +1770,7 @@ point! {
     /// Synchronisation voltage difference max.
     ///
     /// At parameter 001Ch (28), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and write.
-    SynchronisationVoltageDifferenceMax: u16 = "synchronisation_voltage_difference_max";
+    SynchronisationVoltageDifferenceMax of crate::WoodwardMpu2s: u16 = "synchronisation_voltage_difference_max";
     at Parameter 0x001C;
     unit "%";
     decimals 2;
@@ -1786,7 +1786,7 @@ point! {
     ///
     /// At parameter 0135h (309), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and
     /// write.
-    SynchronisationVoltageDifferenceMin: u16 = "synchronisation_voltage_difference_min";
+    SynchronisationVoltageDifferenceMin of crate::WoodwardMpu2s: u16 = "synchronisation_voltage_difference_min";
     at Parameter 0x0135;
     unit "%";
     decimals 2;
@@ -1801,7 +1801,7 @@ point! {
     /// Synchronisation pulse time.
     ///
     /// At parameter 001Fh (31), `u16`, raw `1..13`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    SynchronisationPulseTime: u16 = "synchronisation_pulse_time";
+    SynchronisationPulseTime of crate::WoodwardMpu2s: u16 = "synchronisation_pulse_time";
     at Parameter 0x001F;
     unit "s";
     decimals 2;
@@ -1816,7 +1816,7 @@ point! {
     /// Generator breaker pick up time.
     ///
     /// At parameter 0020h (32), `u16`, raw `40..300`, read and write.
-    GeneratorBreakerPickUpTime: u16 = "generator_breaker_pick_up_time";
+    GeneratorBreakerPickUpTime of crate::WoodwardMpu2s: u16 = "generator_breaker_pick_up_time";
     at Parameter 0x0020;
     unit "ms";
     raw 40..=300;
@@ -1830,7 +1830,7 @@ point! {
     /// Synchronisation time monitoring.
     ///
     /// At parameter 0015h (21) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-    SynchronisationTimeMonitoring: u8 = "synchronisation_time_monitoring";
+    SynchronisationTimeMonitoring of crate::WoodwardMpu2s: u8 = "synchronisation_time_monitoring";
     at Parameter 0x0015;
     bits 0 0x0001 group;
     raw 0..=1;
@@ -1844,7 +1844,7 @@ point! {
     /// Synchronisation time monitoring delay.
     ///
     /// At parameter 0022h (34), `u16`, raw `10..999`, read and write.
-    SynchronisationTimeMonitoringDelay: u16 = "synchronisation_time_monitoring_delay";
+    SynchronisationTimeMonitoringDelay of crate::WoodwardMpu2s: u16 = "synchronisation_time_monitoring_delay";
     at Parameter 0x0022;
     unit "s";
     raw 10..=999;
@@ -1858,7 +1858,7 @@ point! {
     /// Dead bus start.
     ///
     /// At parameter 0013h (19) bits 5 to 4, `u8`, raw `0, 3`, read and write.
-    DeadBusStart: u8 = "dead_bus_start";
+    DeadBusStart of crate::WoodwardMpu2s: u8 = "dead_bus_start";
     at Parameter 0x0013;
     bits 4 0x0030 group;
     raw 0..=3;
@@ -1873,7 +1873,7 @@ point! {
     ///
     /// At parameter 001Dh (29), `u16`, raw `13..1280`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
     /// and write.
-    DeadBusStartFrequencyDifferenceMax: u16 = "dead_bus_start_frequency_difference_max";
+    DeadBusStartFrequencyDifferenceMax of crate::WoodwardMpu2s: u16 = "dead_bus_start_frequency_difference_max";
     at Parameter 0x001D;
     unit "Hz";
     decimals 3;
@@ -1888,7 +1888,7 @@ point! {
     /// Dead bus start voltage difference max.
     ///
     /// At parameter 001Eh (30), `u16`, raw `4..800`, steps of `0.025 %`, one count is `0.01 %`, read and write.
-    DeadBusStartVoltageDifferenceMax: u16 = "dead_bus_start_voltage_difference_max";
+    DeadBusStartVoltageDifferenceMax of crate::WoodwardMpu2s: u16 = "dead_bus_start_voltage_difference_max";
     at Parameter 0x001E;
     unit "%";
     decimals 2;
@@ -1903,7 +1903,7 @@ point! {
     /// Dead bus start maximum time.
     ///
     /// At parameter 008Eh (142), `u16`, raw `0..999`, read and write.
-    DeadBusStartMaximumTime: u16 = "dead_bus_start_maximum_time";
+    DeadBusStartMaximumTime of crate::WoodwardMpu2s: u16 = "dead_bus_start_maximum_time";
     at Parameter 0x008E;
     unit "s";
     raw 0..=999;
@@ -1917,7 +1917,7 @@ point! {
     /// Generator breaker monitoring.
     ///
     /// At parameter 0011h (17) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-    GeneratorBreakerMonitoring: u8 = "generator_breaker_monitoring";
+    GeneratorBreakerMonitoring of crate::WoodwardMpu2s: u8 = "generator_breaker_monitoring";
     at Parameter 0x0011;
     bits 12 0x1000 group;
     raw 0..=1;
@@ -1931,7 +1931,7 @@ point! {
     /// Automatic breaker unlocking.
     ///
     /// At parameter 00F8h (248) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-    AutomaticBreakerUnlocking: u8 = "automatic_breaker_unlocking";
+    AutomaticBreakerUnlocking of crate::WoodwardMpu2s: u8 = "automatic_breaker_unlocking";
     at Parameter 0x00F8;
     bits 1 0x0002 group;
     raw 0..=1;
@@ -1945,7 +1945,7 @@ point! {
     /// Generator overload monitoring.
     ///
     /// At parameter 000Fh (15) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-    GeneratorOverloadMonitoring: u8 = "generator_overload_monitoring";
+    GeneratorOverloadMonitoring of crate::WoodwardMpu2s: u8 = "generator_overload_monitoring";
     at Parameter 0x000F;
     bits 11 0x0800 group;
     raw 0..=1;
@@ -1959,7 +1959,7 @@ point! {
     /// Overload threshold parallel operation.
     ///
     /// At parameter 0070h (112), `u16`, raw `800..1500`, one count is `0.1 %`, read and write.
-    OverloadThresholdParallelOperation: u16 = "overload_threshold_parallel_operation";
+    OverloadThresholdParallelOperation of crate::WoodwardMpu2s: u16 = "overload_threshold_parallel_operation";
     at Parameter 0x0070;
     unit "%";
     decimals 1;
@@ -1975,7 +1975,7 @@ point! {
     ///
     /// At parameter 0071h (113), `u16`, raw `0..4950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    OverloadDelayParallelOperation: u16 = "overload_delay_parallel_operation";
+    OverloadDelayParallelOperation of crate::WoodwardMpu2s: u16 = "overload_delay_parallel_operation";
     at Parameter 0x0071;
     unit "s";
     decimals 2;
@@ -1990,7 +1990,7 @@ point! {
     /// Overload threshold isolated operation.
     ///
     /// At parameter 019Eh (414), `u16`, raw `800..1500`, one count is `0.1 %`, read and write.
-    OverloadThresholdIsolatedOperation: u16 = "overload_threshold_isolated_operation";
+    OverloadThresholdIsolatedOperation of crate::WoodwardMpu2s: u16 = "overload_threshold_isolated_operation";
     at Parameter 0x019E;
     unit "%";
     decimals 1;
@@ -2006,7 +2006,7 @@ point! {
     ///
     /// At parameter 007Eh (126), `u16`, raw `0..4950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    OverloadDelayIsolatedOperation: u16 = "overload_delay_isolated_operation";
+    OverloadDelayIsolatedOperation of crate::WoodwardMpu2s: u16 = "overload_delay_isolated_operation";
     at Parameter 0x007E;
     unit "s";
     decimals 2;
@@ -2021,7 +2021,7 @@ point! {
     /// Generator reverse power monitoring.
     ///
     /// At parameter 000Fh (15) bits 5 to 5, `bit`, raw `0, 1`, read and write.
-    GeneratorReversePowerMonitoring: u8 = "generator_reverse_power_monitoring";
+    GeneratorReversePowerMonitoring of crate::WoodwardMpu2s: u8 = "generator_reverse_power_monitoring";
     at Parameter 0x000F;
     bits 5 0x0020 group;
     raw 0..=1;
@@ -2035,7 +2035,7 @@ point! {
     /// Reverse power threshold.
     ///
     /// At parameter 0072h (114), `s16`, raw `-990..990`, one count is `0.1 %`, read and write.
-    ReversePowerThreshold: i16 = "reverse_power_threshold";
+    ReversePowerThreshold of crate::WoodwardMpu2s: i16 = "reverse_power_threshold";
     at Parameter 0x0072;
     unit "%";
     decimals 1;
@@ -2051,7 +2051,7 @@ point! {
     ///
     /// At parameter 0073h (115), `u16`, raw `0..4995`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    ReversePowerDelay: u16 = "reverse_power_delay";
+    ReversePowerDelay of crate::WoodwardMpu2s: u16 = "reverse_power_delay";
     at Parameter 0x0073;
     unit "s";
     decimals 2;
@@ -2066,7 +2066,7 @@ point! {
     /// Generator unbalanced load monitoring.
     ///
     /// At parameter 000Fh (15) bits 10 to 10, `bit`, raw `0, 1`, read and write.
-    GeneratorUnbalancedLoadMonitoring: u8 = "generator_unbalanced_load_monitoring";
+    GeneratorUnbalancedLoadMonitoring of crate::WoodwardMpu2s: u8 = "generator_unbalanced_load_monitoring";
     at Parameter 0x000F;
     bits 10 0x0400 group;
     raw 0..=1;
@@ -2080,7 +2080,7 @@ point! {
     /// Unbalanced load threshold.
     ///
     /// At parameter 0074h (116), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
-    UnbalancedLoadThreshold: u16 = "unbalanced_load_threshold";
+    UnbalancedLoadThreshold of crate::WoodwardMpu2s: u16 = "unbalanced_load_threshold";
     at Parameter 0x0074;
     unit "%";
     decimals 1;
@@ -2096,7 +2096,7 @@ point! {
     ///
     /// At parameter 0075h (117), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    UnbalancedLoadDelay: u16 = "unbalanced_load_delay";
+    UnbalancedLoadDelay of crate::WoodwardMpu2s: u16 = "unbalanced_load_delay";
     at Parameter 0x0075;
     unit "s";
     decimals 2;
@@ -2111,7 +2111,7 @@ point! {
     /// Generator overcurrent monitoring.
     ///
     /// At parameter 000Fh (15) bits 4 to 4, `bit`, raw `0, 1`, read and write.
-    GeneratorOvercurrentMonitoring: u8 = "generator_overcurrent_monitoring";
+    GeneratorOvercurrentMonitoring of crate::WoodwardMpu2s: u8 = "generator_overcurrent_monitoring";
     at Parameter 0x000F;
     bits 4 0x0010 group;
     raw 0..=1;
@@ -2125,7 +2125,7 @@ point! {
     /// Overcurrent 1 threshold.
     ///
     /// At parameter 0076h (118), `u16`, raw `0..3000`, one count is `0.1 %`, read and write.
-    Overcurrent1Threshold: u16 = "overcurrent_1_threshold";
+    Overcurrent1Threshold of crate::WoodwardMpu2s: u16 = "overcurrent_1_threshold";
     at Parameter 0x0076;
     unit "%";
     decimals 1;
@@ -2141,7 +2141,7 @@ point! {
     ///
     /// At parameter 0077h (119), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    Overcurrent1Delay: u16 = "overcurrent_1_delay";
+    Overcurrent1Delay of crate::WoodwardMpu2s: u16 = "overcurrent_1_delay";
     at Parameter 0x0077;
     unit "s";
     decimals 2;
@@ -2156,7 +2156,7 @@ point! {
     /// Overcurrent 2 threshold.
     ///
     /// At parameter 01ACh (428), `u16`, raw `0..3000`, one count is `0.1 %`, read and write.
-    Overcurrent2Threshold: u16 = "overcurrent_2_threshold";
+    Overcurrent2Threshold of crate::WoodwardMpu2s: u16 = "overcurrent_2_threshold";
     at Parameter 0x01AC;
     unit "%";
     decimals 1;
@@ -2172,7 +2172,7 @@ point! {
     ///
     /// At parameter 01ADh (429), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    Overcurrent2Delay: u16 = "overcurrent_2_delay";
+    Overcurrent2Delay of crate::WoodwardMpu2s: u16 = "overcurrent_2_delay";
     at Parameter 0x01AD;
     unit "s";
     decimals 2;
@@ -2187,7 +2187,7 @@ point! {
     /// Inverse time overcurrent.
     ///
     /// At parameter 00F8h (248) bits 10 to 10, `bit`, raw `0, 1`, read and write.
-    InverseTimeOvercurrent: u8 = "inverse_time_overcurrent";
+    InverseTimeOvercurrent of crate::WoodwardMpu2s: u8 = "inverse_time_overcurrent";
     at Parameter 0x00F8;
     bits 10 0x0400 group;
     raw 0..=1;
@@ -2201,7 +2201,7 @@ point! {
     /// Inverse time overcurrent characteristic.
     ///
     /// At parameter 012Ah (298) bits 1 to 0, `u8`, raw `0..2`, read and write.
-    InverseTimeOvercurrentCharacteristic: u8 = "inverse_time_overcurrent_characteristic";
+    InverseTimeOvercurrentCharacteristic of crate::WoodwardMpu2s: u8 = "inverse_time_overcurrent_characteristic";
     at Parameter 0x012A;
     bits 0 0x0003 group;
     raw 0..=2;
@@ -2215,7 +2215,7 @@ point! {
     /// Inverse time overcurrent tp.
     ///
     /// At parameter 012Bh (299), `u16`, raw `0..99`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    InverseTimeOvercurrentTp: u16 = "inverse_time_overcurrent_tp";
+    InverseTimeOvercurrentTp of crate::WoodwardMpu2s: u16 = "inverse_time_overcurrent_tp";
     at Parameter 0x012B;
     unit "s";
     decimals 2;
@@ -2230,7 +2230,7 @@ point! {
     /// Inverse time overcurrent ip.
     ///
     /// At parameter 012Ch (300), `u16`, raw `100..3000`, one count is `0.001`, read and write.
-    InverseTimeOvercurrentIp: u16 = "inverse_time_overcurrent_ip";
+    InverseTimeOvercurrentIp of crate::WoodwardMpu2s: u16 = "inverse_time_overcurrent_ip";
     at Parameter 0x012C;
     decimals 3;
     raw 100..=3000;
@@ -2244,7 +2244,7 @@ point! {
     /// Inverse time overcurrent istart.
     ///
     /// At parameter 012Dh (301), `u16`, raw `1000..3000`, one count is `0.001`, read and write.
-    InverseTimeOvercurrentIstart: u16 = "inverse_time_overcurrent_istart";
+    InverseTimeOvercurrentIstart of crate::WoodwardMpu2s: u16 = "inverse_time_overcurrent_istart";
     at Parameter 0x012D;
     decimals 3;
     raw 1000..=3000;
@@ -2258,7 +2258,7 @@ point! {
     /// Inverse time overcurrent by voltage.
     ///
     /// At parameter 00F8h (248) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-    InverseTimeOvercurrentByVoltage: u8 = "inverse_time_overcurrent_by_voltage";
+    InverseTimeOvercurrentByVoltage of crate::WoodwardMpu2s: u8 = "inverse_time_overcurrent_by_voltage";
     at Parameter 0x00F8;
     bits 11 0x0800 group;
     raw 0..=1;
@@ -2272,7 +2272,7 @@ point! {
     /// Inverse time overcurrent voltage knee.
     ///
     /// At parameter 012Eh (302), `u16`, raw `10..90`, read and write.
-    InverseTimeOvercurrentVoltageKnee: u16 = "inverse_time_overcurrent_voltage_knee";
+    InverseTimeOvercurrentVoltageKnee of crate::WoodwardMpu2s: u16 = "inverse_time_overcurrent_voltage_knee";
     at Parameter 0x012E;
     unit "%";
     raw 10..=90;
@@ -2286,7 +2286,7 @@ point! {
     /// Generator overfrequency monitoring.
     ///
     /// At parameter 0136h (310) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-    GeneratorOverfrequencyMonitoring: u8 = "generator_overfrequency_monitoring";
+    GeneratorOverfrequencyMonitoring of crate::WoodwardMpu2s: u8 = "generator_overfrequency_monitoring";
     at Parameter 0x0136;
     bits 12 0x1000 group;
     raw 0..=1;
@@ -2301,7 +2301,7 @@ point! {
     ///
     /// At parameter 0068h (104), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorOverfrequency1Threshold: u16 = "generator_overfrequency_1_threshold";
+    GeneratorOverfrequency1Threshold of crate::WoodwardMpu2s: u16 = "generator_overfrequency_1_threshold";
     at Parameter 0x0068;
     unit "Hz";
     decimals 3;
@@ -2316,7 +2316,7 @@ point! {
     /// Generator overfrequency 1 delay.
     ///
     /// At parameter 0069h (105), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorOverfrequency1Delay: u16 = "generator_overfrequency_1_delay";
+    GeneratorOverfrequency1Delay of crate::WoodwardMpu2s: u16 = "generator_overfrequency_1_delay";
     at Parameter 0x0069;
     unit "s";
     decimals 2;
@@ -2332,7 +2332,7 @@ point! {
     ///
     /// At parameter 0120h (288), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorOverfrequency2Threshold: u16 = "generator_overfrequency_2_threshold";
+    GeneratorOverfrequency2Threshold of crate::WoodwardMpu2s: u16 = "generator_overfrequency_2_threshold";
     at Parameter 0x0120;
     unit "Hz";
     decimals 3;
@@ -2347,7 +2347,7 @@ point! {
     /// Generator overfrequency 2 delay.
     ///
     /// At parameter 0121h (289), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorOverfrequency2Delay: u16 = "generator_overfrequency_2_delay";
+    GeneratorOverfrequency2Delay of crate::WoodwardMpu2s: u16 = "generator_overfrequency_2_delay";
     at Parameter 0x0121;
     unit "s";
     decimals 2;
@@ -2362,7 +2362,7 @@ point! {
     /// Generator underfrequency monitoring.
     ///
     /// At parameter 0136h (310) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-    GeneratorUnderfrequencyMonitoring: u8 = "generator_underfrequency_monitoring";
+    GeneratorUnderfrequencyMonitoring of crate::WoodwardMpu2s: u8 = "generator_underfrequency_monitoring";
     at Parameter 0x0136;
     bits 3 0x0008 group;
     raw 0..=1;
@@ -2377,7 +2377,7 @@ point! {
     ///
     /// At parameter 006Ah (106), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorUnderfrequency1Threshold: u16 = "generator_underfrequency_1_threshold";
+    GeneratorUnderfrequency1Threshold of crate::WoodwardMpu2s: u16 = "generator_underfrequency_1_threshold";
     at Parameter 0x006A;
     unit "Hz";
     decimals 3;
@@ -2392,7 +2392,7 @@ point! {
     /// Generator underfrequency 1 delay.
     ///
     /// At parameter 006Bh (107), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorUnderfrequency1Delay: u16 = "generator_underfrequency_1_delay";
+    GeneratorUnderfrequency1Delay of crate::WoodwardMpu2s: u16 = "generator_underfrequency_1_delay";
     at Parameter 0x006B;
     unit "s";
     decimals 2;
@@ -2408,7 +2408,7 @@ point! {
     ///
     /// At parameter 0122h (290), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    GeneratorUnderfrequency2Threshold: u16 = "generator_underfrequency_2_threshold";
+    GeneratorUnderfrequency2Threshold of crate::WoodwardMpu2s: u16 = "generator_underfrequency_2_threshold";
     at Parameter 0x0122;
     unit "Hz";
     decimals 3;
@@ -2423,7 +2423,7 @@ point! {
     /// Generator underfrequency 2 delay.
     ///
     /// At parameter 0123h (291), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorUnderfrequency2Delay: u16 = "generator_underfrequency_2_delay";
+    GeneratorUnderfrequency2Delay of crate::WoodwardMpu2s: u16 = "generator_underfrequency_2_delay";
     at Parameter 0x0123;
     unit "s";
     decimals 2;
@@ -2438,7 +2438,7 @@ point! {
     /// Generator overvoltage monitoring.
     ///
     /// At parameter 0136h (310) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-    GeneratorOvervoltageMonitoring: u8 = "generator_overvoltage_monitoring";
+    GeneratorOvervoltageMonitoring of crate::WoodwardMpu2s: u8 = "generator_overvoltage_monitoring";
     at Parameter 0x0136;
     bits 1 0x0002 group;
     raw 0..=1;
@@ -2454,7 +2454,7 @@ point! {
     /// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
     /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
     /// `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorOvervoltage1Threshold100v: u16 = "generator_overvoltage_1_threshold_100v";
+    GeneratorOvervoltage1Threshold100v of crate::WoodwardMpu2s: u16 = "generator_overvoltage_1_threshold_100v";
     at Parameter 0x006C;
     unit "V";
     decimals 3;
@@ -2481,7 +2481,7 @@ point! {
     /// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
     /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorOvervoltage1Threshold400v: u16 = "generator_overvoltage_1_threshold_400v";
+    GeneratorOvervoltage1Threshold400v of crate::WoodwardMpu2s: u16 = "generator_overvoltage_1_threshold_400v";
     at Parameter 0x006C;
     unit "V";
     decimals 3;
@@ -2505,7 +2505,7 @@ point! {
     /// Generator overvoltage 1 delay.
     ///
     /// At parameter 006Dh (109), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorOvervoltage1Delay: u16 = "generator_overvoltage_1_delay";
+    GeneratorOvervoltage1Delay of crate::WoodwardMpu2s: u16 = "generator_overvoltage_1_delay";
     at Parameter 0x006D;
     unit "s";
     decimals 2;
@@ -2522,7 +2522,7 @@ point! {
     /// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
     /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
     /// `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorOvervoltage2Threshold100v: u16 = "generator_overvoltage_2_threshold_100v";
+    GeneratorOvervoltage2Threshold100v of crate::WoodwardMpu2s: u16 = "generator_overvoltage_2_threshold_100v";
     at Parameter 0x0124;
     unit "V";
     decimals 3;
@@ -2549,7 +2549,7 @@ point! {
     /// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
     /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorOvervoltage2Threshold400v: u16 = "generator_overvoltage_2_threshold_400v";
+    GeneratorOvervoltage2Threshold400v of crate::WoodwardMpu2s: u16 = "generator_overvoltage_2_threshold_400v";
     at Parameter 0x0124;
     unit "V";
     decimals 3;
@@ -2573,7 +2573,7 @@ point! {
     /// Generator overvoltage 2 delay.
     ///
     /// At parameter 0125h (293), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorOvervoltage2Delay: u16 = "generator_overvoltage_2_delay";
+    GeneratorOvervoltage2Delay of crate::WoodwardMpu2s: u16 = "generator_overvoltage_2_delay";
     at Parameter 0x0125;
     unit "s";
     decimals 2;
@@ -2588,7 +2588,7 @@ point! {
     /// Generator undervoltage monitoring.
     ///
     /// At parameter 0136h (310) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-    GeneratorUndervoltageMonitoring: u8 = "generator_undervoltage_monitoring";
+    GeneratorUndervoltageMonitoring of crate::WoodwardMpu2s: u8 = "generator_undervoltage_monitoring";
     at Parameter 0x0136;
     bits 0 0x0001 group;
     raw 0..=1;
@@ -2604,7 +2604,7 @@ point! {
     /// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
     /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
     /// `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorUndervoltage1Threshold100v: u16 = "generator_undervoltage_1_threshold_100v";
+    GeneratorUndervoltage1Threshold100v of crate::WoodwardMpu2s: u16 = "generator_undervoltage_1_threshold_100v";
     at Parameter 0x006E;
     unit "V";
     decimals 3;
@@ -2631,7 +2631,7 @@ point! {
     /// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
     /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorUndervoltage1Threshold400v: u16 = "generator_undervoltage_1_threshold_400v";
+    GeneratorUndervoltage1Threshold400v of crate::WoodwardMpu2s: u16 = "generator_undervoltage_1_threshold_400v";
     at Parameter 0x006E;
     unit "V";
     decimals 3;
@@ -2655,7 +2655,7 @@ point! {
     /// Generator undervoltage 1 delay.
     ///
     /// At parameter 006Fh (111), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorUndervoltage1Delay: u16 = "generator_undervoltage_1_delay";
+    GeneratorUndervoltage1Delay of crate::WoodwardMpu2s: u16 = "generator_undervoltage_1_delay";
     at Parameter 0x006F;
     unit "s";
     decimals 2;
@@ -2672,7 +2672,7 @@ point! {
     /// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
     /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
     /// `0.001 V`, read and write, for `voltage=100V`.
-    GeneratorUndervoltage2Threshold100v: u16 = "generator_undervoltage_2_threshold_100v";
+    GeneratorUndervoltage2Threshold100v of crate::WoodwardMpu2s: u16 = "generator_undervoltage_2_threshold_100v";
     at Parameter 0x0126;
     unit "V";
     decimals 3;
@@ -2699,7 +2699,7 @@ point! {
     /// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
     /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    GeneratorUndervoltage2Threshold400v: u16 = "generator_undervoltage_2_threshold_400v";
+    GeneratorUndervoltage2Threshold400v of crate::WoodwardMpu2s: u16 = "generator_undervoltage_2_threshold_400v";
     at Parameter 0x0126;
     unit "V";
     decimals 3;
@@ -2723,7 +2723,7 @@ point! {
     /// Generator undervoltage 2 delay.
     ///
     /// At parameter 0127h (295), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    GeneratorUndervoltage2Delay: u16 = "generator_undervoltage_2_delay";
+    GeneratorUndervoltage2Delay of crate::WoodwardMpu2s: u16 = "generator_undervoltage_2_delay";
     at Parameter 0x0127;
     unit "s";
     decimals 2;
@@ -2738,7 +2738,7 @@ point! {
     /// Mains frequency monitoring.
     ///
     /// At parameter 000Fh (15) bits 14 to 14, `bit`, raw `0, 1`, read and write.
-    MainsFrequencyMonitoring: u8 = "mains_frequency_monitoring";
+    MainsFrequencyMonitoring of crate::WoodwardMpu2s: u8 = "mains_frequency_monitoring";
     at Parameter 0x000F;
     bits 14 0x4000 group;
     raw 0..=1;
@@ -2753,7 +2753,7 @@ point! {
     ///
     /// At parameter 0057h (87), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    MainsOverfrequencyThreshold: u16 = "mains_overfrequency_threshold";
+    MainsOverfrequencyThreshold of crate::WoodwardMpu2s: u16 = "mains_overfrequency_threshold";
     at Parameter 0x0057;
     unit "Hz";
     decimals 3;
@@ -2768,7 +2768,7 @@ point! {
     /// Mains overfrequency delay.
     ///
     /// At parameter 0058h (88), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    MainsOverfrequencyDelay: u16 = "mains_overfrequency_delay";
+    MainsOverfrequencyDelay of crate::WoodwardMpu2s: u16 = "mains_overfrequency_delay";
     at Parameter 0x0058;
     unit "s";
     decimals 2;
@@ -2784,7 +2784,7 @@ point! {
     ///
     /// At parameter 0059h (89), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    MainsUnderfrequencyThreshold: u16 = "mains_underfrequency_threshold";
+    MainsUnderfrequencyThreshold of crate::WoodwardMpu2s: u16 = "mains_underfrequency_threshold";
     at Parameter 0x0059;
     unit "Hz";
     decimals 3;
@@ -2799,7 +2799,7 @@ point! {
     /// Mains underfrequency delay.
     ///
     /// At parameter 005Ah (90), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    MainsUnderfrequencyDelay: u16 = "mains_underfrequency_delay";
+    MainsUnderfrequencyDelay of crate::WoodwardMpu2s: u16 = "mains_underfrequency_delay";
     at Parameter 0x005A;
     unit "s";
     decimals 2;
@@ -2814,7 +2814,7 @@ point! {
     /// Mains voltage monitoring.
     ///
     /// At parameter 000Fh (15) bits 15 to 15, `bit`, raw `0, 1`, read and write.
-    MainsVoltageMonitoring: u8 = "mains_voltage_monitoring";
+    MainsVoltageMonitoring of crate::WoodwardMpu2s: u8 = "mains_voltage_monitoring";
     at Parameter 0x000F;
     bits 15 0x8000 group;
     raw 0..=1;
@@ -2829,7 +2829,7 @@ point! {
     ///
     /// `KWUNTSEK` at parameter 01FCh (508), `u16`, raw `0..65535`, read only.
     #[doc(alias = "KWUNTSEK")]
-    MainsVoltageFactor: u16 = "mains_voltage_factor", "KWUNTSEK";
+    MainsVoltageFactor of crate::WoodwardMpu2s: u16 = "mains_voltage_factor", "KWUNTSEK";
     at Parameter 0x01FC;
     => value u16 as plain();
     read { count i32; }
@@ -2842,7 +2842,7 @@ point! {
     /// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576,
     /// mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001
     /// V`, read and write, for `voltage=100V`.
-    MainsOvervoltageThreshold100v: u16 = "mains_overvoltage_threshold_100v";
+    MainsOvervoltageThreshold100v of crate::WoodwardMpu2s: u16 = "mains_overvoltage_threshold_100v";
     at Parameter 0x005B;
     unit "V";
     decimals 3;
@@ -2869,7 +2869,7 @@ point! {
     /// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`,
     /// value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    MainsOvervoltageThreshold400v: u16 = "mains_overvoltage_threshold_400v";
+    MainsOvervoltageThreshold400v of crate::WoodwardMpu2s: u16 = "mains_overvoltage_threshold_400v";
     at Parameter 0x005B;
     unit "V";
     decimals 3;
@@ -2893,7 +2893,7 @@ point! {
     /// Mains overvoltage delay.
     ///
     /// At parameter 005Ch (92), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    MainsOvervoltageDelay: u16 = "mains_overvoltage_delay";
+    MainsOvervoltageDelay of crate::WoodwardMpu2s: u16 = "mains_overvoltage_delay";
     at Parameter 0x005C;
     unit "s";
     decimals 2;
@@ -2910,7 +2910,7 @@ point! {
     /// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576,
     /// mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001
     /// V`, read and write, for `voltage=100V`.
-    MainsUndervoltageThreshold100v: u16 = "mains_undervoltage_threshold_100v";
+    MainsUndervoltageThreshold100v of crate::WoodwardMpu2s: u16 = "mains_undervoltage_threshold_100v";
     at Parameter 0x005D;
     unit "V";
     decimals 3;
@@ -2937,7 +2937,7 @@ point! {
     /// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`,
     /// value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
     /// `voltage=400V`.
-    MainsUndervoltageThreshold400v: u16 = "mains_undervoltage_threshold_400v";
+    MainsUndervoltageThreshold400v of crate::WoodwardMpu2s: u16 = "mains_undervoltage_threshold_400v";
     at Parameter 0x005D;
     unit "V";
     decimals 3;
@@ -2961,7 +2961,7 @@ point! {
     /// Mains undervoltage delay.
     ///
     /// At parameter 005Eh (94), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
-    MainsUndervoltageDelay: u16 = "mains_undervoltage_delay";
+    MainsUndervoltageDelay of crate::WoodwardMpu2s: u16 = "mains_undervoltage_delay";
     at Parameter 0x005E;
     unit "s";
     decimals 2;
@@ -2976,7 +2976,7 @@ point! {
     /// Phase shift monitoring.
     ///
     /// At parameter 000Fh (15) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-    PhaseShiftMonitoring: u8 = "phase_shift_monitoring";
+    PhaseShiftMonitoring of crate::WoodwardMpu2s: u8 = "phase_shift_monitoring";
     at Parameter 0x000F;
     bits 1 0x0002 group;
     raw 0..=1;
@@ -2990,7 +2990,7 @@ point! {
     /// Phase shift monitoring phases.
     ///
     /// At parameter 0015h (21) bits 13 to 13, `bit`, raw `0, 1`, read and write.
-    PhaseShiftMonitoringPhases: u8 = "phase_shift_monitoring_phases";
+    PhaseShiftMonitoringPhases of crate::WoodwardMpu2s: u8 = "phase_shift_monitoring_phases";
     at Parameter 0x0015;
     bits 13 0x2000 group;
     raw 0..=1;
@@ -3004,7 +3004,7 @@ point! {
     /// Phase shift threshold single phase.
     ///
     /// At parameter 0055h (85), `u16`, raw `3..30`, read and write.
-    PhaseShiftThresholdSinglePhase: u16 = "phase_shift_threshold_single_phase";
+    PhaseShiftThresholdSinglePhase of crate::WoodwardMpu2s: u16 = "phase_shift_threshold_single_phase";
     at Parameter 0x0055;
     unit "°";
     raw 3..=30;
@@ -3018,7 +3018,7 @@ point! {
     /// Phase shift threshold three phase.
     ///
     /// At parameter 0056h (86), `u16`, raw `3..30`, read and write.
-    PhaseShiftThresholdThreePhase: u16 = "phase_shift_threshold_three_phase";
+    PhaseShiftThresholdThreePhase of crate::WoodwardMpu2s: u16 = "phase_shift_threshold_three_phase";
     at Parameter 0x0056;
     unit "°";
     raw 3..=30;
@@ -3032,7 +3032,7 @@ point! {
     /// Reactive power monitoring.
     ///
     /// At parameter 00F8h (248) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-    ReactivePowerMonitoring: u8 = "reactive_power_monitoring";
+    ReactivePowerMonitoring of crate::WoodwardMpu2s: u8 = "reactive_power_monitoring";
     at Parameter 0x00F8;
     bits 12 0x1000 group;
     raw 0..=1;
@@ -3046,7 +3046,7 @@ point! {
     /// Reactive power threshold inductive.
     ///
     /// At parameter 012Fh (303), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
-    ReactivePowerThresholdInductive: u16 = "reactive_power_threshold_inductive";
+    ReactivePowerThresholdInductive of crate::WoodwardMpu2s: u16 = "reactive_power_threshold_inductive";
     at Parameter 0x012F;
     unit "%";
     decimals 1;
@@ -3062,7 +3062,7 @@ point! {
     ///
     /// At parameter 0132h (306), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    ReactivePowerDelayInductive: u16 = "reactive_power_delay_inductive";
+    ReactivePowerDelayInductive of crate::WoodwardMpu2s: u16 = "reactive_power_delay_inductive";
     at Parameter 0x0132;
     unit "s";
     decimals 2;
@@ -3077,7 +3077,7 @@ point! {
     /// Reactive power threshold capacitive.
     ///
     /// At parameter 0130h (304), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
-    ReactivePowerThresholdCapacitive: u16 = "reactive_power_threshold_capacitive";
+    ReactivePowerThresholdCapacitive of crate::WoodwardMpu2s: u16 = "reactive_power_threshold_capacitive";
     at Parameter 0x0130;
     unit "%";
     decimals 1;
@@ -3093,7 +3093,7 @@ point! {
     ///
     /// At parameter 0131h (305), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    ReactivePowerDelayCapacitive: u16 = "reactive_power_delay_capacitive";
+    ReactivePowerDelayCapacitive of crate::WoodwardMpu2s: u16 = "reactive_power_delay_capacitive";
     at Parameter 0x0131;
     unit "s";
     decimals 2;
@@ -3108,7 +3108,7 @@ point! {
     /// Earth fault monitoring.
     ///
     /// At parameter 00F8h (248) bits 9 to 9, `bit`, raw `0, 1`, read and write.
-    EarthFaultMonitoring: u8 = "earth_fault_monitoring";
+    EarthFaultMonitoring of crate::WoodwardMpu2s: u8 = "earth_fault_monitoring";
     at Parameter 0x00F8;
     bits 9 0x0200 group;
     raw 0..=1;
@@ -3122,7 +3122,7 @@ point! {
     /// Earth fault threshold.
     ///
     /// At parameter 0133h (307), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
-    EarthFaultThreshold: u16 = "earth_fault_threshold";
+    EarthFaultThreshold of crate::WoodwardMpu2s: u16 = "earth_fault_threshold";
     at Parameter 0x0133;
     unit "%";
     decimals 1;
@@ -3138,7 +3138,7 @@ point! {
     ///
     /// At parameter 0134h (308), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
     /// write.
-    EarthFaultDelay: u16 = "earth_fault_delay";
+    EarthFaultDelay of crate::WoodwardMpu2s: u16 = "earth_fault_delay";
     at Parameter 0x0134;
     unit "s";
     decimals 2;
@@ -3153,7 +3153,7 @@ point! {
     /// Battery undervoltage threshold.
     ///
     /// At parameter 0089h (137), `u16`, raw `95..300`, one count is `0.1 V`, read and write.
-    BatteryUndervoltageThreshold: u16 = "battery_undervoltage_threshold";
+    BatteryUndervoltageThreshold of crate::WoodwardMpu2s: u16 = "battery_undervoltage_threshold";
     at Parameter 0x0089;
     unit "V";
     decimals 1;
@@ -3171,7 +3171,7 @@ point! {
     /// write.
     ///
     /// Erratum: `battery_undervoltage_delay_minimum`.
-    BatteryUndervoltageDelay: u16 = "battery_undervoltage_delay";
+    BatteryUndervoltageDelay of crate::WoodwardMpu2s: u16 = "battery_undervoltage_delay";
     at Parameter 0x01A3;
     unit "s";
     decimals 2;
@@ -3186,7 +3186,7 @@ point! {
     /// Digital inputs 1 to 4 logic.
     ///
     /// At parameter 007Dh (125) bits 11 to 8, `u8`, raw `0..15`, read and write.
-    DigitalInputs1To4Logic: u8 = "digital_inputs_1_to_4_logic";
+    DigitalInputs1To4Logic of crate::WoodwardMpu2s: u8 = "digital_inputs_1_to_4_logic";
     at Parameter 0x007D;
     bits 8 0x0F00 group;
     raw 0..=15;
@@ -3200,7 +3200,7 @@ point! {
     /// Digital inputs 1 to 4 delay.
     ///
     /// At parameter 0194h (404), `u16`, 4 decimal digits, read and write.
-    DigitalInputs1To4Delay: u16 = "digital_inputs_1_to_4_delay";
+    DigitalInputs1To4Delay of crate::WoodwardMpu2s: u16 = "digital_inputs_1_to_4_delay";
     at Parameter 0x0194;
     => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
     read {}
@@ -3212,7 +3212,7 @@ point! {
     /// Digital inputs 1 to 4 engine delay.
     ///
     /// At parameter 007Fh (127) bits 11 to 8, `u8`, raw `0..15`, read and write.
-    DigitalInputs1To4EngineDelay: u8 = "digital_inputs_1_to_4_engine_delay";
+    DigitalInputs1To4EngineDelay of crate::WoodwardMpu2s: u8 = "digital_inputs_1_to_4_engine_delay";
     at Parameter 0x007F;
     bits 8 0x0F00 group;
     raw 0..=15;
@@ -3226,7 +3226,7 @@ point! {
     /// Digital inputs 1 to 4 fault class.
     ///
     /// At parameter 0082h (130), `u16`, 4 decimal digits, read and write.
-    DigitalInputs1To4FaultClass: u16 = "digital_inputs_1_to_4_fault_class";
+    DigitalInputs1To4FaultClass of crate::WoodwardMpu2s: u16 = "digital_inputs_1_to_4_fault_class";
     at Parameter 0x0082;
     => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
     read {}
@@ -3238,7 +3238,7 @@ point! {
     /// Digital inputs 5 to 8 logic.
     ///
     /// At parameter 007Dh (125) bits 7 to 4, `u8`, raw `0..15`, read and write.
-    DigitalInputs5To8Logic: u8 = "digital_inputs_5_to_8_logic";
+    DigitalInputs5To8Logic of crate::WoodwardMpu2s: u8 = "digital_inputs_5_to_8_logic";
     at Parameter 0x007D;
     bits 4 0x00F0 group;
     raw 0..=15;
@@ -3252,7 +3252,7 @@ point! {
     /// Digital inputs 5 to 8 delay.
     ///
     /// At parameter 0195h (405), `u16`, 4 decimal digits, read and write.
-    DigitalInputs5To8Delay: u16 = "digital_inputs_5_to_8_delay";
+    DigitalInputs5To8Delay of crate::WoodwardMpu2s: u16 = "digital_inputs_5_to_8_delay";
     at Parameter 0x0195;
     => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
     read {}
@@ -3264,7 +3264,7 @@ point! {
     /// Digital inputs 5 to 8 engine delay.
     ///
     /// At parameter 007Fh (127) bits 7 to 4, `u8`, raw `0..15`, read and write.
-    DigitalInputs5To8EngineDelay: u8 = "digital_inputs_5_to_8_engine_delay";
+    DigitalInputs5To8EngineDelay of crate::WoodwardMpu2s: u8 = "digital_inputs_5_to_8_engine_delay";
     at Parameter 0x007F;
     bits 4 0x00F0 group;
     raw 0..=15;
@@ -3278,7 +3278,7 @@ point! {
     /// Digital inputs 5 to 8 fault class.
     ///
     /// At parameter 0087h (135), `u16`, 4 decimal digits, read and write.
-    DigitalInputs5To8FaultClass: u16 = "digital_inputs_5_to_8_fault_class";
+    DigitalInputs5To8FaultClass of crate::WoodwardMpu2s: u16 = "digital_inputs_5_to_8_fault_class";
     at Parameter 0x0087;
     => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
     read {}
@@ -3290,7 +3290,7 @@ point! {
     /// Digital inputs 9 to 12 logic.
     ///
     /// At parameter 007Dh (125) bits 3 to 0, `u8`, raw `0..15`, read and write.
-    DigitalInputs9To12Logic: u8 = "digital_inputs_9_to_12_logic";
+    DigitalInputs9To12Logic of crate::WoodwardMpu2s: u8 = "digital_inputs_9_to_12_logic";
     at Parameter 0x007D;
     bits 0 0x000F group;
     raw 0..=15;
@@ -3304,7 +3304,7 @@ point! {
     /// Digital inputs 9 to 12 delay.
     ///
     /// At parameter 0196h (406), `u16`, 4 decimal digits, read and write.
-    DigitalInputs9To12Delay: u16 = "digital_inputs_9_to_12_delay";
+    DigitalInputs9To12Delay of crate::WoodwardMpu2s: u16 = "digital_inputs_9_to_12_delay";
     at Parameter 0x0196;
     => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
     read {}
@@ -3316,7 +3316,7 @@ point! {
     /// Digital inputs 9 to 12 engine delay.
     ///
     /// At parameter 007Fh (127) bits 3 to 0, `u8`, raw `0..15`, read and write.
-    DigitalInputs9To12EngineDelay: u8 = "digital_inputs_9_to_12_engine_delay";
+    DigitalInputs9To12EngineDelay of crate::WoodwardMpu2s: u8 = "digital_inputs_9_to_12_engine_delay";
     at Parameter 0x007F;
     bits 0 0x000F group;
     raw 0..=15;
@@ -3330,7 +3330,7 @@ point! {
     /// Digital inputs 9 to 12 fault class.
     ///
     /// At parameter 0088h (136), `u16`, 4 decimal digits, read and write.
-    DigitalInputs9To12FaultClass: u16 = "digital_inputs_9_to_12_fault_class";
+    DigitalInputs9To12FaultClass of crate::WoodwardMpu2s: u16 = "digital_inputs_9_to_12_fault_class";
     at Parameter 0x0088;
     => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
     read {}
@@ -3342,7 +3342,7 @@ point! {
     /// Fault text terminal 62.
     ///
     /// At parameter 02DCh (732), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal62: [u16; 8] = "fault_text_terminal_62";
+    FaultTextTerminal62 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_62";
     at Parameter 0x02DC;
     addresses [0x02E3, 0x02E2, 0x02E1, 0x02E0, 0x02DF, 0x02DE, 0x02DD, 0x02DC];
     words 8;
@@ -3356,7 +3356,7 @@ point! {
     /// Fault text terminal 63.
     ///
     /// At parameter 02E4h (740), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal63: [u16; 8] = "fault_text_terminal_63";
+    FaultTextTerminal63 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_63";
     at Parameter 0x02E4;
     addresses [0x02EB, 0x02EA, 0x02E9, 0x02E8, 0x02E7, 0x02E6, 0x02E5, 0x02E4];
     words 8;
@@ -3370,7 +3370,7 @@ point! {
     /// Fault text terminal 64.
     ///
     /// At parameter 02ECh (748), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal64: [u16; 8] = "fault_text_terminal_64";
+    FaultTextTerminal64 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_64";
     at Parameter 0x02EC;
     addresses [0x02F3, 0x02F2, 0x02F1, 0x02F0, 0x02EF, 0x02EE, 0x02ED, 0x02EC];
     words 8;
@@ -3384,7 +3384,7 @@ point! {
     /// Fault text terminal 65.
     ///
     /// At parameter 02F4h (756), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal65: [u16; 8] = "fault_text_terminal_65";
+    FaultTextTerminal65 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_65";
     at Parameter 0x02F4;
     addresses [0x02FB, 0x02FA, 0x02F9, 0x02F8, 0x02F7, 0x02F6, 0x02F5, 0x02F4];
     words 8;
@@ -3398,7 +3398,7 @@ point! {
     /// Fault text terminal 66.
     ///
     /// At parameter 02FCh (764), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal66: [u16; 8] = "fault_text_terminal_66";
+    FaultTextTerminal66 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_66";
     at Parameter 0x02FC;
     addresses [0x0303, 0x0302, 0x0301, 0x0300, 0x02FF, 0x02FE, 0x02FD, 0x02FC];
     words 8;
@@ -3412,7 +3412,7 @@ point! {
     /// Fault text terminal 67.
     ///
     /// At parameter 0304h (772), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal67: [u16; 8] = "fault_text_terminal_67";
+    FaultTextTerminal67 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_67";
     at Parameter 0x0304;
     addresses [0x030B, 0x030A, 0x0309, 0x0308, 0x0307, 0x0306, 0x0305, 0x0304];
     words 8;
@@ -3426,7 +3426,7 @@ point! {
     /// Fault text terminal 68.
     ///
     /// At parameter 030Ch (780), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal68: [u16; 8] = "fault_text_terminal_68";
+    FaultTextTerminal68 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_68";
     at Parameter 0x030C;
     addresses [0x0313, 0x0312, 0x0311, 0x0310, 0x030F, 0x030E, 0x030D, 0x030C];
     words 8;
@@ -3440,7 +3440,7 @@ point! {
     /// Fault text terminal 69.
     ///
     /// At parameter 0314h (788), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal69: [u16; 8] = "fault_text_terminal_69";
+    FaultTextTerminal69 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_69";
     at Parameter 0x0314;
     addresses [0x031B, 0x031A, 0x0319, 0x0318, 0x0317, 0x0316, 0x0315, 0x0314];
     words 8;
@@ -3454,7 +3454,7 @@ point! {
     /// Fault text terminal 70.
     ///
     /// At parameter 031Ch (796), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal70: [u16; 8] = "fault_text_terminal_70";
+    FaultTextTerminal70 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_70";
     at Parameter 0x031C;
     addresses [0x0323, 0x0322, 0x0321, 0x0320, 0x031F, 0x031E, 0x031D, 0x031C];
     words 8;
@@ -3468,7 +3468,7 @@ point! {
     /// Fault text terminal 71.
     ///
     /// At parameter 0324h (804), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal71: [u16; 8] = "fault_text_terminal_71";
+    FaultTextTerminal71 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_71";
     at Parameter 0x0324;
     addresses [0x032B, 0x032A, 0x0329, 0x0328, 0x0327, 0x0326, 0x0325, 0x0324];
     words 8;
@@ -3482,7 +3482,7 @@ point! {
     /// Fault text terminal 72.
     ///
     /// At parameter 032Ch (812), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal72: [u16; 8] = "fault_text_terminal_72";
+    FaultTextTerminal72 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_72";
     at Parameter 0x032C;
     addresses [0x0333, 0x0332, 0x0331, 0x0330, 0x032F, 0x032E, 0x032D, 0x032C];
     words 8;
@@ -3496,7 +3496,7 @@ point! {
     /// Fault text terminal 73.
     ///
     /// At parameter 0334h (820), `text`, 16 characters of `ascii`, read and write.
-    FaultTextTerminal73: [u16; 8] = "fault_text_terminal_73";
+    FaultTextTerminal73 of crate::WoodwardMpu2s: [u16; 8] = "fault_text_terminal_73";
     at Parameter 0x0334;
     addresses [0x033B, 0x033A, 0x0339, 0x0338, 0x0337, 0x0336, 0x0335, 0x0334];
     words 8;
@@ -3510,7 +3510,7 @@ point! {
     /// Analog output 1 source.
     ///
     /// At parameter 00C0h (192), `u16`, raw `0..23`, read and write.
-    AnalogOutput1Source: u16 = "analog_output_1_source";
+    AnalogOutput1Source of crate::WoodwardMpu2s: u16 = "analog_output_1_source";
     at Parameter 0x00C0;
     raw 0..=23;
     => value enums::AnalogSource as named(u16);
@@ -3523,7 +3523,7 @@ point! {
     /// Analog output 1 current range.
     ///
     /// At parameter 0010h (16) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-    AnalogOutput1CurrentRange: u8 = "analog_output_1_current_range";
+    AnalogOutput1CurrentRange of crate::WoodwardMpu2s: u8 = "analog_output_1_current_range";
     at Parameter 0x0010;
     bits 1 0x0002 group;
     raw 0..=1;
@@ -3544,7 +3544,7 @@ point! {
     /// analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when
     /// analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when
     /// analog_output_1_source.raw is 22`, one count is `0.01`, read and write.
-    AnalogOutput1ValueAt0Percent: i16 = "analog_output_1_value_at_0_percent";
+    AnalogOutput1ValueAt0Percent of crate::WoodwardMpu2s: i16 = "analog_output_1_value_at_0_percent";
     at Parameter 0x00C1;
     decimals 2;
     raw -9999..=9999;
@@ -3584,7 +3584,7 @@ point! {
     /// analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when
     /// analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when
     /// analog_output_1_source.raw is 22`, one count is `0.01`, read and write.
-    AnalogOutput1ValueAt100Percent: i16 = "analog_output_1_value_at_100_percent";
+    AnalogOutput1ValueAt100Percent of crate::WoodwardMpu2s: i16 = "analog_output_1_value_at_100_percent";
     at Parameter 0x00C2;
     decimals 2;
     raw -9999..=9999;
@@ -3617,7 +3617,7 @@ point! {
     /// Analog output 2 source.
     ///
     /// At parameter 00C3h (195), `u16`, raw `0..23`, read and write.
-    AnalogOutput2Source: u16 = "analog_output_2_source";
+    AnalogOutput2Source of crate::WoodwardMpu2s: u16 = "analog_output_2_source";
     at Parameter 0x00C3;
     raw 0..=23;
     => value enums::AnalogSource as named(u16);
@@ -3630,7 +3630,7 @@ point! {
     /// Analog output 2 current range.
     ///
     /// At parameter 0010h (16) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-    AnalogOutput2CurrentRange: u8 = "analog_output_2_current_range";
+    AnalogOutput2CurrentRange of crate::WoodwardMpu2s: u8 = "analog_output_2_current_range";
     at Parameter 0x0010;
     bits 3 0x0008 group;
     raw 0..=1;
@@ -3651,7 +3651,7 @@ point! {
     /// analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when
     /// analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when
     /// analog_output_2_source.raw is 22`, one count is `0.01`, read and write.
-    AnalogOutput2ValueAt0Percent: i16 = "analog_output_2_value_at_0_percent";
+    AnalogOutput2ValueAt0Percent of crate::WoodwardMpu2s: i16 = "analog_output_2_value_at_0_percent";
     at Parameter 0x00C4;
     decimals 2;
     raw -9999..=9999;
@@ -3691,7 +3691,7 @@ point! {
     /// analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when
     /// analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when
     /// analog_output_2_source.raw is 22`, one count is `0.01`, read and write.
-    AnalogOutput2ValueAt100Percent: i16 = "analog_output_2_value_at_100_percent";
+    AnalogOutput2ValueAt100Percent of crate::WoodwardMpu2s: i16 = "analog_output_2_value_at_100_percent";
     at Parameter 0x00C5;
     decimals 2;
     raw -9999..=9999;
@@ -3724,7 +3724,7 @@ point! {
     /// Relay 1 event 1.
     ///
     /// At parameter 01B4h (436) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay1Event1: u8 = "relay_1_event_1";
+    Relay1Event1 of crate::WoodwardMpu2s: u8 = "relay_1_event_1";
     at Parameter 0x01B4;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3739,7 +3739,7 @@ point! {
     /// Relay 1 logic 1.
     ///
     /// At parameter 01B4h (436) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay1Logic1: u8 = "relay_1_logic_1";
+    Relay1Logic1 of crate::WoodwardMpu2s: u8 = "relay_1_logic_1";
     at Parameter 0x01B4;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3754,7 +3754,7 @@ point! {
     /// Relay 1 event 2.
     ///
     /// At parameter 01B5h (437) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay1Event2: u8 = "relay_1_event_2";
+    Relay1Event2 of crate::WoodwardMpu2s: u8 = "relay_1_event_2";
     at Parameter 0x01B5;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3769,7 +3769,7 @@ point! {
     /// Relay 1 logic 2.
     ///
     /// At parameter 01B5h (437) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay1Logic2: u8 = "relay_1_logic_2";
+    Relay1Logic2 of crate::WoodwardMpu2s: u8 = "relay_1_logic_2";
     at Parameter 0x01B5;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3784,7 +3784,7 @@ point! {
     /// Relay 1 event 3.
     ///
     /// At parameter 01B6h (438) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay1Event3: u8 = "relay_1_event_3";
+    Relay1Event3 of crate::WoodwardMpu2s: u8 = "relay_1_event_3";
     at Parameter 0x01B6;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3799,7 +3799,7 @@ point! {
     /// Relay 1 logic 3.
     ///
     /// At parameter 01B6h (438) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay1Logic3: u8 = "relay_1_logic_3";
+    Relay1Logic3 of crate::WoodwardMpu2s: u8 = "relay_1_logic_3";
     at Parameter 0x01B6;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3814,7 +3814,7 @@ point! {
     /// Relay 2 event 1.
     ///
     /// At parameter 01B7h (439) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay2Event1: u8 = "relay_2_event_1";
+    Relay2Event1 of crate::WoodwardMpu2s: u8 = "relay_2_event_1";
     at Parameter 0x01B7;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3829,7 +3829,7 @@ point! {
     /// Relay 2 logic 1.
     ///
     /// At parameter 01B7h (439) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay2Logic1: u8 = "relay_2_logic_1";
+    Relay2Logic1 of crate::WoodwardMpu2s: u8 = "relay_2_logic_1";
     at Parameter 0x01B7;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3844,7 +3844,7 @@ point! {
     /// Relay 2 event 2.
     ///
     /// At parameter 01B8h (440) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay2Event2: u8 = "relay_2_event_2";
+    Relay2Event2 of crate::WoodwardMpu2s: u8 = "relay_2_event_2";
     at Parameter 0x01B8;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3859,7 +3859,7 @@ point! {
     /// Relay 2 logic 2.
     ///
     /// At parameter 01B8h (440) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay2Logic2: u8 = "relay_2_logic_2";
+    Relay2Logic2 of crate::WoodwardMpu2s: u8 = "relay_2_logic_2";
     at Parameter 0x01B8;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3874,7 +3874,7 @@ point! {
     /// Relay 2 event 3.
     ///
     /// At parameter 01B9h (441) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay2Event3: u8 = "relay_2_event_3";
+    Relay2Event3 of crate::WoodwardMpu2s: u8 = "relay_2_event_3";
     at Parameter 0x01B9;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3889,7 +3889,7 @@ point! {
     /// Relay 2 logic 3.
     ///
     /// At parameter 01B9h (441) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay2Logic3: u8 = "relay_2_logic_3";
+    Relay2Logic3 of crate::WoodwardMpu2s: u8 = "relay_2_logic_3";
     at Parameter 0x01B9;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3904,7 +3904,7 @@ point! {
     /// Relay 3 event 1.
     ///
     /// At parameter 01BAh (442) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay3Event1: u8 = "relay_3_event_1";
+    Relay3Event1 of crate::WoodwardMpu2s: u8 = "relay_3_event_1";
     at Parameter 0x01BA;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3919,7 +3919,7 @@ point! {
     /// Relay 3 logic 1.
     ///
     /// At parameter 01BAh (442) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay3Logic1: u8 = "relay_3_logic_1";
+    Relay3Logic1 of crate::WoodwardMpu2s: u8 = "relay_3_logic_1";
     at Parameter 0x01BA;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3934,7 +3934,7 @@ point! {
     /// Relay 3 event 2.
     ///
     /// At parameter 01BBh (443) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay3Event2: u8 = "relay_3_event_2";
+    Relay3Event2 of crate::WoodwardMpu2s: u8 = "relay_3_event_2";
     at Parameter 0x01BB;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3949,7 +3949,7 @@ point! {
     /// Relay 3 logic 2.
     ///
     /// At parameter 01BBh (443) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay3Logic2: u8 = "relay_3_logic_2";
+    Relay3Logic2 of crate::WoodwardMpu2s: u8 = "relay_3_logic_2";
     at Parameter 0x01BB;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3964,7 +3964,7 @@ point! {
     /// Relay 3 event 3.
     ///
     /// At parameter 01BCh (444) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay3Event3: u8 = "relay_3_event_3";
+    Relay3Event3 of crate::WoodwardMpu2s: u8 = "relay_3_event_3";
     at Parameter 0x01BC;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -3979,7 +3979,7 @@ point! {
     /// Relay 3 logic 3.
     ///
     /// At parameter 01BCh (444) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay3Logic3: u8 = "relay_3_logic_3";
+    Relay3Logic3 of crate::WoodwardMpu2s: u8 = "relay_3_logic_3";
     at Parameter 0x01BC;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -3994,7 +3994,7 @@ point! {
     /// Relay 4 event 1.
     ///
     /// At parameter 01BDh (445) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay4Event1: u8 = "relay_4_event_1";
+    Relay4Event1 of crate::WoodwardMpu2s: u8 = "relay_4_event_1";
     at Parameter 0x01BD;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4009,7 +4009,7 @@ point! {
     /// Relay 4 logic 1.
     ///
     /// At parameter 01BDh (445) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay4Logic1: u8 = "relay_4_logic_1";
+    Relay4Logic1 of crate::WoodwardMpu2s: u8 = "relay_4_logic_1";
     at Parameter 0x01BD;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4024,7 +4024,7 @@ point! {
     /// Relay 4 event 2.
     ///
     /// At parameter 01BEh (446) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay4Event2: u8 = "relay_4_event_2";
+    Relay4Event2 of crate::WoodwardMpu2s: u8 = "relay_4_event_2";
     at Parameter 0x01BE;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4039,7 +4039,7 @@ point! {
     /// Relay 4 logic 2.
     ///
     /// At parameter 01BEh (446) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay4Logic2: u8 = "relay_4_logic_2";
+    Relay4Logic2 of crate::WoodwardMpu2s: u8 = "relay_4_logic_2";
     at Parameter 0x01BE;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4054,7 +4054,7 @@ point! {
     /// Relay 4 event 3.
     ///
     /// At parameter 01BFh (447) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay4Event3: u8 = "relay_4_event_3";
+    Relay4Event3 of crate::WoodwardMpu2s: u8 = "relay_4_event_3";
     at Parameter 0x01BF;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4069,7 +4069,7 @@ point! {
     /// Relay 4 logic 3.
     ///
     /// At parameter 01BFh (447) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay4Logic3: u8 = "relay_4_logic_3";
+    Relay4Logic3 of crate::WoodwardMpu2s: u8 = "relay_4_logic_3";
     at Parameter 0x01BF;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4084,7 +4084,7 @@ point! {
     /// Relay 5 event 1.
     ///
     /// At parameter 01C0h (448) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay5Event1: u8 = "relay_5_event_1";
+    Relay5Event1 of crate::WoodwardMpu2s: u8 = "relay_5_event_1";
     at Parameter 0x01C0;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4099,7 +4099,7 @@ point! {
     /// Relay 5 logic 1.
     ///
     /// At parameter 01C0h (448) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay5Logic1: u8 = "relay_5_logic_1";
+    Relay5Logic1 of crate::WoodwardMpu2s: u8 = "relay_5_logic_1";
     at Parameter 0x01C0;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4114,7 +4114,7 @@ point! {
     /// Relay 5 event 2.
     ///
     /// At parameter 01C1h (449) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay5Event2: u8 = "relay_5_event_2";
+    Relay5Event2 of crate::WoodwardMpu2s: u8 = "relay_5_event_2";
     at Parameter 0x01C1;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4129,7 +4129,7 @@ point! {
     /// Relay 5 logic 2.
     ///
     /// At parameter 01C1h (449) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay5Logic2: u8 = "relay_5_logic_2";
+    Relay5Logic2 of crate::WoodwardMpu2s: u8 = "relay_5_logic_2";
     at Parameter 0x01C1;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4144,7 +4144,7 @@ point! {
     /// Relay 5 event 3.
     ///
     /// At parameter 01C2h (450) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay5Event3: u8 = "relay_5_event_3";
+    Relay5Event3 of crate::WoodwardMpu2s: u8 = "relay_5_event_3";
     at Parameter 0x01C2;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4159,7 +4159,7 @@ point! {
     /// Relay 5 logic 3.
     ///
     /// At parameter 01C2h (450) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay5Logic3: u8 = "relay_5_logic_3";
+    Relay5Logic3 of crate::WoodwardMpu2s: u8 = "relay_5_logic_3";
     at Parameter 0x01C2;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4174,7 +4174,7 @@ point! {
     /// Relay 6 event 1.
     ///
     /// At parameter 01C3h (451) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay6Event1: u8 = "relay_6_event_1";
+    Relay6Event1 of crate::WoodwardMpu2s: u8 = "relay_6_event_1";
     at Parameter 0x01C3;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4189,7 +4189,7 @@ point! {
     /// Relay 6 logic 1.
     ///
     /// At parameter 01C3h (451) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay6Logic1: u8 = "relay_6_logic_1";
+    Relay6Logic1 of crate::WoodwardMpu2s: u8 = "relay_6_logic_1";
     at Parameter 0x01C3;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4204,7 +4204,7 @@ point! {
     /// Relay 6 event 2.
     ///
     /// At parameter 01C4h (452) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay6Event2: u8 = "relay_6_event_2";
+    Relay6Event2 of crate::WoodwardMpu2s: u8 = "relay_6_event_2";
     at Parameter 0x01C4;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4219,7 +4219,7 @@ point! {
     /// Relay 6 logic 2.
     ///
     /// At parameter 01C4h (452) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay6Logic2: u8 = "relay_6_logic_2";
+    Relay6Logic2 of crate::WoodwardMpu2s: u8 = "relay_6_logic_2";
     at Parameter 0x01C4;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4234,7 +4234,7 @@ point! {
     /// Relay 6 event 3.
     ///
     /// At parameter 01C5h (453) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay6Event3: u8 = "relay_6_event_3";
+    Relay6Event3 of crate::WoodwardMpu2s: u8 = "relay_6_event_3";
     at Parameter 0x01C5;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4249,7 +4249,7 @@ point! {
     /// Relay 6 logic 3.
     ///
     /// At parameter 01C5h (453) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay6Logic3: u8 = "relay_6_logic_3";
+    Relay6Logic3 of crate::WoodwardMpu2s: u8 = "relay_6_logic_3";
     at Parameter 0x01C5;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4264,7 +4264,7 @@ point! {
     /// Relay 7 event 1.
     ///
     /// At parameter 01C6h (454) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay7Event1: u8 = "relay_7_event_1";
+    Relay7Event1 of crate::WoodwardMpu2s: u8 = "relay_7_event_1";
     at Parameter 0x01C6;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4279,7 +4279,7 @@ point! {
     /// Relay 7 logic 1.
     ///
     /// At parameter 01C6h (454) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay7Logic1: u8 = "relay_7_logic_1";
+    Relay7Logic1 of crate::WoodwardMpu2s: u8 = "relay_7_logic_1";
     at Parameter 0x01C6;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4294,7 +4294,7 @@ point! {
     /// Relay 7 event 2.
     ///
     /// At parameter 01C7h (455) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay7Event2: u8 = "relay_7_event_2";
+    Relay7Event2 of crate::WoodwardMpu2s: u8 = "relay_7_event_2";
     at Parameter 0x01C7;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4309,7 +4309,7 @@ point! {
     /// Relay 7 logic 2.
     ///
     /// At parameter 01C7h (455) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay7Logic2: u8 = "relay_7_logic_2";
+    Relay7Logic2 of crate::WoodwardMpu2s: u8 = "relay_7_logic_2";
     at Parameter 0x01C7;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4324,7 +4324,7 @@ point! {
     /// Relay 7 event 3.
     ///
     /// At parameter 01C8h (456) bits 15 to 8, `u8`, raw `1..98`, read and write.
-    Relay7Event3: u8 = "relay_7_event_3";
+    Relay7Event3 of crate::WoodwardMpu2s: u8 = "relay_7_event_3";
     at Parameter 0x01C8;
     bits 8 0xFF00 group;
     fixed 0x00F8 0x0000;
@@ -4339,7 +4339,7 @@ point! {
     /// Relay 7 logic 3.
     ///
     /// At parameter 01C8h (456) bits 2 to 0, `u8`, raw `0..7`, read and write.
-    Relay7Logic3: u8 = "relay_7_logic_3";
+    Relay7Logic3 of crate::WoodwardMpu2s: u8 = "relay_7_logic_3";
     at Parameter 0x01C8;
     bits 0 0x0007 group;
     fixed 0x00F8 0x0000;
@@ -4354,7 +4354,7 @@ point! {
     /// Automatic idle control.
     ///
     /// At parameter 0012h (18) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-    AutomaticIdleControl: u8 = "automatic_idle_control";
+    AutomaticIdleControl of crate::WoodwardMpu2s: u8 = "automatic_idle_control";
     at Parameter 0x0012;
     bits 0 0x0001 group;
     raw 0..=1;
@@ -4368,7 +4368,7 @@ point! {
     /// Shutdown.
     ///
     /// At parameter 00C9h (201) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-    Shutdown: u8 = "shutdown";
+    Shutdown of crate::WoodwardMpu2s: u8 = "shutdown";
     at Parameter 0x00C9;
     bits 11 0x0800 group;
     raw 0..=1;
@@ -4382,7 +4382,7 @@ point! {
     /// Engine monitoring delay.
     ///
     /// At parameter 007Ah (122), `u16`, raw `1..99`, read and write.
-    EngineMonitoringDelay: u16 = "engine_monitoring_delay";
+    EngineMonitoringDelay of crate::WoodwardMpu2s: u16 = "engine_monitoring_delay";
     at Parameter 0x007A;
     unit "s";
     raw 1..=99;
@@ -4397,7 +4397,7 @@ point! {
     ///
     /// At parameter 0019h (25), `u16`, raw `3840..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
     /// read and write.
-    MonitoringStartFrequency: u16 = "monitoring_start_frequency";
+    MonitoringStartFrequency of crate::WoodwardMpu2s: u16 = "monitoring_start_frequency";
     at Parameter 0x0019;
     unit "Hz";
     decimals 3;

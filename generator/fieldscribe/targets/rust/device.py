@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from fieldscribe.model import Device, Point, Version
 from fieldscribe.resources import Render
@@ -38,8 +38,7 @@ def texts_of(source: str, device: Device, scope: CrateScope, render: Render) -> 
         points, names_runtime = point_texts(scope, render)
         return {"points": points, "uses_runtime": names_runtime}
     if source == "enums":
-        enums, long_enums = enum_texts(device, scope, render)
-        return {"enums": enums, "long_enums": long_enums}
+        return {"enums": "".join(enum_texts(device, scope, render))}
     return {"words": "".join(word_texts(scope, render))} if source == "flags" else {}
 
 
@@ -68,6 +67,8 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "uses_enums": any(enum.name in scope.enums for enum in device.enums),
         "uses_flags": bool(first_word),
         "uses_with": bool(structs),
+        "device_type": scope.device_type,
+        "clients": tuple(_clients(device.family, of_family.client_types, scope.device_type)),
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
         "id_literal": rust_string(device.id),
@@ -87,7 +88,22 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     }
 
 
-_ALWAYS = ("points as p", "Client", "ClientError", "Transport", "PROFILE")
+_CLIENTS = (
+    ("Client", "that blocks"),
+    ("AsyncClient", "that does not block"),
+    ("LocalClient", "of one thread, which does not block"),
+)
+
+
+def _clients(family: str, types: tuple[str, str], device: str) -> Iterator[tuple[str, Lines]]:
+    """Yield the comment and the lines of each type of client of the device; `types` are declared and given."""
+    declared, given = types
+    for name, kind in _CLIENTS:
+        client = f"runtime::{family}::{name}<{given}, {device}>"
+        yield f"A device behind a transport {kind}.", binding(0, Item(f"pub type {name}<{declared}>"), client)
+
+
+_ALWAYS = ("points as p", "Client", "ClientError", "Transport")
 
 
 def example_of(device: Device, scope: CrateScope) -> Snippet:
@@ -108,14 +124,14 @@ def first_program(device: Device, scope: CrateScope, family: RustFamily, link: s
     line = family.line(device)
     if read is None or not line:
         return ()
-    names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names, "PROFILE")
+    names = ("points as p", f"runtime::transports::{family.line_names}", "Client", *family.names)
     written = _first(candidates, _is_set)
     return (
         *filled(f"use {device.id}::{{", ", ", names, "};"),
         "",
         "fn main() -> Result<(), Box<dyn std::error::Error>> {",
         f"    let line = {line};",
-        f"    let mut client = Client::new(line, &PROFILE, {link});",
+        f"    let mut client = Client::new(line, {link});",
         f'    println!("{{:?}}", client.read::<p::{read.name}>()?);',
         *((f"    {_write(written)}",) if written else ()),
         "    Ok(())",

@@ -11,7 +11,7 @@ from fieldscribe.model import Device, Entry, Enum, Flag
 from fieldscribe.resources import Render
 from fieldscribe.targets.placeholders import TextTemplates, placeholders
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import Item, arm, binding, called, calls, comparison, signature
+from fieldscribe.targets.rust.layout import Item, binding, called, calls, comparison, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
 from fieldscribe.text import rust_string
@@ -19,21 +19,17 @@ from fieldscribe.text import rust_string
 View = dict[str, Any]
 """What a template places for an entry or a flag, by the names that it uses there."""
 
-_LONG = 90
-"""A function with more arms, one for each name, is too long for clippy."""
-
 UNKNOWN = ("Unknown", "Other", "Unnamed", "Number")
 """Names for the variant of unnamed numbers: the first of these that is no entry is used."""
 
 
-def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, bool]:
-    """Return the enums that generated points use, in the device's order, and whether one of them has many names."""
-    templates, texts, long = TextTemplates(), list[str](), list[bool]()
+def enum_texts(device: Device, scope: CrateScope, render: Render) -> Iterator[str]:
+    """Yield the enums that generated points use, in the device's order."""
+    templates = TextTemplates()
 
     def lay_out(enum: Enum, raw: str, words: tuple[str, str]) -> str:
         name, doc = placeholders(words)
-        entries = tuple(_entry(entry, name) for entry in enum.entries)
-        long.append(max(sum(len(entry[arms]) for entry in entries) for arms in ("named", "numbered")) > _LONG)
+        entries = tuple(map(_entry, enum.entries))
         variants = {entry["name"] for entry in entries}
         unknown = next(candidate for candidate in UNKNOWN if candidate not in variants)
         return render("rust/enum.rs.j2", {"doc": doc, "name": name, "raw": raw, "entries": entries, "unknown": unknown})
@@ -44,8 +40,7 @@ def enum_texts(device: Device, scope: CrateScope, render: Render) -> tuple[str, 
             words = (type_name(enum.name), sentence(enum.name))
             key = (raw, len(words[0]), tuple([(entry.name, entry.raw) for entry in enum.entries]))
             text = templates.fill(key, words, partial(lay_out, enum, raw, words))
-            texts.append(text + old_names_text(words[0], enum.was, render))
-    return "".join(texts), any(long)
+            yield text + old_names_text(words[0], enum.was, render)
 
 
 def old_names_text(name: str, old_names: Iterable[str], render: Render) -> str:
@@ -129,12 +124,10 @@ def _names(constant: str, flag: Flag) -> tuple[str, ...]:
     return calls(8, Item(f"const {constant}", "runtime::Names"), rows)
 
 
-def _entry(entry: Entry, enum: str) -> View:
-    """Return a variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
-    name, literal = variant_name(entry.name), integer(entry.raw)
-    named = arm(12, f"Self::{name}", f"Some({rust_string(entry.name)})")
-    numbered = arm(12, f"{enum}::{name}", literal)
-    return {"doc": sentence(entry.name), "name": name, "literal": literal, "named": named, "numbered": numbered}
+def _entry(entry: Entry) -> View:
+    """Return a variant of an enum with its number and its name in the description."""
+    name, literal, text = variant_name(entry.name), integer(entry.raw), rust_string(entry.name)
+    return {"doc": sentence(entry.name), "name": name, "literal": literal, "text": text}
 
 
 def _flag(flag: Flag, width: int) -> View:

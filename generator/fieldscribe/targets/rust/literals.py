@@ -42,6 +42,26 @@ _PRELUDE = (
 )
 """Names that a type of ours must not hide."""
 
+_OF_CRATE = frozenset(
+    {"Access", "AsyncClient", "AsyncTransport", "BitGroup", "Block", "Client", "ClientError", "Coded", "Command"}
+    | {
+        "CountReadable",
+        "CountWritable",
+        "Dialogue",
+        "Encodable",
+        "Error",
+        "FixedBits",
+        "Frame",
+        "Framing",
+        "Function",
+        "Link",
+        "Listener",
+    }
+    | {"LocalClient", "LocalTransport", "Message", "Point", "PointInfo", "Profile", "Readable", "Reading", "Receiver"}
+    | {"Scaled", "Space", "Special", "Task", "Transport", "Whole", "Writable"}
+)
+"""Names at the root of every crate, or of those of a family."""
+
 _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
 
@@ -66,6 +86,12 @@ def type_name(name: str) -> str:
     """Return the name of a type: `BaseFrequency`; changed if the prelude has that name."""
     result = pascal(name)
     return f"{result}_" if result in _PRELUDE else result
+
+
+def device_type(name: str) -> str:
+    """Return the name of a device's type: `HitachiL200`; another if its crate has an item of that name already."""
+    result = type_name(name)
+    return f"{result}Device" if result in _OF_CRATE else result
 
 
 @lru_cache(maxsize=65536)

@@ -106,7 +106,8 @@ class _PointTemplates:
 def _facts(subject: CratePoint, fields: MacroFields, scope: CrateScope) -> Iterator[str]:
     """Yield the facts in the order of the macro."""
     point = subject.point
-    yield f'{fields.name}: {subject.raw} = "{fields.item}"{fields.code and ", "}{fields.code};'
+    type_ = f"{fields.name} of crate::{scope.device_type}: {subject.raw}"
+    yield f'{type_} = "{fields.item}"{fields.code and ", "}{fields.code};'
     yield from _whereabouts(point, fields)
     if fields.references:
         yield fields.references

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from fieldscribe.lowered import Lowered, lower, named_numbers
 from fieldscribe.model import Device, Enum, Message, Point, Shape, Telegram
-from fieldscribe.targets.rust.literals import raw_type, type_name
+from fieldscribe.targets.rust.literals import device_type, raw_type, type_name
 
 
 class CratePoint(NamedTuple):
@@ -55,7 +55,7 @@ class CratePoint(NamedTuple):
 class CrateScope:
     """What the points of a device share: the lowered model, the raw types of enums by name, functions.
 
-    The telegrams are by name, with the messages that carry them.
+    `device_type` is the type of the device. The telegrams are by name, with the messages that carry them.
     """
 
     lowered: Lowered
@@ -63,6 +63,7 @@ class CrateScope:
     functions: frozenset[int]
     subjects: tuple[CratePoint, ...]
     family: str
+    device_type: str
     telegrams: Mapping[str, tuple[Telegram, Message | None]]
 
 
@@ -84,6 +85,7 @@ def scope_of(device: Device) -> CrateScope:
         frozenset(code.number for code in device.bus.functions),
         tuple(subjects),
         device.family,
+        device_type(device.id),
         {telegram.name: (telegram, messages.get(telegram.message or "")) for telegram in device.telegrams},
     )
 

@@ -3,15 +3,19 @@
 
 use core::fmt;
 use core::future::Future;
+use core::marker::PhantomData;
 
 use super::{
     BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
     Telegram,
 };
+use crate::client::{read_methods, write_methods};
 use crate::error::lead;
 use crate::point::joined;
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
-use crate::{Point, Raw, Readable, Whole, Writable};
+use crate::{
+    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+};
+use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
 
 /// Sends frames and waits for frames.
 ///
@@ -345,6 +349,14 @@ struct Unit {
 }
 
 impl Unit {
+    const fn new(profile: &'static Profile, number: u8) -> Self {
+        Self {
+            profile,
+            number,
+            patience: PATIENCE,
+        }
+    }
+
     /// The messages of a dialogue and the frame that asks.
     fn ask(
         &self,
@@ -379,27 +391,31 @@ macro_rules! client {
         ///
         /// Frames that are no answer to what was asked are offered to a [`Listener`].
         #[derive(Debug)]
-        pub struct $client<T, L = ()> {
+        pub struct $client<T, L = (), D = AnyDevice> {
             transport: T,
             listener: L,
             unit: Unit,
+            device: PhantomData<D>,
         }
 
-        impl<T> $client<T> {
-            /// The unit of that number behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, unit: u8) -> Self {
-                Self {
-                    transport,
-                    listener: (),
-                    unit: Unit { profile, number: unit, patience: PATIENCE },
-                }
+        impl<T: $transport, D: Device<Profile = Profile>> $client<T, (), D> {
+            /// The unit of that number behind a transport.
+            pub const fn new(transport: T, unit: u8) -> Self {
+                Self { transport, listener: (), unit: Unit::new(D::PROFILE, unit), device: PhantomData }
             }
         }
 
-        impl<T, L> $client<T, L> {
+        impl<T: $transport> $client<T> {
+            /// The unit of that number, of a device that is chosen at run time; its client takes every point.
+            pub const fn for_profile(transport: T, profile: &'static Profile, unit: u8) -> Self {
+                Self { transport, listener: (), unit: Unit::new(profile, unit), device: PhantomData }
+            }
+        }
+
+        impl<T, L, D> $client<T, L, D> {
             /// The same client with another listener, as a [`Receiver`] of a telegram.
-            pub fn listening<M: Listener>(self, listener: M) -> $client<T, M> {
-                $client { transport: self.transport, listener, unit: self.unit }
+            pub fn listening<M: Listener>(self, listener: M) -> $client<T, M, D> {
+                $client { transport: self.transport, listener, unit: self.unit, device: PhantomData }
             }
 
             /// The same client that lets so many frames pass while it waits for one; else it waits for ten thousand.
@@ -424,7 +440,7 @@ macro_rules! client {
             }
         }
 
-        impl<T: $transport, L: Listener> $client<T, L> {
+        impl<T: $transport, L: Listener, D> $client<T, L, D> {
             /// The raw number that the device answers with.
             $($async)? fn exchange(
                 &mut self,
@@ -491,6 +507,7 @@ macro_rules! client {
             pub $($async)? fn read_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
             where
                 P: Readable + Parameter,
+                D: Accepts<P::Device>,
             {
                 let mut words = P::Raw::MIN.into_words();
                 for (place, address) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
@@ -499,138 +516,16 @@ macro_rules! client {
                 Ok(joined::<P>(words))
             }
 
-            /// A parameter's value.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable<Factors: NeedsNothing> + Parameter,
-            {
-                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
+            read_methods! {
+                [$($async)?], [$($wait)*], "A parameter", read_raw for Parameter;
+                read read_with read_count read_count_with
             }
 
-            /// A parameter's value, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable + Parameter,
-            {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_with(raw, with).into_result()?)
-            }
-
-            /// A parameter's count: its value in units of `10^-DECIMALS`, without floating point.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable<Factors: NeedsNothing> + Parameter,
-            {
-                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
-            }
-
-            /// A parameter's count, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable + Parameter,
-            {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_count_with(raw, with).into_result()?)
-            }
-
-            /// Writes a value to a parameter.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// Writes a value to a parameter, by the raw numbers that its scale and its limits need.
-            ///
-            /// Several words go out one by one: when one fails, those before it are written.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_with<P>(
-                &mut self,
-                value: P::Value,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable + Whole + Parameter,
-            {
-                self.put::<P>(P::encode_with(value, with)?)$($wait)*
-            }
-
-            /// Writes a count to a parameter: its value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `write_count`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count_with<P>(
-                &mut self,
-                count: P::Count,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable + Whole + Parameter,
-            {
-                let raw = P::encode_count_with(count, with)?;
-                self.put::<P>(raw)$($wait)*
-            }
-
-            /// Writes a raw number to a parameter, if it may be written.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
-            where
-                P: Writable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `write_raw`, by the raw numbers that the point's limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw_with<P>(
-                &mut self,
-                raw: P::Raw,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: Writable + Whole + Parameter,
-            {
-                P::check_with(raw, with)?;
-                self.put::<P>(raw)$($wait)*
+            write_methods! {
+                [$($async)?], [$($wait)*],
+                "Writes a value to a parameter, word by word: when one fails, those before it are written.",
+                put for Parameter, ClientError<T::Error>;
+                write write_with write_count write_count_with write_raw write_raw_with
             }
 
             /// Writes a raw number that was checked, word by word.
@@ -649,6 +544,7 @@ macro_rules! client {
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
                 let word = self.read_word(P::ADDRESS)$($wait)*.map_err(ClientError::of::<P>)?;
@@ -666,65 +562,15 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// The value of a point of a telegram: listens until all its words came again and belong together.
-            ///
-            /// What was heard before is at the listener: `client.listener().raw::<P>()`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Received<Factors: NeedsNothing>,
-                L: Hears<P::Telegram>,
-            {
-                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
+            read_methods! {
+                [$($async)?], [$($wait)*],
+                "A point of a telegram when all its words came again and belong together",
+                receive_raw for Received, [L: Hears<P::Telegram>];
+                receive receive_with receive_count receive_count_with
             }
 
-            /// The same by the raw numbers that the point's scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Received,
-                L: Hears<P::Telegram>,
-            {
-                let raw = self.receive_raw::<P>()$($wait)*?;
-                Ok(P::decode_with(raw, with).into_result()?)
-            }
-
-            /// As `receive`, as a count: the value in units of `10^-DECIMALS`, without floating point.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: Received + CountReadable<Factors: NeedsNothing>,
-                L: Hears<P::Telegram>,
-            {
-                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
-            }
-
-            /// The same by the raw numbers that the point's scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_count_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: Received + CountReadable,
-                L: Hears<P::Telegram>,
-            {
-                let raw = self.receive_raw::<P>()$($wait)*?;
-                Ok(P::decode_count_with(raw, with).into_result()?)
-            }
-
-            /// As `receive`, as the raw number.
+            /// As `receive`, as the raw number. What was heard before is at the listener:
+            /// `client.listener().raw::<P>()`.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -732,6 +578,7 @@ macro_rules! client {
             where
                 P: Received,
                 L: Hears<P::Telegram>,
+                D: Accepts<P::Device>,
             {
                 let taken = self.listener.receiver().taken();
                 let mut found = Err(ReceiveError::Missing(Some(P::NAME)));

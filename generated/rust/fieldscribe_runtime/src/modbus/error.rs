@@ -117,9 +117,19 @@ pub enum ReplyError {
     /// The reply belongs to another transaction.
     WrongTransaction,
     /// Another unit replied.
-    WrongUnit,
+    WrongUnit {
+        /// The unit of the request.
+        expected: u8,
+        /// The unit of the reply.
+        received: u8,
+    },
     /// The reply is to another function.
-    WrongFunction,
+    WrongFunction {
+        /// The function of the request.
+        expected: u8,
+        /// The function of the reply.
+        received: u8,
+    },
     /// The device refused.
     Exception {
         /// The code that says why.
@@ -128,9 +138,19 @@ pub enum ReplyError {
         name: Option<&'static str>,
     },
     /// The byte count is not what the request asked for.
-    BadByteCount,
+    BadByteCount {
+        /// How many bytes the request asked for.
+        expected: u16,
+        /// How many the reply counts, or brings.
+        received: u16,
+    },
     /// What was written is not what the reply repeats.
-    EchoMismatch,
+    EchoMismatch {
+        /// The address of the request, and its value or its count of items.
+        expected: (u16, u16),
+        /// Those of the reply.
+        received: (u16, u16),
+    },
 }
 
 impl ReplyError {
@@ -144,11 +164,11 @@ impl ReplyError {
             Self::BadCrc => "bad_crc",
             Self::BadProtocol => "bad_protocol",
             Self::WrongTransaction => "wrong_transaction",
-            Self::WrongUnit => "wrong_unit",
-            Self::WrongFunction => "wrong_function",
+            Self::WrongUnit { .. } => "wrong_unit",
+            Self::WrongFunction { .. } => "wrong_function",
             Self::Exception { .. } => "exception",
-            Self::BadByteCount => "bad_byte_count",
-            Self::EchoMismatch => "echo_mismatch",
+            Self::BadByteCount { .. } => "bad_byte_count",
+            Self::EchoMismatch { .. } => "echo_mismatch",
         }
     }
 }
@@ -162,14 +182,32 @@ impl fmt::Display for ReplyError {
             Self::BadCrc => formatter.write_str("the checksum is wrong"),
             Self::BadProtocol => formatter.write_str("the protocol number is not 0"),
             Self::WrongTransaction => formatter.write_str("the reply is to another transaction"),
-            Self::WrongUnit => formatter.write_str("another unit replied"),
-            Self::WrongFunction => formatter.write_str("the reply is to another function"),
+            Self::WrongUnit { expected, received } => {
+                write!(formatter, "unit {received} replied instead of {expected}")
+            }
+            Self::WrongFunction { expected, received } => {
+                write!(
+                    formatter,
+                    "the reply is to function {received:02X}h instead of {expected:02X}h"
+                )
+            }
             Self::Exception { code, name } => {
                 write!(formatter, "the device refused with exception {code:02X}h")?;
                 name.map_or(Ok(()), |name| write!(formatter, " ({name})"))
             }
-            Self::BadByteCount => formatter.write_str("the byte count is not what was asked for"),
-            Self::EchoMismatch => formatter.write_str("the reply repeats something else"),
+            Self::BadByteCount { expected, received } => {
+                write!(
+                    formatter,
+                    "the reply has {received} data bytes instead of {expected}"
+                )
+            }
+            Self::EchoMismatch { expected, received } => {
+                let ((to, written), (at, repeated)) = (expected, received);
+                write!(
+                    formatter,
+                    "{written:04X}h was written to {to:04X}h, the reply repeats {repeated:04X}h at {at:04X}h"
+                )
+            }
         }
     }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: 0BSD
 //! What the frames need to know of a device, as constants of the generated code.
 
-use super::function::{longest_count, writes};
+use core::marker::PhantomData;
+
+use super::function::{longest_count, read_function, writes};
 use super::{Framing, ReplyError};
-use crate::{Readable, Space};
+use crate::{Accepts, AnyDevice, PointInfo, Readable, Space};
 
 /// A function that a device knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,7 +146,7 @@ impl Profile {
 
 /// A read of consecutive addresses that keeps to the device's limits and holes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Block {
+pub struct Block<D = AnyDevice> {
     /// Where the addresses count.
     pub space: Space,
     /// The function that reads them.
@@ -153,9 +155,10 @@ pub struct Block {
     pub address: u16,
     /// How many items.
     pub count: u16,
+    device: PhantomData<D>,
 }
 
-impl Block {
+impl<D> Block<D> {
     /// `count` items from `address`.
     #[must_use]
     pub const fn new(space: Space, function: u8, address: u16, count: u16) -> Self {
@@ -164,12 +167,39 @@ impl Block {
             function,
             address,
             count,
+            device: PhantomData,
         }
+    }
+
+    /// The words, or the bits, of a point that is known at run time only.
+    ///
+    /// ```
+    /// use fieldscribe_runtime::modbus::Block;
+    /// use fieldscribe_runtime::{point, Point, Space};
+    ///
+    /// point! {
+    ///     /// Jump frequency.
+    ///     JumpFrequency: u16 = "jump_frequency";
+    ///     at Holding 0x1028;
+    ///     => value f64 as scaled(10, 1);
+    ///     read {}
+    /// }
+    ///
+    /// let block: Block = Block::of(&JumpFrequency::INFO);
+    /// assert_eq!(block, Block::new(Space::Holding, 3, 0x1028, 1));
+    /// ```
+    #[must_use]
+    pub const fn of(point: &PointInfo) -> Self {
+        let function = read_function(point.space);
+        Self::new(point.space, function, point.address, point.words)
     }
 
     /// Whether the block brings the point.
     #[must_use]
-    pub fn brings<P: Readable>(&self) -> bool {
+    pub fn brings<P: Readable>(&self) -> bool
+    where
+        D: Accepts<P::Device>,
+    {
         let offset = P::ADDRESS.checked_sub(self.address);
         let end = offset.and_then(|offset| offset.checked_add(P::WORDS));
         self.space == P::SPACE && end.is_some_and(|end| end <= self.count)
@@ -178,16 +208,17 @@ impl Block {
 
 /// A named constant write. The value is none where any does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Command {
+pub struct Command<D = AnyDevice> {
     /// The function that writes it.
     pub function: u8,
     /// The address that takes it.
     pub address: u16,
     /// What to write.
     pub value: Option<u16>,
+    device: PhantomData<D>,
 }
 
-impl Command {
+impl<D> Command<D> {
     /// A write of `value`, or of anything, to `address`.
     #[must_use]
     pub const fn new(function: u8, address: u16, value: Option<u16>) -> Self {
@@ -195,6 +226,7 @@ impl Command {
             function,
             address,
             value,
+            device: PhantomData,
         }
     }
 }

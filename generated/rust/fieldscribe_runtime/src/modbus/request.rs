@@ -77,13 +77,13 @@ impl Request<'static> {
 
     /// A request that reads a block.
     #[must_use]
-    pub const fn block(unit: u8, block: &Block) -> Self {
+    pub const fn block<D>(unit: u8, block: &Block<D>) -> Self {
         Self::new(unit, block.function, block.address, block.count)
     }
 
     /// A request that gives a command.
     #[must_use]
-    pub fn command(unit: u8, command: &Command) -> Self {
+    pub fn command<D>(unit: u8, command: &Command<D>) -> Self {
         let value = command.value.unwrap_or(1);
         Self::own(unit, command.function, command.address, &[value])
     }

@@ -6,7 +6,7 @@ use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 
 use super::stream::is_silence;
-use super::{Answer, Protocol};
+use super::{Answer, Protocol, NOISE};
 use crate::Transport;
 
 /// A connection over TCP: Modbus TCP, or the frames of a serial line behind a serial server.
@@ -105,17 +105,23 @@ impl<A: ToSocketAddrs> Transport for TcpLine<A> {
     }
 }
 
-/// Throws away what came; whether the other end is still there.
+/// Throws away what came; whether the other end is still there, and silent.
+///
+/// One that sends without end is given up, so that this ends.
 fn drained(mut stream: &TcpStream) -> Result<bool> {
     stream.set_nonblocking(true)?;
     let mut thrown_away = [0; 256];
-    let is_there = loop {
+    let mut is_silent = false;
+    for _ in 0..NOISE {
         match stream.read(&mut thrown_away) {
-            Ok(0) => break false,
-            Ok(_) => {}
-            Err(error) => break error.kind() == ErrorKind::WouldBlock,
+            Ok(1..) => {}
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            ended => {
+                is_silent = ended.is_err_and(|error| error.kind() == ErrorKind::WouldBlock);
+                break;
+            }
         }
-    };
+    }
     stream.set_nonblocking(false)?;
-    Ok(is_there)
+    Ok(is_silent)
 }

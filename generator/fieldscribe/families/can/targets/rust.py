@@ -165,6 +165,7 @@ IN_RUST = RustFamily(
     tables_of_frames=tables_of_frames,
     refusals="constant",
     names=("Frame",),
-    transports=("embedded-can",),
+    transports=("std", "embedded-can"),
+    client_types=("T, L = ()", "T, L"),
     telegram=telegram_of,
 )

@@ -55,7 +55,7 @@ def _profile(bus: Bus) -> Lines:
     profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
     pads = of_bus(bus).pad_coil_bytes == "even" and any(code.number == _WRITE_COILS for code in bus.functions)
     steps = [*([".padding_coils()"] if pads else []), *([".naming(exceptions::name)"] if bus.exceptions else [])]
-    return chain(Item("pub static PROFILE", "Profile"), profile, steps)
+    return chain(Item("pub const PROFILE", "Profile"), profile, steps)
 
 
 def _blocks(group: str, blocks: tuple[Block, ...]) -> Lines:

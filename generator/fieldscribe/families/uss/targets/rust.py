@@ -25,7 +25,7 @@ def context(device: Device) -> dict[str, object]:
         "example_link": f"Link::new({max(facts.pkw)}, {facts.pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
-        "profile": binding(0, Item("pub static PROFILE", "Profile"), _profile(bus)),
+        "profile": binding(0, Item("pub const PROFILE", "Profile"), _profile(bus)),
         "pkw": ", ".join(map(str, facts.pkw)),
         "tasks": array(Item("const TASKS", "&[Task]"), tasks),
         "fixed": array(Item("const FIXED", "&[FixedBits]"), fixed),

@@ -16,13 +16,14 @@ use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
 macro_rules! both {
     ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
         let found = {
-            let mut $client = Client::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let mut $client = Client::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
             let found = $call;
             let script = $client.into_transport();
             exchanged($vector, found, name, &script.script)?
         };
         let again = {
-            let mut $client = AsyncClient::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let mut $client =
+                AsyncClient::for_profile(Bus::new($vector), $profile, $vector.raw("unit"));
             let found = now($call);
             let script = $client.into_transport();
             exchanged($vector, found, name, &script.script)?

@@ -548,7 +548,7 @@ macro_rules! conversations {
                 (asked(0x0102), vec![noise, noise, answered(0x0102, 7)]),
             ]);
             bus.stale = [noise, answered(0x0102, 6)].into();
-            let client = $client::new(bus, &PROFILE, 5).listening(Log::default());
+            let client = $client::for_profile(bus, &PROFILE, 5).listening(Log::default());
             let mut client = client.patient(3);
             assert_eq!($wait(client.read::<Word>()), Ok(7));
             let heard = &client.listener().0;
@@ -583,14 +583,14 @@ macro_rules! conversations {
             assert!(client.into_transport().steps.is_empty());
             // An answer that carries neither address nor raw number answers all; a device may not answer at all.
             let bus = Bus::new(&[(change(0x0102, 9), vec![frame(&DONE, 0, 0)])]);
-            let mut client = $client::new(bus, &BRIEF, 5);
+            let mut client = $client::for_profile(bus, &BRIEF, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
             let none = ClientError::Build(BuildError::NoMessage, Some("Word"));
             assert_eq!($wait(client.read::<Word>()), Err(none));
             let bus = Bus::new(&[(change(0x0102, 9), vec![])]);
-            let mut client = $client::new(bus, &SILENT, 5);
+            let mut client = $client::for_profile(bus, &SILENT, 5);
             assert_eq!($wait(client.write::<Word>(9)), Ok(()));
-            let mut client = $client::new(Bus::default(), &PROFILE, 10);
+            let mut client = $client::for_profile(Bus::default(), &PROFILE, 10);
             let bad = ClientError::Build(BuildError::BadUnit, Some("Word"));
             assert_eq!($wait(client.read::<Word>()), Err(bad));
             let lost = ClientError::Transport(Lost, None);
@@ -601,7 +601,7 @@ macro_rules! conversations {
                 (change(0x0202, 3), vec![answered(0x0202, 3)]),
                 (change(0x0201, 4), vec![answered(0x0201, 4)]),
             ]);
-            let mut client = $client::new(bus, &PROFILE, 5);
+            let mut client = $client::for_profile(bus, &PROFILE, 5);
             assert_eq!($wait(client.read_count::<Word>()), Ok([7]));
             assert_eq!($wait(client.write_count::<Word>([8])), Ok(()));
             assert_eq!($wait(client.write_raw::<Long>(0x0003_0004)), Ok(()));
@@ -613,7 +613,7 @@ macro_rules! conversations {
             }
             assert!(client.into_transport().steps.is_empty());
             let bus = Bus::new(&[(asked(0x0102), vec![noise; 10_000])]);
-            let mut client = $client::new(bus, &PROFILE, 5);
+            let mut client = $client::for_profile(bus, &PROFILE, 5);
             let none = ClientError::NoAnswer(Some("Word"));
             assert_eq!($wait(client.read::<Word>()), Err(none));
         }
@@ -637,7 +637,7 @@ macro_rules! conversations {
                 high(2),
             ]);
             let receiver = Receiver::<Measured>::new(5);
-            let mut client = $client::new(bus, &PROFILE, 5)
+            let mut client = $client::for_profile(bus, &PROFILE, 5)
                 .listening(receiver.clone())
                 .patient(4);
             assert_eq!($wait(client.receive::<Speed>()), Ok(5));
@@ -649,13 +649,14 @@ macro_rules! conversations {
             let torn = ClientError::Telegram(ReceiveError::Missing(Some("Speed")));
             assert_eq!($wait(client.patient(2).receive::<Speed>()), Err(torn));
             let bus = Bus::hears(&[low(5), low(7)]);
-            let mut client = $client::new(bus, &PROFILE, 5).listening(receiver.clone());
+            let mut client = $client::for_profile(bus, &PROFILE, 5).listening(receiver.clone());
             assert_eq!($wait(client.receive_count::<Speed>()), Ok([5]));
             assert_eq!($wait(client.receive_raw::<Speed>()), Ok(7));
             let lost = Err(ClientError::Transport(Lost, Some("Speed")));
             assert_eq!($wait(client.receive_count_with::<Speed>(())), lost);
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
-            let client = $client::new(bus, &PROFILE, 5).listening((Log::default(), Log::default()));
+            let client =
+                $client::for_profile(bus, &PROFILE, 5).listening((Log::default(), Log::default()));
             let mut client = client;
             assert_eq!($wait(client.listen()), Ok(()));
             assert_eq!(
@@ -663,7 +664,7 @@ macro_rules! conversations {
                 (&vec![high(1)], &vec![high(1)])
             );
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
-            let mut client = $client::new(bus, &PROFILE, 5)
+            let mut client = $client::for_profile(bus, &PROFILE, 5)
                 .listening(receiver)
                 .patient(3);
             let torn = ClientError::Telegram(ReceiveError::Torn(Some("Hours")));

@@ -109,7 +109,7 @@ macro_rules! table {
         )
     };
     ($run:ident $module:ident (sent $constant:ident) $vector:ident) => {
-        frames::command($vector, &device::PROFILE, device::$module::$constant)
+        frames::command($vector, &device::PROFILE, &device::$module::$constant)
     };
     ($run:ident $point:ident (wire) $vector:ident) => {
         frames::$run::<device::points::$point>($vector, &device::PROFILE)

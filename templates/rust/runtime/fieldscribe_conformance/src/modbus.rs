@@ -31,7 +31,7 @@ macro_rules! both {
 }
 
 fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
-    Client::new(
+    Client::for_profile(
         Script::new(vector),
         profile,
         framing(vector),
@@ -40,7 +40,7 @@ fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
 }
 
 fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
-    AsyncClient::new(
+    AsyncClient::for_profile(
         Script::new(vector),
         profile,
         framing(vector),
@@ -175,25 +175,26 @@ where
 {
     let unit = vector.raw("unit");
     let request = Request::write::<P>(unit, vector.raw("raw"));
-    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
+    let mut client = Client::for_profile(Script::new(vector), profile, framing(vector), unit);
     let found = client.exchange(request).map(|_| ());
     exchanged(vector, found, name, &client.into_transport()).map(|_| ())
 }
 
 /// A command.
-pub fn command(vector: &Vector, profile: &'static Profile, command: Command) -> Outcome {
+pub fn command<D>(vector: &Vector, profile: &'static Profile, command: &Command<D>) -> Outcome {
+    let command = Command::new(command.function, command.address, command.value);
     both!(vector, profile, |client| client.command(&command));
     same(vector.raw("value"), command.value.unwrap_or(1))
 }
 
 /// A batched read.
-pub fn block(vector: &Vector, blocks: &[(&str, &[Block])]) -> Outcome {
+pub fn block<D>(vector: &Vector, blocks: &[(&str, &[Block<D>])]) -> Outcome {
     let group = blocks
         .iter()
         .find(|(name, _)| *name == vector.text("group"));
     let (space, address) = (vector.text("space"), vector.raw("address"));
     let is_there =
-        |block: &&Block| (space.as_str(), address) == (block.space.name(), block.address);
+        |block: &&Block<D>| (space.as_str(), address) == (block.space.name(), block.address);
     let block = group.and_then(|(_, blocks)| blocks.iter().find(is_there));
     let block = block.ok_or_else(|| "there is no such block".to_owned())?;
     same(vector.raw("function"), block.function)?;

@@ -23,6 +23,7 @@ macro_rules! made_up {
         pub struct $name;
 
         impl fieldscribe_runtime::Point for $name {
+            type Device = fieldscribe_runtime::AnyDevice;
             type Raw = $raw;
             type Value = $raw;
             const NAME: &'static str = stringify!($name);

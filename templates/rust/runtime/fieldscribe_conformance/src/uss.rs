@@ -31,7 +31,7 @@ macro_rules! both {
 }
 
 fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
-    Client::new(
+    Client::for_profile(
         Script::new(vector),
         profile,
         link(vector),
@@ -40,7 +40,7 @@ fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
 }
 
 fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
-    AsyncClient::new(
+    AsyncClient::for_profile(
         Script::new(vector),
         profile,
         link(vector),
@@ -232,7 +232,7 @@ where
 }
 
 fn given(vector: &Vector, profile: &'static Profile, request: Request) -> Outcome {
-    let mut client = Client::new(
+    let mut client = Client::for_profile(
         Script::new(vector),
         profile,
         link(vector),
@@ -248,7 +248,7 @@ where
     P: Writable<Raw: Number> + Whole + Sent,
 {
     let words = P::to_words(vector.raw("raw"));
-    let mut client = Client::new(
+    let mut client = Client::for_profile(
         Script::new(vector),
         profile,
         link(vector),

@@ -7,7 +7,7 @@ use fieldscribe_runtime::uss::{
     broadcast, check_byte, AsyncClient, BuildError, Client, ClientError, FixedBits, Link,
     LocalClient, Parameter, ParseError, Profile, Received, Request, Sent, Task, Value,
 };
-use fieldscribe_runtime::{BitGroup, Error, Point, Space, Whole};
+use fieldscribe_runtime::{AnyDevice, BitGroup, Error, Point, Space, Whole};
 
 use super::now;
 use super::runtime::{at_once, chain, tells, Line, Lost, FAILED, FAILURE, REFUSED};
@@ -25,6 +25,7 @@ made_up!(Far u32, Telegram 2, &[2, 3], 2);
 struct Control;
 
 impl Point for Control {
+    type Device = AnyDevice;
     type Raw = u16;
     type Value = u16;
     const NAME: &'static str = "Control";
@@ -39,6 +40,7 @@ impl Point for Control {
 struct Ramp;
 
 impl Point for Ramp {
+    type Device = AnyDevice;
     type Raw = u32;
     type Value = u32;
     const NAME: &'static str = "Ramp";
@@ -570,7 +572,7 @@ macro_rules! conversations {
                 step("103c 0000 0000 0000 0000", "203c 0000 0000 abcd 00f0"),
                 step("12bc 0000 0000 0000 0000", "!"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Link::new(127, 1), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(127, 1), 3);
             let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.read::<Word>()), Ok(7));
             assert_eq!(client.transport().space, 256);
@@ -611,7 +613,7 @@ macro_rules! conversations {
                 step("e2bc 0000 0009 0000 0000", "12bc 0000 0009 00f0"),
                 step("e2bc 0000 000a 0000 0000", "12bc 0000 000a 00f0"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Link::new(127, 1), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(127, 1), 3);
             assert_eq!($wait(client.read_count::<Long>()), Ok([0x0001_0002]));
             assert_eq!($wait(client.write_count::<Word>([7])), Ok(()));
             assert_eq!($wait(client.write_raw::<Word>(8)), Ok(()));
@@ -644,7 +646,7 @@ macro_rules! conversations {
                 step("0000 0009 0001", "00a1 00b2"),
                 step("0000 0000 0000", "00a1 00b2 00c3"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(0, 3), 3);
             let far = Error::BeyondLink(Some("Far"));
             assert_eq!(client.heard_word(0), Err(Error::NotHeard(None)));
             assert_eq!(client.heard::<Speed>(), Err(Error::NotHeard(Some("Speed"))));
@@ -701,7 +703,7 @@ macro_rules! conversations {
                 (all("0004 ffff 0000 0000 8000 0000"), "?".to_owned()),
                 (all("0004 0000 0000 0000 0000 0000"), String::new()),
             ]);
-            let mut client = $client::new(line, &PROFILE, Link::new(127, 2), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(127, 2), 3);
             assert_eq!(client.set_bits::<Jog>(2), Ok(()));
             for (speed, error) in [
                 (7, NOT_NOW),
@@ -740,7 +742,7 @@ macro_rules! conversations {
                 step("0000 0005 0000", "00a1 00b2 00c3"),
                 step("0000 0005 0000", "?"),
             ]);
-            let mut client = $client::new(line, &PROFILE, Link::new(0, 3), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(0, 3), 3);
             assert_eq!($wait(client.receive_count::<Speed>()), Ok([0xB2]));
             assert_eq!($wait(client.send_count::<Speed>([5])), Ok(()));
             assert_eq!($wait(client.send_count::<Speed>([0xFFFF])), Err(wrong));
@@ -752,13 +754,13 @@ macro_rules! conversations {
             assert_eq!(most.len(), 34);
             let words = "0000".repeat(16);
             let line = Line::new(&[step(&words, &words)]);
-            let mut client = $client::new(line, &PROFILE, Link::new(0, 16), 3);
+            let mut client = $client::for_profile(line, &PROFILE, Link::new(0, 16), 3);
             assert_eq!(
                 ($wait(client.cycle()), client.heard_word(15)),
                 (Ok(()), Ok(0))
             );
             client.into_transport().done();
-            let mut client = $client::new(Line::new(&[]), &PROFILE, Link::new(0, 17), 3);
+            let mut client = $client::for_profile(Line::new(&[]), &PROFILE, Link::new(0, 17), 3);
             let bad = Err(ClientError::Build(BuildError::BadLink, None));
             assert_eq!(
                 ($wait(client.cycle()), $wait(client.broadcast([2, 0, 0, 0]))),

@@ -12,7 +12,7 @@ pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 ///
 /// ```
 /// use fieldscribe_runtime::modbus::{Client, Framing, Function, Profile};
-/// use fieldscribe_runtime::{point, Transport};
+/// use fieldscribe_runtime::{point, Device, Transport};
 ///
 /// /// A line on which this is answered.
 /// struct Canned(&'static [u8]);
@@ -27,9 +27,18 @@ pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 ///     }
 /// }
 ///
+/// #[derive(Debug)]
+/// pub struct Drive;
+///
+/// impl Device for Drive {
+///     type Profile = Profile;
+///     const NAME: &'static str = "drive";
+///     const PROFILE: &'static Profile = &Profile::new(&[Function::new(3, 4)], &[Framing::Rtu], (1, 32), Some(0));
+/// }
+///
 /// point! {
 ///     /// Jump frequency.
-///     JumpFrequency: u16 = "jump_frequency";
+///     JumpFrequency of Drive: u16 = "jump_frequency";
 ///     at Holding 0x1028;
 ///     unit "Hz";
 ///     decimals 1;
@@ -37,9 +46,8 @@ pub use crate::modbus::{AsyncClient, Client, ClientError, LocalClient};
 ///     read { count i32; }
 /// }
 ///
-/// static PROFILE: Profile = Profile::new(&[Function::new(3, 4)], &[Framing::Rtu], (1, 32), Some(0));
-/// let line = Canned(b"\x01\x03\x02\x01\xF4\xB8\x53");
-/// let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+/// type DriveClient<T> = Client<T, Drive>;
+/// let mut client = DriveClient::new(Canned(b"\x01\x03\x02\x01\xF4\xB8\x53"), Framing::Rtu, 1);
 /// assert_eq!(client.read::<JumpFrequency>().unwrap(), 50.0);
 /// ```
 #[diagnostic::on_unimplemented(
@@ -129,6 +137,159 @@ pub trait LocalTransport {
         reply: &mut [u8],
     ) -> impl Future<Output = Result<usize, Self::Error>>;
 }
+
+/// Methods that read points by a method that gets raw numbers: values and counts, with and without other points.
+///
+/// They take points of the trait `$reach`, for which the rest of the conditions holds.
+macro_rules! read_methods {
+    (
+        [$($async:ident)?], [$($wait:tt)*], $about:literal, $raw:ident for $reach:path $(, [$($condition:tt)+])?;
+        $value:ident $value_with:ident $count:ident $count_with:ident
+    ) => {
+        #[doc = concat!($about, ", as its value.")]
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn $value<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
+        where
+            P: Readable<Factors: NeedsNothing> + $reach,
+            D: Accepts<P::Device>,
+            $($($condition)+)?
+        {
+            self.$value_with::<P>(NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($value), "`, by the raw numbers that the point's scale needs.")]
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn $value_with<P>(
+            &mut self,
+            with: P::Factors,
+        ) -> Result<P::Value, ClientError<T::Error>>
+        where
+            P: Readable + $reach,
+            D: Accepts<P::Device>,
+            $($($condition)+)?
+        {
+            let raw = self.$raw::<P>()$($wait)*?;
+            Ok(P::decode_with(raw, with).into_result()?)
+        }
+
+        #[doc = concat!($about, ", as a count: its value in units of `10^-DECIMALS`, without floating point.")]
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn $count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
+        where
+            P: CountReadable<Factors: NeedsNothing> + $reach,
+            D: Accepts<P::Device>,
+            $($($condition)+)?
+        {
+            self.$count_with::<P>(NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($count), "`, by the raw numbers that the point's scale needs.")]
+        ///
+        /// # Errors
+        /// Whatever [`ClientError`] tells.
+        pub $($async)? fn $count_with<P>(
+            &mut self,
+            with: P::Factors,
+        ) -> Result<P::Count, ClientError<T::Error>>
+        where
+            P: CountReadable + $reach,
+            D: Accepts<P::Device>,
+            $($($condition)+)?
+        {
+            let raw = self.$raw::<P>()$($wait)*?;
+            Ok(P::decode_count_with(raw, with).into_result()?)
+        }
+    };
+}
+
+/// Methods that write points by a method that takes checked raw numbers: values, counts and raw numbers.
+macro_rules! write_methods {
+    (
+        [$($async:ident)?], [$($wait:tt)*], $about:literal, $put:ident for $reach:path, $error:ty;
+        $value:ident $value_with:ident $count:ident $count_with:ident $raw:ident $raw_with:ident
+    ) => {
+        #[doc = $about]
+        ///
+        /// # Errors
+        /// What encoding says, and what the bus does.
+        pub $($async)? fn $value<P>(&mut self, value: P::Value) -> Result<(), $error>
+        where
+            P: Encodable<With: NeedsNothing> + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            self.$value_with::<P>(value, NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($value), "`, by the raw numbers that the point's scale and limits need.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $value_with<P>(&mut self, value: P::Value, with: P::With) -> Result<(), $error>
+        where
+            P: Encodable + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            self.$put::<P>(P::encode_with(value, with)?)$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($value), "`, from a count: the value in units of `10^-DECIMALS`.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $count<P>(&mut self, count: P::Count) -> Result<(), $error>
+        where
+            P: CountWritable<With: NeedsNothing> + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            self.$count_with::<P>(count, NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($count), "`, by the raw numbers that the point's scale and limits need.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $count_with<P>(&mut self, count: P::Count, with: P::With) -> Result<(), $error>
+        where
+            P: CountWritable + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            self.$put::<P>(P::encode_count_with(count, with)?)$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($value), "`, from a raw number, if it may be written.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $raw<P>(&mut self, raw: P::Raw) -> Result<(), $error>
+        where
+            P: Writable<With: NeedsNothing> + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            self.$raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
+        }
+
+        #[doc = concat!("As `", stringify!($raw), "`, by the raw numbers that the point's limits need.")]
+        ///
+        /// # Errors
+        /// The same.
+        pub $($async)? fn $raw_with<P>(&mut self, raw: P::Raw, with: P::With) -> Result<(), $error>
+        where
+            P: Writable + Whole + $reach,
+            D: Accepts<P::Device>,
+        {
+            P::check_with(raw, with)?;
+            self.$put::<P>(raw)$($wait)*
+        }
+    };
+}
+
+pub(crate) use {read_methods, write_methods};
 
 /// Several clients share one bus: each borrows it for as long as it lives.
 impl<T: Transport + ?Sized> Transport for &mut T {

@@ -5,7 +5,7 @@
 ///
 /// The facts stand in this order; those in brackets are there where a point has them:
 ///
-/// - its attributes, its type and the type of its raw number, its name in the description \[and its code\];
+/// - its attributes, its type, `[of Device]`, the type of its raw number, its name in the description \[and its code\];
 /// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[write_at 0x2028]`: where
 ///   it is written, if that is elsewhere, `[index 1]`, `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask,
 ///   `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the bits of the word that are always the same, and what they
@@ -47,7 +47,7 @@
 macro_rules! point {
     (
         $(#[$attribute:meta])*
-        $name:ident: $raw:ty = $item:literal $(, $code:literal)?;
+        $name:ident $(of $device:ty)?: $raw:ty = $item:literal $(, $code:literal)?;
         at $space:ident $(($other:literal))? $address:literal;
         $(addresses $addresses:tt;)?
         $(words $words:literal;)?
@@ -72,6 +72,7 @@ macro_rules! point {
         pub struct $name;
 
         impl $crate::Point for $name {
+            type Device = $crate::point!(@first $($device,)? $crate::AnyDevice,);
             type Raw = $raw;
             type Value = $crate::point!(@meaning $kind $value, $raw);
             const NAME: &'static str = $item;

@@ -7,7 +7,7 @@ use woodward_mpu2s::{points as p, telegrams::Visualisation, Client, ClientError,
 
 fn waits() {
     let bus = Blocking::new(Controller::default(), &PROFILE);
-    let mut client = Client::new(bus, &PROFILE, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
+    let mut client = Client::new(bus, UNIT).listening(Receiver::<Visualisation>::new(UNIT));
     client.write::<p::GeneratorFrequencySetpoint>(60.0).unwrap();
     assert_eq!(client.read::<p::GeneratorFrequencySetpoint>().unwrap(), 60.0);
     assert_eq!(client.listener().value::<p::GeneratorFrequency>(), Ok(49.98));
@@ -17,7 +17,7 @@ fn waits() {
 }
 
 fn does_not_wait() {
-    let mut client = Client::new(NonBlocking::new(Controller::default(), &PROFILE, |waited| waited < 3), &PROFILE, UNIT);
+    let mut client = Client::new(NonBlocking::new(Controller::default(), &PROFILE, |waited| waited < 3), UNIT);
     let controller = client.transport().controller();
     controller.busy = 3;
     controller.replaced = OnBus::new(StandardId::MAX, &[0]);

@@ -7,7 +7,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::modbus::{About, Request};
 use fieldscribe_runtime::transports::{embedded_io, embedded_io_async, LineError, Protocol};
-use hitachi_l200::{points as p, Client, ClientError, Framing, LocalClient, PROFILE};
+use hitachi_l200::{points as p, Client, ClientError, Framing, LocalClient};
 use programs::uart::{word, Uart};
 
 fn blocking() {
@@ -17,7 +17,7 @@ fn blocking() {
         waits += 1;
         waited < 9
     });
-    let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::new(line, Framing::Rtu, 1);
     client.transport().port().came.extend([1, 3, 2, 0]); // half an answer of before
     assert_eq!(client.read::<p::OutputFrequency>(), Ok(0.7));
     let late = client.read::<p::OutputFrequency>();
@@ -33,12 +33,12 @@ fn blocking() {
 
 /// P1082 is 50 Hz; the answer is that of the manual's form, with the checksum over all bytes.
 fn uss() {
-    use siemens_mm4::{points as p, Client, Link, PROFILE};
+    use siemens_mm4::{points as p, Client, Link};
 
     let mut answer = vec![2, 10, 3, 0x24, 0x3A, 0, 0, 0x42, 0x48, 0, 0];
     answer.push(answer.iter().fold(0, |check, byte| check ^ byte));
     let line = embedded_io::Line::speaking(Protocol::Uss, Uart::new(&[&answer]), |_| false);
-    let mut client = Client::new(line, &PROFILE, Link::new(127, 0), 3);
+    let mut client = Client::new(line, Link::new(127, 0), 3);
     assert_eq!(client.read::<p::MaximumFrequency>(), Ok(50.0));
 }
 
@@ -59,7 +59,7 @@ fn asked<T>(future: impl Future<Output = T>) -> Option<T> {
 
 fn not_blocking() {
     let line = embedded_io_async::Line::new(Uart::new(&[&word(7), b"", &word(8)]));
-    let mut client = LocalClient::new(line, &PROFILE, Framing::Rtu, 1);
+    let mut client = LocalClient::new(line, Framing::Rtu, 1);
     assert_eq!(asked(client.read::<p::OutputFrequency>()), Some(Ok(0.7)));
     assert_eq!(asked(client.read::<p::OutputFrequency>()), None); // dropped: the executor's time is over
     client.transport().port().came.extend(word(66));

@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use hitachi_l200::runtime::modbus::crc;
 use hitachi_l200::runtime::transports::stream::StreamLine;
-use hitachi_l200::{points as p, Client, ClientError, Framing, Transport, PROFILE};
+use hitachi_l200::{points as p, Client, ClientError, Framing, Transport};
 
 const QUICK: Duration = Duration::from_millis(200);
 
 fn talks(device: &str) {
     let port = serialport::new(device, 9600).timeout(Duration::from_millis(500)).open().unwrap();
-    let mut client = Client::new(StreamLine::new(port), &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::new(StreamLine::new(port), Framing::Rtu, 1);
     client.write::<p::BaseFrequency>(50.0).unwrap();
     assert_eq!(client.read::<p::BaseFrequency>().unwrap(), 50.0);
 }
@@ -44,7 +44,7 @@ fn a_failure_is_waited_out() {
             far.write_all(&reply).unwrap();
         }
     });
-    let mut client = Client::new(StreamLine::new(near), &PROFILE, Framing::Rtu, 1);
+    let mut client = Client::new(StreamLine::new(near), Framing::Rtu, 1);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.7);
     let Err(ClientError::Transport(late, _)) = client.read::<p::OutputFrequency>() else { panic!() };
     assert!(matches!(late.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock));

@@ -14,7 +14,7 @@ static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
 const QUICK: Duration = Duration::from_millis(250);
 
 fn talks(port: &str, profile: &'static Profile, framing: Framing) {
-    let mut client = Client::new(TcpLine::new(format!("127.0.0.1:{port}")), profile, framing, 1);
+    let mut client = Client::new(TcpLine::new(format!("127.0.0.1:{port}")), framing, 1).with_profile(profile);
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.7);
     client.write::<p::BaseFrequency>(50.0).unwrap();
     assert_eq!(client.read_count::<p::BaseFrequency>().unwrap(), 500);
@@ -46,7 +46,7 @@ fn serve(script: fn(usize, usize, &[u8], &mut TcpStream) -> bool) -> Client<TcpL
             });
         }
     });
-    Client::new(TcpLine::new(address).timeout(QUICK), &GATEWAY, Framing::Tcp, 1)
+    Client::new(TcpLine::new(address).timeout(QUICK), Framing::Tcp, 1).with_profile(&GATEWAY)
 }
 
 /// The answer to a request of one word.
@@ -119,6 +119,22 @@ fn what_is_no_reply_ends_the_connection() {
     assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.5);
 }
 
+/// A server that never stops sending keeps nobody: its connection is given up within the time of an answer.
+fn noise_without_end_ends_the_connection() {
+    let mut client = serve(|connection, number, request, stream| {
+        let answered = stream.write_all(&word(request, 6)).is_ok();
+        if (connection, number) == (0, 0) {
+            while stream.write_all(&[0x55; 65536]).is_ok() {}
+        }
+        answered
+    });
+    assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.6);
+    sleep(QUICK);
+    let started = Instant::now();
+    assert_eq!(client.read::<p::OutputFrequency>().unwrap(), 0.6);
+    assert!(started.elapsed() < QUICK);
+}
+
 /// No request of RTU looks like one over TCP, and none over TCP like one of RTU.
 fn the_framing_shows() {
     static ALL: &[Function] = &[
@@ -152,5 +168,6 @@ fn main() {
     an_answer_that_drips_is_late_as_a_whole();
     another_transaction_is_passed_over();
     what_is_no_reply_ends_the_connection();
+    noise_without_end_ends_the_connection();
     the_framing_shows();
 }

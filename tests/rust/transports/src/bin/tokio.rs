@@ -15,7 +15,7 @@ use tokio_modbus::client::{rtu, tcp, Context};
 static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
 
 async fn talks(context: Context, profile: &'static Profile, framing: Framing) {
-    let mut client = AsyncClient::new(Attached::new(context), profile, framing, 1);
+    let mut client = AsyncClient::new(Attached::new(context), framing, 1).with_profile(profile);
     assert_eq!(client.read::<p::OutputFrequency>().await.unwrap(), 0.7);
     client.write::<p::BaseFrequency>(50.0).await.unwrap();
     assert_eq!(client.read::<p::BaseFrequency>().await.unwrap(), 50.0);
@@ -44,7 +44,7 @@ async fn whoever_does_not_answer_is_given_up(server: SocketAddr) {
     let silent = TcpListener::bind("127.0.0.1:0").await.unwrap();
     let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
     let line = Attached::new(rtu::attach(stream)).timeout(Duration::from_millis(50));
-    let mut client = AsyncClient::new(line, &PROFILE, Framing::Rtu, 1);
+    let mut client = AsyncClient::new(line, Framing::Rtu, 1);
     let late = client.read::<p::OutputFrequency>().await.unwrap_err();
     assert_eq!(kind(&late), Some(ErrorKind::TimedOut), "{late}");
     let gone = client.read::<p::OutputFrequency>().await.unwrap_err();

@@ -2,13 +2,16 @@
 //! Reading and writing points of a Modbus device over a transport that the caller brings.
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use super::{
     About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
 };
-use crate::client::{AsyncTransport, LocalTransport, Transport};
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
-use crate::{Point, Readable, Whole, Writable};
+use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
+use crate::{
+    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+};
+use crate::{Error, NeedsNothing, Point, Readable, Whole, Writable};
 
 /// Why a point could not be read or written.
 ///
@@ -152,13 +155,18 @@ impl Unit {
         }
     }
 
-    fn reply(&self, request: &Request<'_>, length: usize) -> Result<Option<Reply<'_>>, ReplyError> {
+    fn reply<D>(
+        &self,
+        request: &Request<'_>,
+        length: usize,
+    ) -> Result<Option<Reply<'_, D>>, ReplyError> {
         if self.profile.is_broadcast(request.unit()) {
             return Ok(None);
         }
         let received = self.received.get(..length).ok_or(ReplyError::LongFrame)?;
         let reply = request.parse(received);
-        reply.map(Some).map_err(|error| self.profile.named(error))
+        let named = reply.map_err(|error| self.profile.named(error));
+        named.map(|reply| Some(reply.of_device()))
     }
 }
 
@@ -167,18 +175,37 @@ macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
         #[doc = $about]
         #[derive(Debug)]
-        pub struct $client<T> {
+        pub struct $client<T, D = AnyDevice> {
             transport: T,
             unit: Unit,
+            device: PhantomData<D>,
         }
 
-        impl<T> $client<T> {
-            /// The unit of that number behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self
-            where
-                T: $transport,
-            {
-                Self { transport, unit: Unit::new(profile, framing, unit) }
+        impl<T: $transport, D: Device<Profile = Profile>> $client<T, D> {
+            /// The unit of that number behind a transport.
+            pub const fn new(transport: T, framing: Framing, unit: u8) -> Self {
+                Self { transport, unit: Unit::new(D::PROFILE, framing, unit), device: PhantomData }
+            }
+        }
+
+        impl<T: $transport> $client<T> {
+            /// The unit of that number, of a device that is chosen at run time; its client takes every point.
+            pub const fn for_profile(
+                transport: T,
+                profile: &'static Profile,
+                framing: Framing,
+                unit: u8,
+            ) -> Self {
+                Self { transport, unit: Unit::new(profile, framing, unit), device: PhantomData }
+            }
+        }
+
+        impl<T, D> $client<T, D> {
+            /// The same unit by another profile, as that of a gateway which translates:
+            /// [`Profile::with_framings`].
+            #[must_use]
+            pub fn with_profile(self, profile: &'static Profile) -> Self {
+                Self { unit: Unit { profile, ..self.unit }, ..self }
             }
 
             /// The transport, as for its settings.
@@ -192,7 +219,7 @@ macro_rules! client {
             }
         }
 
-        impl<T: $transport> $client<T> {
+        impl<T: $transport, D> $client<T, D> {
             /// The reply to a request, or none if the request goes to all units.
             ///
             /// # Errors
@@ -200,7 +227,7 @@ macro_rules! client {
             pub $($async)? fn exchange(
                 &mut self,
                 request: Request<'_>,
-            ) -> Result<Option<Reply<'_>>, ClientError<T::Error>> {
+            ) -> Result<Option<Reply<'_, D>>, ClientError<T::Error>> {
                 let request = self.unit.next(request);
                 let about = Some(request.about());
                 let frames = self.unit.frames(&request);
@@ -215,7 +242,10 @@ macro_rules! client {
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>> {
+            pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            where
+                D: Accepts<P::Device>,
+            {
                 let request = Request::read::<P>(self.unit.number);
                 let reply = self.answered(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(reply.raw::<P>()?)
@@ -225,132 +255,26 @@ macro_rules! client {
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_block(&mut self, block: &Block) -> Result<Reply<'_>, ClientError<T::Error>> {
+            pub $($async)? fn read_block(&mut self, block: &Block<D>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
                 let request = Request::block(self.unit.number, block);
                 self.answered(request)$($wait)*
             }
 
             /// The reply to a request that cannot go to all units.
-            $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_>, ClientError<T::Error>> {
+            $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
                 let about = Some(request.about());
                 let reply = self.exchange(request)$($wait)*?;
                 reply.ok_or(ClientError::Reply(ReplyError::ShortFrame, about))
             }
 
-            /// A point's value.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable<Factors: NeedsNothing>,
-            {
-                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
+            read_methods! {
+                [$($async)?], [$($wait)*], "A point", read_raw for Point;
+                read read_with read_count read_count_with
             }
 
-            /// A point's value, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_with<P: Readable>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Value, ClientError<T::Error>> {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_with(raw, with).into_result()?)
-            }
-
-            /// A point's count: its value in units of `10^-DECIMALS`, without floating point.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable<Factors: NeedsNothing>,
-            {
-                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
-            }
-
-            /// A point's count, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count_with<P: CountReadable>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Count, ClientError<T::Error>> {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_count_with(raw, with).into_result()?)
-            }
-
-            /// Writes a value to a point.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable<With: NeedsNothing> + Whole,
-            {
-                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// Writes a value to a point, by the raw numbers that its scale and its limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_with<P: Encodable + Whole>(
-                &mut self,
-                value: P::Value,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>> {
-                self.put::<P>(P::encode_with(value, with)?)$($wait)*
-            }
-
-            /// Writes a count to a point: its value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole,
-            {
-                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// Writes a count to a point, by the raw numbers that its scale and its limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count_with<P: CountWritable + Whole>(
-                &mut self,
-                count: P::Count,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>> {
-                self.put::<P>(P::encode_count_with(count, with)?)$($wait)*
-            }
-
-            /// Writes a raw number to a point, if it may be written.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
-            where
-                P: Writable<With: NeedsNothing> + Whole,
-            {
-                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// Writes a raw number to a point, if it may be written by the raw numbers that its limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw_with<P: Writable + Whole>(
-                &mut self,
-                raw: P::Raw,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>> {
-                P::check_with(raw, with)?;
-                self.put::<P>(raw)$($wait)*
+            write_methods! {
+                [$($async)?], [$($wait)*], "Writes a value to a point.", put for Point, ClientError<T::Error>;
+                write write_with write_count write_count_with write_raw write_raw_with
             }
 
             /// Writes a raw number that was checked.
@@ -365,7 +289,7 @@ macro_rules! client {
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
-            pub $($async)? fn command(&mut self, command: &Command) -> Result<(), ClientError<T::Error>> {
+            pub $($async)? fn command(&mut self, command: &Command<D>) -> Result<(), ClientError<T::Error>> {
                 let request = Request::command(self.unit.number, command);
                 self.exchange(request)$($wait)*?;
                 Ok(())
@@ -378,6 +302,7 @@ macro_rules! client {
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Encodable<With: NeedsNothing> + BitGroup,
+                D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
                 let read = Request::read::<P>(self.unit.number);

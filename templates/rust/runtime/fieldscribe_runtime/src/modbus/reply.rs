@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: 0BSD
 //! Replies out of frames.
 
+use core::marker::PhantomData;
+
 use super::function::{is_read, longest_count, read_function, write_function};
 use super::{crc, Framing, ReplyError, Request};
-use crate::{Decoded, Error, NeedsNothing, Readable};
+use crate::{Accepts, AnyDevice, Decoded, Error, NeedsNothing, Readable};
 
 #[derive(Clone, Copy, Debug)]
 enum Items<'a> {
@@ -14,14 +16,26 @@ enum Items<'a> {
 
 /// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
 #[derive(Clone, Copy, Debug)]
-pub struct Reply<'a> {
+pub struct Reply<'a, D = AnyDevice> {
     function: u8,
     address: u16,
     count: u16,
     items: Items<'a>,
+    device: PhantomData<D>,
 }
 
-impl Reply<'_> {
+impl<'a, D> Reply<'a, D> {
+    /// The same reply, which another device gave.
+    pub(super) fn of_device<E>(self) -> Reply<'a, E> {
+        Reply {
+            function: self.function,
+            address: self.address,
+            count: self.count,
+            items: self.items,
+            device: PhantomData,
+        }
+    }
+
     /// How many items the reply brings; none for a write of several items.
     #[must_use]
     pub const fn count(&self) -> u16 {
@@ -56,7 +70,10 @@ impl Reply<'_> {
     /// # Errors
     /// [`Error::WrongSpace`] if the function is neither the one that reads the point nor the one that writes a single
     /// item of its space, [`Error::NotBrought`] if the reply does not bring all of the point.
-    pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error> {
+    pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error>
+    where
+        D: Accepts<P::Device>,
+    {
         let address = if self.function == read_function(P::SPACE) {
             P::ADDRESS
         } else if self.function == write_function(P::SPACE, 1) {
@@ -75,7 +92,10 @@ impl Reply<'_> {
     ///
     /// # Errors
     /// As for `raw`; what decoding says.
-    pub fn value<P: Readable<Factors: NeedsNothing>>(&self) -> Result<P::Value, Error> {
+    pub fn value<P: Readable<Factors: NeedsNothing>>(&self) -> Result<P::Value, Error>
+    where
+        D: Accepts<P::Device>,
+    {
         self.value_with::<P>(NeedsNothing::nothing())
     }
 
@@ -83,7 +103,10 @@ impl Reply<'_> {
     ///
     /// # Errors
     /// The same.
-    pub fn value_with<P: Readable>(&self, with: P::Factors) -> Result<P::Value, Error> {
+    pub fn value_with<P: Readable>(&self, with: P::Factors) -> Result<P::Value, Error>
+    where
+        D: Accepts<P::Device>,
+    {
         P::decode_with(self.raw::<P>()?, with).into_result()
     }
 }
@@ -103,7 +126,8 @@ impl Request<'_> {
         };
         let (&function, data) = pdu.split_first().ok_or(ReplyError::ShortFrame)?;
         if function & 0x7F != self.function {
-            return Err(ReplyError::WrongFunction);
+            let (expected, received) = (self.function, function & 0x7F);
+            return Err(ReplyError::WrongFunction { expected, received });
         }
         if function != self.function {
             return Err(match data {
@@ -132,9 +156,7 @@ impl Request<'_> {
         if crc(body) != u16::from_le_bytes(sent) {
             return Err(ReplyError::BadCrc);
         }
-        if unit != self.unit {
-            return Err(ReplyError::WrongUnit);
-        }
+        self.check_unit(unit)?;
         Ok(body.get(1..).unwrap_or_default())
     }
 
@@ -149,22 +171,32 @@ impl Request<'_> {
         if u16::from_be_bytes([t1, t0]) != self.transaction {
             return Err(ReplyError::WrongTransaction);
         }
-        if unit != self.unit {
-            return Err(ReplyError::WrongUnit);
-        }
+        self.check_unit(unit)?;
         Ok(bytes.get(7..).unwrap_or_default())
     }
 
+    const fn check_unit(&self, received: u8) -> Result<(), ReplyError> {
+        if received == self.unit {
+            return Ok(());
+        }
+        let expected = self.unit;
+        Err(ReplyError::WrongUnit { expected, received })
+    }
+
     fn parse_read<'b>(&self, data: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
-        let (&count, data) = data.split_first().ok_or(ReplyError::BadByteCount)?;
         let wide = self.function > 2;
         let asked = if wide {
             self.count.saturating_mul(2)
         } else {
             self.count.div_ceil(8)
         };
-        if u16::from(count) != asked || data.len() != usize::from(count) {
-            return Err(ReplyError::BadByteCount);
+        let (count, data) = data
+            .split_first()
+            .map_or((0, data), |(count, data)| (u16::from(*count), data));
+        let came = u16::try_from(data.len()).unwrap_or(u16::MAX);
+        if let Some(received) = [count, came].into_iter().find(|one| *one != asked) {
+            let expected = asked;
+            return Err(ReplyError::BadByteCount { expected, received });
         }
         let items = if wide {
             Items::Words(data)
@@ -185,8 +217,10 @@ impl Request<'_> {
         } else {
             self.echo_value()
         };
-        if u16::from_be_bytes([a1, a0]) != self.address || u16::from_be_bytes([v1, v0]) != sent {
-            return Err(ReplyError::EchoMismatch);
+        let received = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
+        let expected = (self.address, sent);
+        if received != expected {
+            return Err(ReplyError::EchoMismatch { expected, received });
         }
         let value = if self.function == 5 {
             u16::from(sent != 0)
@@ -202,6 +236,7 @@ impl Request<'_> {
             address: self.address,
             count,
             items,
+            device: PhantomData,
         }
     }
 }

@@ -2,16 +2,19 @@
 //! Reading and writing points of a USS drive over a transport that the caller brings.
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use super::{
     broadcast, BuildError, Link, Parameter, ParseError, Profile, Received, Reply, Request, Sent,
     Value, LONGEST,
 };
-use crate::client::{AsyncTransport, LocalTransport, Transport};
+use crate::client::{read_methods, write_methods, AsyncTransport, LocalTransport, Transport};
 use crate::error::lead;
 use crate::point::joined;
-use crate::{BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, NeedsNothing};
-use crate::{Point, Raw, Readable, Whole, Writable};
+use crate::{
+    Accepts, AnyDevice, BitGroup, CountReadable, CountWritable, Decoded, Device, Encodable,
+};
+use crate::{Error, NeedsNothing, Point, Raw, Readable, Whole, Writable};
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
@@ -217,12 +220,6 @@ impl Drive {
         reply
     }
 
-    /// Sets a point to a raw number that was checked.
-    fn put<P: Sent>(&mut self, raw: P::Raw) -> Result<(), Error> {
-        self.process = self.with_words::<P>(raw.into_words().as_ref())?;
-        Ok(())
-    }
-
     /// The process data with other words of a point.
     fn with_words<P: Sent>(&self, words: &[u16]) -> Result<Process, Error> {
         self.changed(|all| {
@@ -300,19 +297,32 @@ macro_rules! client {
         /// which words the drive has. So neither the old nor the new ones are repeated: all words are 0 from then on,
         /// until they are set again, each of them. A drive that refuses a task has taken the words all the same.
         #[derive(Debug)]
-        pub struct $client<T> {
+        pub struct $client<T, D = AnyDevice> {
             transport: T,
             drive: Drive,
+            device: PhantomData<D>,
         }
 
-        impl<T> $client<T> {
-            /// The drive of that unit behind a transport; the profile is the device's own.
-            pub const fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self
-            where
-                T: $transport,
-            {
-                Self { transport, drive: Drive::new(profile, link, unit) }
+        impl<T: $transport, D: Device<Profile = Profile>> $client<T, D> {
+            /// The drive of that unit behind a transport.
+            pub const fn new(transport: T, link: Link, unit: u8) -> Self {
+                Self { transport, drive: Drive::new(D::PROFILE, link, unit), device: PhantomData }
             }
+        }
+
+        impl<T: $transport> $client<T> {
+            /// The drive of that unit, of a device that is chosen at run time; its client takes every point.
+            pub const fn for_profile(
+                transport: T,
+                profile: &'static Profile,
+                link: Link,
+                unit: u8,
+            ) -> Self {
+                Self { transport, drive: Drive::new(profile, link, unit), device: PhantomData }
+            }
+        }
+
+        impl<T, D> $client<T, D> {
 
             /// The transport, as for its settings.
             pub fn transport(&mut self) -> &mut T {
@@ -324,48 +334,15 @@ macro_rules! client {
                 self.transport
             }
 
-            /// Sets a point of the process data, which the next telegram carries.
-            ///
-            /// # Errors
-            /// What encoding says; [`Error::BeyondLink`] if the link has not so many words.
-            pub fn set<P>(&mut self, value: P::Value) -> Result<(), Error>
-            where
-                P: Encodable<With: NeedsNothing> + Whole + Sent,
-            {
-                self.set_with::<P>(value, NeedsNothing::nothing())
+            write_methods! {
+                [], [], "Sets a point of the process data, which the next telegram carries.", put for Sent, Error;
+                set set_with set_count set_count_with set_raw set_raw_with
             }
 
-            /// As `set`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// The same.
-            pub fn set_with<P>(&mut self, value: P::Value, with: P::With) -> Result<(), Error>
-            where
-                P: Encodable + Whole + Sent,
-            {
-                self.drive.put::<P>(P::encode_with(value, with)?)
-            }
-
-            /// Sets a point of the process data to a count: its value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// The same.
-            pub fn set_count<P>(&mut self, count: P::Count) -> Result<(), Error>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole + Sent,
-            {
-                self.set_count_with::<P>(count, NeedsNothing::nothing())
-            }
-
-            /// As `set_count`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// The same.
-            pub fn set_count_with<P>(&mut self, count: P::Count, with: P::With) -> Result<(), Error>
-            where
-                P: CountWritable + Whole + Sent,
-            {
-                self.drive.put::<P>(P::encode_count_with(count, with)?)
+            /// Sets a point to a raw number that was checked.
+            fn put<P: Sent>(&mut self, raw: P::Raw) -> Result<(), Error> {
+                self.drive.process = self.drive.with_words::<P>(raw.into_words().as_ref())?;
+                Ok(())
             }
 
             /// Sets a group of bits of the process data, which the next telegram carries.
@@ -375,6 +352,7 @@ macro_rules! client {
             pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
                 P: Encodable<With: NeedsNothing> + BitGroup + Sent,
+                D: Accepts<P::Device>,
             {
                 self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 Ok(())
@@ -412,6 +390,7 @@ macro_rules! client {
             pub fn heard<P>(&self) -> Result<P::Value, Error>
             where
                 P: Readable<Factors: NeedsNothing> + Received,
+                D: Accepts<P::Device>,
             {
                 self.heard_with::<P>(NeedsNothing::nothing())
             }
@@ -423,6 +402,7 @@ macro_rules! client {
             pub fn heard_with<P>(&self, with: P::Factors) -> Result<P::Value, Error>
             where
                 P: Readable + Received,
+                D: Accepts<P::Device>,
             {
                 P::decode_with(self.drive.heard::<P>()?, with).into_result()
             }
@@ -434,6 +414,7 @@ macro_rules! client {
             pub fn heard_count<P>(&self) -> Result<P::Count, Error>
             where
                 P: CountReadable<Factors: NeedsNothing> + Received,
+                D: Accepts<P::Device>,
             {
                 self.heard_count_with::<P>(NeedsNothing::nothing())
             }
@@ -445,12 +426,13 @@ macro_rules! client {
             pub fn heard_count_with<P>(&self, with: P::Factors) -> Result<P::Count, Error>
             where
                 P: CountReadable + Received,
+                D: Accepts<P::Device>,
             {
                 P::decode_count_with(self.drive.heard::<P>()?, with).into_result()
             }
         }
 
-        impl<T: $transport> $client<T> {
+        impl<T: $transport, D> $client<T, D> {
             /// The answer to a request; the telegram carries the process data too.
             ///
             /// # Errors
@@ -505,59 +487,16 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Sets a point of the process data and sends it. It stays set if the drive answers.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn send<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable<With: NeedsNothing> + Whole + Sent,
-            {
-                self.send_with::<P>(value, NeedsNothing::nothing())$($wait)*
+            write_methods! {
+                [$($async)?], [$($wait)*],
+                "Sets a point of the process data and sends it. It stays set if the drive answers.",
+                send_words for Sent, ClientError<T::Error>;
+                send send_with send_count send_count_with send_raw send_raw_with
             }
 
-            /// As `send`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn send_with<P>(
-                &mut self,
-                value: P::Value,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable + Whole + Sent,
-            {
-                let words = P::encode_with(value, with)?.into_words();
-                let process = self.drive.with_words::<P>(words.as_ref())?;
-                self.send_process::<P>(process)$($wait)*
-            }
-
-            /// As `send`, from a count: the value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn send_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole + Sent,
-            {
-                self.send_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `send_count`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn send_count_with<P>(
-                &mut self,
-                count: P::Count,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable + Whole + Sent,
-            {
-                let words = P::encode_count_with(count, with)?.into_words();
-                let process = self.drive.with_words::<P>(words.as_ref())?;
+            /// Sends a point with a raw number that was checked.
+            $($async)? fn send_words<P: Sent>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>> {
+                let process = self.drive.with_words::<P>(raw.into_words().as_ref())?;
                 self.send_process::<P>(process)$($wait)*
             }
 
@@ -578,61 +517,29 @@ macro_rules! client {
             pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Encodable<With: NeedsNothing> + BitGroup + Sent,
+                D: Accepts<P::Device>,
             {
                 let process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 self.send_process::<P>(process)$($wait)*
             }
 
-            /// The value of a point of the process data, which the drive is asked for.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable<Factors: NeedsNothing> + Received,
-            {
-                self.receive_with::<P>(NeedsNothing::nothing())$($wait)*
+            read_methods! {
+                [$($async)?], [$($wait)*], "A point of the process data, which the drive is asked for",
+                receive_raw for Received;
+                receive receive_with receive_count receive_count_with
             }
 
-            /// As `receive`, by the raw numbers that the point's scale needs.
+            /// As `receive`, as the raw number.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Value, ClientError<T::Error>>
+            pub $($async)? fn receive_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
             where
-                P: Readable + Received,
+                P: Received,
+                D: Accepts<P::Device>,
             {
                 self.cycle()$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(self.heard_with::<P>(with)?)
-            }
-
-            /// As `receive`, as a count: the value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable<Factors: NeedsNothing> + Received,
-            {
-                self.receive_count_with::<P>(NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `receive_count`, by the raw numbers that the point's scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn receive_count_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable + Received,
-            {
-                self.cycle()$($wait)*.map_err(ClientError::of::<P>)?;
-                Ok(self.heard_count_with::<P>(with)?)
+                Ok(self.drive.heard::<P>()?)
             }
 
             /// A parameter's raw number.
@@ -642,224 +549,45 @@ macro_rules! client {
             pub $($async)? fn read_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
             where
                 P: Readable + Parameter,
+                D: Accepts<P::Device>,
             {
                 let request = Request::read::<P>(self.drive.unit);
                 let reply = self.exchange(request)$($wait)*.map_err(ClientError::of::<P>)?;
                 Ok(reply.raw::<P>()?)
             }
 
-            /// A parameter's value.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable<Factors: NeedsNothing> + Parameter,
-            {
-                self.read_with::<P>(NeedsNothing::nothing())$($wait)*
+            read_methods! {
+                [$($async)?], [$($wait)*], "A parameter", read_raw for Parameter;
+                read read_with read_count read_count_with
             }
 
-            /// A parameter's value, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Value, ClientError<T::Error>>
-            where
-                P: Readable + Parameter,
-            {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_with(raw, with).into_result()?)
+            write_methods! {
+                [$($async)?], [$($wait)*], "Changes a parameter until the power is off.",
+                change for Parameter, ClientError<T::Error>;
+                write write_with write_count write_count_with write_raw write_raw_with
             }
 
-            /// A parameter's count: its value in units of `10^-DECIMALS`, without floating point.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count<P>(&mut self) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable<Factors: NeedsNothing> + Parameter,
-            {
-                self.read_count_with::<P>(NeedsNothing::nothing())$($wait)*
+            write_methods! {
+                [$($async)?], [$($wait)*],
+                "Changes a parameter in the EEPROM too, which stands a limited number of writes.",
+                keep for Parameter, ClientError<T::Error>;
+                store store_with store_count store_count_with store_raw store_raw_with
             }
 
-            /// A parameter's count, by the raw numbers that its scale needs.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn read_count_with<P>(
-                &mut self,
-                with: P::Factors,
-            ) -> Result<P::Count, ClientError<T::Error>>
-            where
-                P: CountReadable + Parameter,
-            {
-                let raw = self.read_raw::<P>()$($wait)*?;
-                Ok(P::decode_count_with(raw, with).into_result()?)
-            }
-
-            /// Changes a parameter until the power is off.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_with::<P>(value, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `write`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_with<P>(
-                &mut self,
-                value: P::Value,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable + Whole + Parameter,
-            {
-                let raw = P::encode_with(value, with)?;
-                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
-            }
-
-            /// Changes a parameter to a count until the power is off: its value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `write_count`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_count_with<P>(
-                &mut self,
-                count: P::Count,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable + Whole + Parameter,
-            {
-                let raw = P::encode_count_with(count, with)?;
-                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
-            }
-
-            /// Changes a parameter to a raw number until the power is off, if it may be written.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
-            where
-                P: Writable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.write_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `write_raw`, by the raw numbers that the point's limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_raw_with<P>(
-                &mut self,
-                raw: P::Raw,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
+            /// Changes a parameter to a raw number that was checked.
+            $($async)? fn change<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Writable + Whole + Parameter,
             {
-                P::check_with(raw, with)?;
-                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
+                self.confirmed::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
             }
 
-            /// Changes a parameter in the EEPROM too, which stands a limited number of writes.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.store_with::<P>(value, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `store`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store_with<P>(
-                &mut self,
-                value: P::Value,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: Encodable + Whole + Parameter,
-            {
-                let raw = P::encode_with(value, with)?;
-                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
-            }
-
-            /// Changes a parameter to a count in the EEPROM too: its value in units of `10^-DECIMALS`.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store_count<P>(&mut self, count: P::Count) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.store_count_with::<P>(count, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `store_count`, by the raw numbers that the point's scale and limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store_count_with<P>(
-                &mut self,
-                count: P::Count,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
-            where
-                P: CountWritable + Whole + Parameter,
-            {
-                let raw = P::encode_count_with(count, with)?;
-                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
-            }
-
-            /// Changes a parameter to a raw number in the EEPROM too, if it may be written.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store_raw<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
-            where
-                P: Writable<With: NeedsNothing> + Whole + Parameter,
-            {
-                self.store_raw_with::<P>(raw, NeedsNothing::nothing())$($wait)*
-            }
-
-            /// As `store_raw`, by the raw numbers that the point's limits need.
-            ///
-            /// # Errors
-            /// Whatever [`ClientError`] tells.
-            pub $($async)? fn store_raw_with<P>(
-                &mut self,
-                raw: P::Raw,
-                with: P::With,
-            ) -> Result<(), ClientError<T::Error>>
+            /// As `change`, in the EEPROM too.
+            $($async)? fn keep<P>(&mut self, raw: P::Raw) -> Result<(), ClientError<T::Error>>
             where
                 P: Writable + Whole + Parameter,
             {
-                P::check_with(raw, with)?;
-                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
+                self.confirmed::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
             }
 
             /// Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.
@@ -869,10 +597,11 @@ macro_rules! client {
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
-                self.change::<P>(Request::update::<P>(self.drive.unit, word, raw))$($wait)*
+                self.confirmed::<P>(Request::update::<P>(self.drive.unit, word, raw))$($wait)*
             }
 
             /// As `update`, in the EEPROM too.
@@ -885,14 +614,15 @@ macro_rules! client {
             ) -> Result<(), ClientError<T::Error>>
             where
                 P: Readable + Encodable<With: NeedsNothing> + BitGroup + Parameter,
+                D: Accepts<P::Device>,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
-                self.change::<P>(Request::store_update::<P>(self.drive.unit, word, raw))$($wait)*
+                self.confirmed::<P>(Request::store_update::<P>(self.drive.unit, word, raw))$($wait)*
             }
 
             /// Writes a parameter and holds the answer against what was written.
-            $($async)? fn change<P: Parameter>(
+            $($async)? fn confirmed<P: Parameter>(
                 &mut self,
                 request: Request,
             ) -> Result<(), ClientError<T::Error>> {
