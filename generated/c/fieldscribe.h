@@ -723,6 +723,17 @@ FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, 
     return fieldscribe_store_s64(whole, count);
 }
 
+/* The count of a raw number: it, times ten to a power of 0 to `most` (at most 9); another power is an overflow. */
+FIELDSCRIBE_STATUS fieldscribe_decode_power(int64_t raw, int32_t power, int32_t most, int64_t *count)
+{
+    static const int32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
+    if (!fieldscribe_within(power, 0, most)) {
+        return FIELDSCRIBE_OVERFLOW;
+    }
+    *count = raw * powers[power];
+    return FIELDSCRIBE_OK;
+}
+
 /* The limit that a rule gives. */
 static inline fieldscribe_whole fieldscribe_limit(fieldscribe_rule rule)
 {

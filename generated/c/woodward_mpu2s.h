@@ -83,10 +83,7 @@ static inline fieldscribe_rule woodward_mpu2s_generator_active_power_rule(int8_t
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_active_power_decode_count(
     int16_t raw, int8_t generator_power_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_generator_active_power_rule(generator_power_exponent_raw),
-        (int64_t)raw, 1, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_power_exponent_raw, 5, count); }
 static inline void woodward_mpu2s_generator_active_power_to_words(int16_t raw, uint16_t words[1])
 { words[0] = (uint16_t)raw; }
 static inline int16_t woodward_mpu2s_generator_active_power_from_words(const uint16_t words[1])
@@ -172,10 +169,7 @@ static inline fieldscribe_rule woodward_mpu2s_busbar_voltage_l1_l2_rule(int8_t o
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t busbar_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(busbar_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)busbar_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
     uint16_t raw, int8_t busbar_voltage_exponent_raw, double *value)
@@ -191,10 +185,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_busbar_voltage_l1_l2_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_L2_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_l2_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
@@ -298,10 +289,7 @@ static inline int32_t woodward_mpu2s_internal_faults_6_decode(uint16_t raw) { re
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_L3_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -317,10 +305,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_l3_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_L1_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -336,10 +321,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_l1_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -355,10 +337,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L2_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -374,10 +353,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l2_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L3_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -393,10 +369,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l3_n_decode(
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_L1_L2_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode_count(
     uint16_t raw, int8_t generator_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(generator_voltage_exponent_raw),
-        (int64_t)raw, 10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_voltage_l1_l2_decode(
     uint16_t raw, int8_t generator_voltage_exponent_raw, double *value)
@@ -419,10 +392,7 @@ static inline fieldscribe_rule woodward_mpu2s_generator_current_l1_rule(int8_t o
 }
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
@@ -438,10 +408,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l1_decode(
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L2_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
@@ -457,10 +424,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l2_decode(
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_L3_DECIMALS 3
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode_count(
     uint16_t raw, int8_t generator_current_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_generator_current_l1_rule(generator_current_exponent_raw),
-        (int64_t)raw, 1000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)generator_current_exponent_raw + 3, 6, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_generator_current_l3_decode(
     uint16_t raw, int8_t generator_current_exponent_raw, double *value)
@@ -578,10 +542,7 @@ static inline uint16_t woodward_mpu2s_busbar_state_insert(uint16_t word, uint8_t
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_L3_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
@@ -597,10 +558,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_l3_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_L1_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
@@ -616,10 +574,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_l1_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L1_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
@@ -635,10 +590,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l1_n_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L2_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)
@@ -654,10 +606,7 @@ FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l2_n_decode(
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_L3_N_DECIMALS 4
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode_count(
     uint16_t raw, int8_t mains_voltage_exponent_raw, int64_t *count)
-{
-    return fieldscribe_decode_count(woodward_mpu2s_busbar_voltage_l1_l2_rule(mains_voltage_exponent_raw), (int64_t)raw,
-        10000, count);
-}
+{ return fieldscribe_decode_power((int64_t)raw, (int32_t)mains_voltage_exponent_raw + 4, 8, count); }
 #ifndef FIELDSCRIBE_NO_FLOAT
 FIELDSCRIBE_STATUS woodward_mpu2s_mains_voltage_l3_n_decode(
     uint16_t raw, int8_t mains_voltage_exponent_raw, double *value)

@@ -189,6 +189,8 @@ void prove_ruled(void)
     const fieldscribe_rule rule = any_rule();
     fieldscribe_whole whole = fieldscribe_ruled_count(rule, wide, between_wide(1, INT64_MAX), wide, wide);
     fieldscribe_status status = fieldscribe_decode_count(rule, wide, between_wide(1, INT64_MAX), &an_s64);
+    const int64_t fits = between_wide(INT64_MIN / 1000000000, INT64_MAX / 1000000000);
+    status = fieldscribe_decode_power(fits, narrow, between(0, 9), &an_s64);
     (void)fieldscribe_apply_rule(&rule, wide, between_wide(1, INT64_MAX), &an_s64);
     (void)fieldscribe_lifted(&rule, wide, between_wide(-INT64_MAX, INT64_MAX), &an_s64);
     (void)status;

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 
+from fieldscribe.arithmetic.words import INT64
 from fieldscribe.model import Point
 from fieldscribe.targets.c.layout import INLINE, STATUS, Function, called, function
 from fieldscribe.targets.c.limits import check, known, refused
 from fieldscribe.targets.c.literals import VALUE_BOUNDS, bare, raw_kind, sign_and_size, unsigned
-from fieldscribe.targets.c.scales import Scaled
+from fieldscribe.targets.c.scales import Scaled, linear
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
+
+
+_POWERS = 9
+"""The highest power of ten in the table of `fieldscribe_decode_power`."""
 
 
 def value_type(point: Point) -> str:
@@ -174,9 +180,8 @@ class Writer:
             body_of = self._whole(f"fieldscribe_ruled_count({rule}, count, {tens}, {limits})")
             yield self._encode("encode_count", "int64_t count", *body_of)
         if point.readable and counts:
-            yield self._by_rule(
-                "decode_count", "int64_t *count", f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)"
-            )
+            core = self._powers() or f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)"
+            yield self._by_rule("decode_count", "int64_t *count", core)
         if point.writable and point.encodes_values:
             rule = self._rule(point.arguments)
             body_of = self._whole(f"fieldscribe_ruled_value({rule}, value, {limits})")
@@ -188,6 +193,23 @@ class Writer:
         elif point.readable:
             core = f"fieldscribe_decode_wide({{}}, {', '.join(sign_and_size(point))}, value)"
             yield self._by_rule("decode", "double *value", core, floating=True)
+
+    def _powers(self) -> str:
+        """Return the core for a scale that is a power of ten alone, of few values that all fit; empty for others."""
+        point, (case, *others) = self.point, self.point.scale or ()
+        rule = self.scope.lowered.rule(case.rule)
+        exponents = rule.operands[0].exponents if len(rule.operands) == 1 else None
+        if others or exponents is None or rule.offset or rule.coded or point.most_raw is not None:
+            return ""
+        [operand], (low, high) = rule.operands, exponents
+        start = Fraction(10) ** ((low if operand.over else -high) + (point.decimals or 0)) / rule.ratio
+        most = abs(start) * 10 ** (high - low) * max(map(abs, point.held))
+        if operand.ends != operand.held or start.denominator != 1 or high - low > _POWERS or most > INT64[1]:
+            return ""
+        self.scope.takes(point.scale_arguments)
+        turn, add = (1, -low) if operand.over else (-1, high)
+        power = linear(self.scope.raw(operand.factor.point), turn, add, "int32_t")
+        return f"fieldscribe_decode_power({linear('raw', int(start), 0, 'int64_t')}, {power}, {high - low}, count)"
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
         """Return the call that gives the rule, in a function with these arguments."""
