@@ -727,7 +727,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_count(fieldscribe_rule rule, int64_t raw, 
 FIELDSCRIBE_STATUS fieldscribe_decode_power(int64_t raw, int32_t power, int32_t most, int64_t *count)
 {
     static const int32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000, 1000000000};
-    if (!fieldscribe_within(power, 0, most)) {
+    if ((power < 0) || (power > most)) {
         return FIELDSCRIBE_OVERFLOW;
     }
     *count = raw * powers[power];

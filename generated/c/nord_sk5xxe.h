@@ -45,6 +45,10 @@ typedef fieldscribe_real nord_sk5xxe_real;
 #define NORD_SK5XXE_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define NORD_SK5XXE_SPECIAL FIELDSCRIBE_SPECIAL
 
+/* Times and settings of the line, as the manual gives them. */
+#define NORD_SK5XXE_SERIAL_DATA_BITS 8U
+#define NORD_SK5XXE_SERIAL_STOP_BITS 1U
+
 
 /* ---- process data (holding) ---- */
 

@@ -48,6 +48,10 @@ typedef fieldscribe_real siemens_mm4_real;
 #define SIEMENS_MM4_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define SIEMENS_MM4_SPECIAL FIELDSCRIBE_SPECIAL
 
+/* Times and settings of the line, as the manual gives them. */
+#define SIEMENS_MM4_SERIAL_BAUD_MOST 57600U
+#define SIEMENS_MM4_SERIAL_SLAVES_MOST 31U
+
 /* The cyclic telegrams, and the number of words of each. */
 enum {
     SIEMENS_MM4_TELEGRAM_TASK = 0,

@@ -48,6 +48,9 @@ typedef fieldscribe_real woodward_mpu2s_real;
 #define WOODWARD_MPU2S_OVERFLOW FIELDSCRIBE_OVERFLOW
 #define WOODWARD_MPU2S_SPECIAL FIELDSCRIBE_SPECIAL
 
+/* Times and settings of the line, as the manual gives them. */
+#define WOODWARD_MPU2S_TIMING_PAUSE_BETWEEN_MESSAGES_MS 100U
+
 /* The cyclic telegrams, and the number of words of each. */
 enum {
     WOODWARD_MPU2S_TELEGRAM_VISUALISATION = 0,

@@ -128,7 +128,7 @@ EDITS: list[tuple[str, str, list[tuple[str, str | None, str]]]] = [
     ("A remark", "Another", [("docs", None, "note")]),
     ("title: {en: Main}", "title: {en: All}", [("docs", "group:main", "title")]),
     ("title: Manual", "title: The manual", [("docs", "document:manual", "title")]),
-    ("5 ms", "6 ms", [("docs", None, "timing")]),
+    ("5 ms", "6 ms", [("behaviour", None, "timing")]),
     ("9600 Bd", "19200 Bd", [("behaviour", None, "serial")]),
     ("at line 7", "at lines 8 and 9", [("docs", "erratum:odd", "printed")]),
     ("taken: that", "taken: 'that, line 3'", [("behaviour", "erratum:odd", "taken")]),

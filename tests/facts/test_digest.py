@@ -102,6 +102,7 @@ NO_FACTS = (
         "Device.enums",
     ),
     *(
+        "Bus.line_numbers",
         "Block.space",
         "Block.function",
         "Block.address",

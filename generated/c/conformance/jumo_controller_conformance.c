@@ -520,6 +520,31 @@ static void run_code(fieldscribe_vector *v)
     FIELDSCRIBE_CODE_NUMBER("exception", "invalid_parameter_address",
         JUMO_CONTROLLER_EXCEPTION_INVALID_PARAMETER_ADDRESS)
     FIELDSCRIBE_CODE_NUMBER("exception", "write_refused", JUMO_CONTROLLER_EXCEPTION_WRITE_REFUSED)
+    FIELDSCRIBE_LIMIT_OF("line", "timing_silent_characters", JUMO_CONTROLLER_TIMING_SILENT_CHARACTERS)
+    FIELDSCRIBE_LIMIT_OF("line", "timing_response_time_ms_max", JUMO_CONTROLLER_TIMING_RESPONSE_TIME_MS_MAX)
+    FIELDSCRIBE_LIMIT_OF("line", "timing_minimum_response_delay_ms_min",
+        JUMO_CONTROLLER_TIMING_MINIMUM_RESPONSE_DELAY_MS_MIN)
+    FIELDSCRIBE_LIMIT_OF("line", "timing_minimum_response_delay_ms_max",
+        JUMO_CONTROLLER_TIMING_MINIMUM_RESPONSE_DELAY_MS_MAX)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_protocol_mod_bus", JUMO_CONTROLLER_SERIAL_PROTOCOL_MOD_BUS)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_protocol_mod_bus_integer", JUMO_CONTROLLER_SERIAL_PROTOCOL_MOD_BUS_INTEGER)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_protocol_mod_bus_master_plast_series_only",
+        JUMO_CONTROLLER_SERIAL_PROTOCOL_MOD_BUS_MASTER_PLAST_SERIES_ONLY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_protocol_arburg_plast_series_only",
+        JUMO_CONTROLLER_SERIAL_PROTOCOL_ARBURG_PLAST_SERIES_ONLY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_baud_9600", JUMO_CONTROLLER_SERIAL_BAUD_9600)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_baud_19200", JUMO_CONTROLLER_SERIAL_BAUD_19200)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_baud_38400", JUMO_CONTROLLER_SERIAL_BAUD_38400)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_baud_4800_plast_series_only",
+        JUMO_CONTROLLER_SERIAL_BAUD_4800_PLAST_SERIES_ONLY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_format_8_data_bits_1_stop_bit_no_parity",
+        JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_1_STOP_BIT_NO_PARITY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_format_8_data_bits_1_stop_bit_odd_parity",
+        JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_1_STOP_BIT_ODD_PARITY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_format_8_data_bits_1_stop_bit_even_parity",
+        JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_1_STOP_BIT_EVEN_PARITY)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_format_8_data_bits_2_stop_bits_no_parity",
+        JUMO_CONTROLLER_SERIAL_FORMAT_8_DATA_BITS_2_STOP_BITS_NO_PARITY)
     (void)v;
 }
 

@@ -360,6 +360,8 @@ static void run_code(fieldscribe_vector *v)
         FIELDSCRIBE_INDEX(NORD_SK5XXE_RECEIVED_CONTROL_WORD))
     FIELDSCRIBE_DOCUMENTED("sent_status_word", "holding", NORD_SK5XXE_SENT_STATUS_WORD,
         FIELDSCRIBE_INDEX(NORD_SK5XXE_SENT_STATUS_WORD))
+    FIELDSCRIBE_LIMIT_OF("line", "serial_data_bits", NORD_SK5XXE_SERIAL_DATA_BITS)
+    FIELDSCRIBE_LIMIT_OF("line", "serial_stop_bits", NORD_SK5XXE_SERIAL_STOP_BITS)
     FIELDSCRIBE_COMMAND("make_ready_to_switch_on", nord_sk5xxe_command_make_ready_to_switch_on,
         NORD_SK5XXE_COMMAND_MAKE_READY_TO_SWITCH_ON_VALUE)
     FIELDSCRIBE_COMMAND("switch_on", nord_sk5xxe_command_switch_on, NORD_SK5XXE_COMMAND_SWITCH_ON_VALUE)

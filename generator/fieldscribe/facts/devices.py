@@ -232,7 +232,7 @@ _LIMITS: FactTable = (
         BEHAVIOUR,
         value=lambda bus, _: {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
     ),
-    Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), DOCS),
+    Fact("timing", "Times of the line, by name, as the manual says them.", map_of(STRING), BEHAVIOUR),
     Fact("note", "A remark for people; empty without one.", TITLES, DOCS, for_people=True),
 )
 

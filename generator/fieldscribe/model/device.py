@@ -172,7 +172,10 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Bus:
-    """What the frames need to know of the device; `family_facts` are those of its family alone."""
+    """What the frames need to know of the device; `family_facts` are those of its family alone.
+
+    `line_numbers` are the times and settings under `timing` and `serial` that programs compute with.
+    """
 
     framings: tuple[str, ...]
     units: tuple[int, int]
@@ -184,6 +187,7 @@ class Bus:
     serial: Mapping[str, Mapping[str, str]]
     note: Titles
     family_facts: FamilyFacts | None = None
+    line_numbers: Mapping[str, int] = field(default_factory=dict)
 
     def codes(self, section: str) -> tuple[Code, ...]:
         """Return the numbered codes under a key of `bus`, which only this family may have."""

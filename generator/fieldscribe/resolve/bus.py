@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from fieldscribe.families import BusKeys, Family, families
@@ -79,6 +80,8 @@ def bus_of(scope: Scope) -> Bus:
     _check_keys(scope, node, keys)
     functions = codes_under(scope, node, "functions")
     family_facts = reader_of(scope).bus(scope, node, functions)
+    timing = {key: str(value) for key, value in node.get("timing", {}).items()}
+    serial = {key: _setting(value) for key, value in node.get("serial", {}).items()}
     return Bus(
         framings=tuple(node.get("framings", ())),
         units=ends_of(scope, node, "units", "are no unit addresses", keys.last_unit),
@@ -86,11 +89,38 @@ def bus_of(scope: Scope) -> Bus:
         functions=functions,
         exceptions=codes_of(scope, node.get("exceptions"), keys.codes[0], keys.last_exception),
         gaps=_gaps(scope, node.get("gaps")),
-        timing={key: str(value) for key, value in node.get("timing", {}).items()},
-        serial={key: _setting(value) for key, value in node.get("serial", {}).items()},
+        timing=timing,
+        serial=serial,
         note=titles(node.get("note")),
         family_facts=family_facts,
+        line_numbers=dict([*_times(timing), *_settings(serial)]),
     )
+
+
+_TIME = re.compile(r"(about |at most )?(?:([0-9]{1,9})\.\.)?([0-9]{1,9}) (ms|s)\b.*")
+_NUMBER = re.compile(r"([0-9]{1,8})(?:\.([0-9]))?")
+
+
+def _times(timing: Mapping[str, str]) -> Iterator[tuple[str, int]]:
+    """Yield the times that a program can compute with, by name."""
+    for key, text in timing.items():
+        if number := _NUMBER.fullmatch(text):
+            yield f"timing_{key}{'' if number[2] is None else '_tenths'}", int(number[1] + (number[2] or ""))
+        elif time := _TIME.fullmatch(text):
+            limit, least, most, unit = time.groups()
+            if least is not None:
+                yield f"timing_{key}_{unit}_min", int(least)
+            yield f"timing_{key}_{unit}{'_max' if least is not None or limit == 'at most ' else ''}", int(most)
+
+
+def _settings(serial: Mapping[str, Mapping[str, str]]) -> Iterator[tuple[str, int]]:
+    """Yield the codes of serial settings, by what they mean, and settings that are a single number."""
+    for key, codes in serial.items():
+        for code, text in codes.items():
+            if not _NUMBER.fullmatch(code) or "." in code or (code == text and len(codes) > 1):
+                continue
+            meaning = "" if code == text else re.sub("[^a-z0-9]+", "_", f"_{text.lower()}").rstrip("_")
+            yield f"serial_{key}{meaning}", int(code)
 
 
 def _check_keys(scope: Scope, node: Map, keys: BusKeys) -> None:

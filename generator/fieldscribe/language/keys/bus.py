@@ -74,8 +74,8 @@ KEYS = (
     Key(
         "timing",
         BUS,
-        "Times as the manual gives them.",
-        [{"silent_characters": 3.5}],
+        "Times as the manual gives them. A number, and a time in ms or s at the start, are macros in C.",
+        [{"silent_characters": 3.5, "response_delay": "0..1000 ms"}],
         by(forms.ANY, Shape("A time in words.", ["0..1000 ms"], Text(200), NUMBER)),
     ),
     Key(

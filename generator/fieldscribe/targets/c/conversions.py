@@ -16,7 +16,6 @@ from fieldscribe.targets.c.special_codes import codes_first, encoded_limits
 from fieldscribe.targets.c.views import PointView
 from fieldscribe.targets.c.word_functions import fixed_number, fixes
 
-
 _POWERS = 9
 """The highest power of ten in the table of `fieldscribe_decode_power`."""
 

@@ -37,11 +37,18 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "version": device.version,
         "numbers": Version.of(device.version),
         "digest": device.digest[:16],
+        "line": line_defines(device, scope),
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
         "statuses": STATUSES,
         "double": any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
     }
+
+
+def line_defines(device: Device, scope: HeaderScope) -> list[tuple[str, str, str]]:
+    """Return the times and settings of the line: name, macro and literal."""
+    numbers = device.bus.line_numbers
+    return [(name, f"{scope.upper}_{upper(name)}", f"{number}U") for name, number in numbers.items()]
 
 
 def telegrams_of(device: Device, scope: HeaderScope) -> list[str]:

@@ -107,8 +107,9 @@ def collect(device: Device) -> Lines:
         lines.add("variant", axis, choices)
     lines.add_limits(first_unit=device.bus.units[0], last_unit=device.bus.units[1])
     part.limits(lines, device.bus)
-    for telegram in device.telegrams:
-        lines.add("size", "words", telegram.name, telegram.words)
+    sizes = [("line", name, number) for name, number in device.bus.line_numbers.items()]
+    for size in (*sizes, *(("words", telegram.name, telegram.words) for telegram in device.telegrams)):
+        lines.add("size", *size)
     for point in points.values():
         encoding = encodings.of(point)
         identity(lines, point, device.variants)
