@@ -321,7 +321,7 @@ def test_bytes_in_many_forms(text: str) -> None:
     ("text", "words"),
     [
         ("", "no bytes"),
-        ("05 6", "`6` (piece 2) has 1 digit"),
+        ("05 6", "`6` (piece 2) has 1 digit;"),
         ("05061", "has 5 digits"),
         ("05 1G", "`1G` (piece 2) is not hexadecimal"),
         ("05 \x1b[31m", "is not hexadecimal"),

@@ -248,9 +248,10 @@ def test_tables_are_chosen_and_listed(tmp_path: Path, capsys: pytest.CaptureFixt
 def test_a_point_without_a_name_is_called_by_its_code_or_place(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["import", "table", write(tmp_path, "bare.csv", "Code,Address,Unit\nP1,5,V\n,6,A\n")]) == 0
-    titles = [lines[0 if name == "holding_6" else 1] for name, lines in points(capsys.readouterr().out).items()]
-    assert titles == ["  title: {en: P1}", "  title: {en: holding 6}"]
+    assert main(["import", "table", write(tmp_path, "bare.csv", "Code,Address,Name\nP1,5,\n,6,\n,7,温度\n")]) == 0
+    found = points(capsys.readouterr().out)
+    assert list(found) == ["P1", "holding_6", "point"]
+    assert {"  title: {en: P1}", "  title: {en: holding 6}"} <= {line for lines in found.values() for line in lines}
 
 
 def test_rows_of_a_table_without_points_are_listed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

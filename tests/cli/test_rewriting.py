@@ -1,0 +1,27 @@
+"""Files of a user that a command rewrites: all of them, or none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fieldscribe.cli import rewriting
+from fieldscribe.cli.common import StopError
+
+
+def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = tmp_path / "first.yaml", tmp_path / "second.yaml"
+    for file in (first, second):
+        file.write_text("old\n")
+    write = rewriting.replace
+
+    def full_at_last(place: Path, *rest: Any, **more: Any) -> None:
+        if place == second:
+            raise OSError(28, "No space left on device", str(second))
+        write(place, *rest, **more)
+
+    monkeypatch.setattr(rewriting, "replace", full_at_last)
+    with pytest.raises(StopError, match=r"cannot write .*second\.yaml: No space left on device"):
+        rewriting.rewrite({str(file): ("old\n", "new\n") for file in (first, second)})
+    assert (first.read_text(), second.read_text()) == ("old\n", "old\n")
