@@ -14,9 +14,9 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 
 
 @contextmanager
-def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7) -> Iterator[int]:
+def server(framer: FramerType = FramerType.SOCKET, *, word: int = 7, addresses: int = 0x1400) -> Iterator[int]:
     """A server of pymodbus in a thread of its own, of units 1 and 2, with that number in each register; its port."""
-    words = [SimData(0, count=0x1400, values=word, datatype=DataType.REGISTERS)]
+    words = [SimData(0, count=addresses, values=word, datatype=DataType.REGISTERS)]
     bits = [SimData(0, count=64, values=False, datatype=DataType.BITS)]
     devices = [SimDevice(id=unit, simdata=(bits, bits, words, words)) for unit in (1, 2)]
     with socket.socket() as probe:
