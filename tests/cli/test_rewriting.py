@@ -6,22 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fieldscribe.cli import rewriting
 from fieldscribe.cli.common import StopError
+from fieldscribe.cli.rewriting import rewrite
+from fieldscribe.output.writing import replace
 
 
 def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first, second = tmp_path / "first.yaml", tmp_path / "second.yaml"
     for file in (first, second):
         file.write_text("old\n")
-    write = rewriting.replace
 
     def full_at_last(place: Path, *rest: Any, **more: Any) -> None:
         if place == second:
             raise OSError(28, "No space left on device", str(second))
-        write(place, *rest, **more)
+        replace(place, *rest, **more)
 
-    monkeypatch.setattr(rewriting, "replace", full_at_last)
+    monkeypatch.setattr("fieldscribe.cli.rewriting.replace", full_at_last)
     with pytest.raises(StopError, match=r"cannot write .*second\.yaml: No space left on device"):
-        rewriting.rewrite({str(file): ("old\n", "new\n") for file in (first, second)})
+        rewrite({str(file): ("old\n", "new\n") for file in (first, second)})
     assert (first.read_text(), second.read_text()) == ("old\n", "old\n")

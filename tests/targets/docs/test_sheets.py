@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,6 +21,9 @@ from openpyxl import load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 from support.described import shipped
 from support.models import HERTZ, allowed, entry, point, sample_device, scaled, titles, units
+
+ROWS: dict[str, dict[str, str]] = json.loads(Path(__file__).with_name("sample_rows.json").read_text("utf-8"))
+"""Rows of the sample, as they are written by hand."""
 
 SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?")
@@ -72,45 +77,11 @@ def _fits(cell: str) -> bool:
     return not cell or NUMBER.fullmatch(cell) is not None
 
 
-def test_a_row_of_a_point() -> None:
-    expected = {
-        "code": "A020",
-        "title": "Base frequency",
-        "title_original": "Basisfrequenz",
-        "space": "holding",
-        "address": "4136",
-        "address_hex": "1028h",
-        "words": "1",
-        "word_order": "",
-        "modicon": "4137",
-        "reference": "404137",
-        "type": "u16",
-        "encoding": "scaled",
-        "access": "rw",
-        "unit": "Hz",
-        "factor": "0.1",
-        "offset": "0",
-        "scale": "",
-        "raw_min": "0",
-        "raw_max": "4000",
-        "min": "0",
-        "max": "400",
-        "range": "",
-        "default": "50",
-        "default_raw": "500",
-        "keeps": "after enter",
-        "set": "1",
-        "remarks": "was main_frequency",
-        "errata": "a020_wire",
-        "document": "manual",
-        "section": "Gruppe A",
-        "page": "",
-        "line": "780",
-        "generated": "yes",
-        "reason": "",
-    }
-    row = rows_of_sample()["base_frequency"]
-    assert {key: row[key] for key in expected} == expected
+@pytest.mark.parametrize("name", ROWS)
+def test_a_row(name: str) -> None:
+    """Of a point and of a command."""
+    row = rows_of_sample()[name]
+    assert {key: row[key] for key in ROWS[name]} == ROWS[name]
 
 
 @pytest.mark.parametrize(
@@ -226,22 +197,6 @@ POINTS: list[tuple[Point, dict[str, str]]] = [
     (point("p", 7, source=Source("m", None, "25", None)), {"section": "", "page": "25"}),
     (point("p", 7, generated=False, unit=HERTZ), {"factor": "", "min": "", "raw_max": "65535"}),
 ]
-
-
-def test_a_command() -> None:
-    row = rows_of_sample()["enter"]
-    expected = {
-        "kind": "command",
-        "title": "Store parameters",
-        "address_hex": "0900h",
-        "modicon": "2305",
-        "type": "u16",
-        "access": "w",
-        "raw_min": "",
-        "remarks": "write any number with function 06h; the memory stands 100000 writes; busy while running",
-        "line": "780",
-    }
-    assert {key: row[key] for key in expected} == expected
 
 
 def test_names_are_unique() -> None:

@@ -58,7 +58,7 @@ class Peer:
 
     def __init__(self, port: int) -> None:
         self._client = ModbusTcpClient("127.0.0.1", port=port, framer=FramerType.RTU)
-        assert self._client.connect()
+        assert self._client.connect()  # type: ignore[no-untyped-call]  # pymodbus says no types here
 
     def put(self, place: Vector, *words: int) -> None:
         """Write words or a bit."""
