@@ -730,11 +730,14 @@ fieldscribe_modbus_status fieldscribe_modbus_take_echo(const fieldscribe_modbus_
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads an answer from its function on, which is that of the request, or refuses it. */
+/* Reads an answer of the right unit from its function on, which is that of the request or refuses it. */
 static fieldscribe_modbus_status fieldscribe_modbus_take_answer(const fieldscribe_modbus_request *request,
     const uint8_t *pdu, size_t size, fieldscribe_modbus_reply *reply)
 {
     if (pdu[0] != request->function) {
+        if (size > 2U) {
+            return FIELDSCRIBE_MODBUS_LONG_FRAME;
+        }
         reply->exception = pdu[1];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
@@ -795,9 +798,6 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     }
     if (fieldscribe_modbus_pdu(request->function, bytes[7], bytes[8]) == 0U) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
-    }
-    if ((bytes[7] != request->function) && (length > 9U)) {
-        return FIELDSCRIBE_MODBUS_LONG_FRAME; /* of a refusal */
     }
     return fieldscribe_modbus_take_answer(request, &bytes[7], length - 7U, reply);
 }
@@ -962,16 +962,24 @@ static void fieldscribe_modbus_settle(fieldscribe_modbus_receiver *receiver, boo
     }
 }
 
-size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count)
+/* Adds a byte to an answer that is not done. */
+static void fieldscribe_modbus_add(fieldscribe_modbus_receiver *receiver, uint8_t byte)
 {
-    size_t taken = 0U;
-    while ((taken < count) && (receiver->length < receiver->size) && (!receiver->done)) {
-        receiver->buffer[receiver->length] = bytes[taken];
+    if (receiver->length < receiver->size) {
+        receiver->buffer[receiver->length] = byte;
         ++receiver->length;
-        ++taken;
         if (receiver->length >= receiver->next) {
             fieldscribe_modbus_settle(receiver, false);
         }
+    }
+}
+
+size_t fieldscribe_modbus_receive(fieldscribe_modbus_receiver *receiver, const uint8_t *bytes, size_t count)
+{
+    size_t taken = 0U;
+    while ((taken < count) && (!receiver->done)) {
+        fieldscribe_modbus_add(receiver, bytes[taken]);
+        ++taken;
     }
     return taken;
 }
@@ -1001,7 +1009,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_m
     line->send(line->context, line->buffer, length);
     while ((!receiver->done) && (left > 0U) &&
         line->receive(line->context, (receiver->length > 0U) ? line->pause_ms : line->answer_ms, &byte)) {
-        (void)fieldscribe_modbus_receive(receiver, &byte, 1U);
+        fieldscribe_modbus_add(receiver, byte);
         --left;
     }
     fieldscribe_modbus_silent(receiver);
@@ -1022,8 +1030,8 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_rtu(const fieldscribe_modbus_li
         fieldscribe_modbus_receiver receiver =
             fieldscribe_modbus_await_rtu(line->profile, request, line->buffer, line->size);
         status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
-        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) {
-            status = fieldscribe_modbus_parse_rtu(request, line->buffer, receiver.length, reply);
+        if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) { /* it is whole, and of the unit */
+            status = fieldscribe_modbus_take_answer(request, &line->buffer[1], receiver.length - 3U, reply);
         }
     }
     return status;
@@ -1041,7 +1049,7 @@ fieldscribe_modbus_status fieldscribe_modbus_ask_tcp(const fieldscribe_modbus_li
             fieldscribe_modbus_await_tcp(line->profile, request, line->buffer, line->size);
         status = fieldscribe_modbus_exchange(line, request, length, &receiver, reply);
         if ((status == FIELDSCRIBE_MODBUS_OK) && (receiver.length > 0U)) {
-            status = fieldscribe_modbus_parse_tcp(request, line->buffer, receiver.length, reply);
+            status = fieldscribe_modbus_take_answer(request, &line->buffer[7], receiver.length - 7U, reply);
         }
     }
     return status;

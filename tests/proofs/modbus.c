@@ -611,6 +611,16 @@ void prove_silent(size_t size, size_t length)
     }
 }
 
+void prove_add(size_t size, size_t length, uint8_t byte)
+{
+    if (size <= STEPS && length <= size) {
+        //@ split size;
+        //@ split length;
+        has(EXACTLY(size, frame), size, length);
+        fieldscribe_modbus_add(&receiver, byte);
+    }
+}
+
 void prove_receive(size_t size, size_t length, size_t count)
 {
     if (size <= STEPS && length <= STEPS && count <= 2U) {
