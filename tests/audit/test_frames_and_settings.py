@@ -68,6 +68,18 @@ DOORS = ", ".join(
 )
 FLAG_POINT = f'- {{name: doors, at: 77, flags: {{{DOORS}}}, section: "4.1", line: 1}}\n'
 
+LOCKS = """4.1 Locks
+
+ID 78
+Bits 5 and 4 Lock
+0 Unlocked
+3 Bolted
+"""
+LOCK_ENUM = "enums: {lock: {0: {name: unlocked, en: Unlocked}, 3: {name: bolted, en: Bolted}}}\n---\n"
+LOCK_POINT = (
+    '- {name: locks, at: 78, flags: {5..4: {name: side, title: {en: Lock}, values: lock}}, section: "4.1", line: 1}\n'
+)
+
 DEFAULT = """4.1 Unit
 
 ID 512 must not be 0 or 2 (factory setting 0, Factory setting: 0)
@@ -79,6 +91,7 @@ DEVICES = {
     "words": (head(documents=DOCUMENTS, family="uss", bus=USS) + JOG, WORDS),
     "settings": (head(documents=DOCUMENTS, bus=FORMAT), SETTINGS),
     "flags": (together(head(documents=DOCUMENTS), group(FLAG_POINT)), FLAGS),
+    "shared values": (together(head(documents=DOCUMENTS), LOCK_ENUM + group(LOCK_POINT)), LOCKS),
     "default": (together(head(documents=DOCUMENTS), group(DEFAULT_POINT)), DEFAULT),
 }
 
@@ -97,6 +110,8 @@ DEVICES = {
         ("settings", "2 stop", "1 stop", ["format 3: 8 bits, 2 stop bits, no parity"] * 2),
         ("flags", "", "", []),
         ("flags", "Bit 1", "Bit 2", ["flags 1 = Door east"]),  # 2 is the mask of bit 1
+        ("shared values", "", "", []),
+        ("shared values", "3 Bolted", "2 Bolted", ["flag values 3 = Bolted"]),
         ("default", "", "", []),
         ("default", "Factory setting: 0", "Factory setting: 2", ["default 0"]),
     ],

@@ -85,11 +85,11 @@ class _PointFacts:
     def _entry(self, key: str, numbers: list[Fraction], entry: Any) -> Iterator[CitedFact]:
         titles = entry.get("title", entry) if isinstance(entry, Map) else None
         yield from self._labels(key, key, titles, numbers[0])
-        values = entry.get("values", {}) if isinstance(entry, Map) else {}
-        for value, titles in values.items():
+        values = entry.get("values") if isinstance(entry, Map) else None
+        for word, titles in values.items() if isinstance(values, Map) else ():  # not those of a shared enum
             label = titles.get("title", titles) if isinstance(titles, Map) else None
             kind = "values" if "values" in self.lines_of_key else key
-            yield from self._labels(key, kind, label, numbers_in(value)[0])
+            yield from self._labels(key, kind, label, numbers_in(word)[0])
         for value, name in enumerate(("zero", "one")):
             if isinstance(entry, Map) and name in entry:
                 yield from self._labels(key, key, entry[name], Fraction(value))

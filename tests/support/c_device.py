@@ -18,6 +18,7 @@ from support.models import (
     HERTZ,
     allowed,
     device_of,
+    doubts,
     entry,
     linear,
     point,
@@ -202,8 +203,9 @@ def words_of_parts() -> tuple[Point, ...]:
 def rare_device() -> Device:
     """A device of rare points, whose texts try to leave their comments."""
     hostile = '*/ #error "out" ??/ // \\\n#error \u202e {{ x }} \\'
-    points = tuple(replace(one, title={"en": hostile}, code='"\\') for one in rare_points())
+    points = tuple(replace(one, title={"en": hostile}, code='"\\', errata=("doubt",)) for one in rare_points())
     device = device_of("rare", points, enums=(WIDE_NUMBERS,), title={"en": hostile}, vendor=hostile)
+    device = replace(device, errata=doubts(hostile, points[0].name))
     return replace(device, groups=tuple(replace(group, title={"en": hostile}) for group in device.groups))
 
 

@@ -316,6 +316,12 @@ ERRATA = (
 )
 
 
+def doubts(text: str, *points: str) -> tuple[Erratum, Erratum]:
+    """Errata that leave something open, of points and of the device."""
+    one = Erratum("doubt", points, "", SOURCE, "1", "2", "", "unknown", (), (("type", text),))
+    return one, replace(one, id="other_doubt", points=())
+
+
 def sample_device(points: tuple[Point, ...] | None = None) -> Device:
     """A drive with the given points, or with one of every kind."""
     wrong, right = bytes.fromhex("0506102801F4A854"), bytes.fromhex("0506102801F40C91")

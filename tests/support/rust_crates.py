@@ -32,7 +32,20 @@ from fieldscribe.targets import rust, vectors
 
 from support.c_device import rare_points
 from support.files import generate
-from support.models import SOURCE, allowed, changed, device_of, entry, linear, point, scaled, titles, units, value_of
+from support.models import (
+    SOURCE,
+    allowed,
+    changed,
+    device_of,
+    doubts,
+    entry,
+    linear,
+    point,
+    scaled,
+    titles,
+    units,
+    value_of,
+)
 
 HOSTILE = '*/ "#]\n#![cfg(no)] \u202e `x` [y](http://z) <b> {{ x }} \\'
 LONG = "a_point_whose_name_is_as_long_as_a_description_lets_names_be_xyz"
@@ -55,8 +68,10 @@ def without_registry(crates: Path) -> None:
 
 def rare_device() -> Device:
     """Types, scales, limits and codes that few devices have, with texts that try to leave their comments."""
-    points = tuple(replace(one, title={"en": HOSTILE}, note={"en": HOSTILE}, code=HOSTILE) for one in rare_points())
-    return device_of("rare", points, title={"en": HOSTILE}, vendor=HOSTILE, model=HOSTILE)
+    texts: Any = {"title": {"en": HOSTILE}, "note": {"en": HOSTILE}, "code": HOSTILE, "errata": ("doubt",)}
+    points = tuple(replace(one, **texts) for one in rare_points())
+    device = device_of("rare", points, title={"en": HOSTILE}, vendor=HOSTILE, model=HOSTILE)
+    return replace(device, errata=doubts(HOSTILE, points[0].name))
 
 
 def odd_points() -> tuple[Point, ...]:

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
+from fieldscribe.model import Device
+from fieldscribe.pipeline import outputs
+from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import TARGETS, knows, target
+from support.described import shipped
 from support.models import sample_device
+
+SHIPPED = [shipped(path.parent.name) for path in sorted(descriptions_dir().glob("*/device.yaml"))]
 
 
 def test_targets_are_written_in_the_order_that_help_names() -> None:
@@ -16,3 +24,21 @@ def test_targets_are_written_in_the_order_that_help_names() -> None:
 @pytest.mark.parametrize("name", TARGETS)
 def test_every_target_knows_a_modbus_device(name: str) -> None:
     assert knows(name, sample_device())
+
+
+def squeezed(text: str) -> str:
+    """Return the letters and digits of a text, without its tags."""
+    return re.sub(r"<.*?>|[\W_]", "", text)
+
+
+@pytest.mark.parametrize("name", ["c", "python", "rust", "docs"])
+@pytest.mark.parametrize("device", SHIPPED)
+def test_what_the_manual_leaves_open_stands_at_its_points(device: Device, name: str) -> None:
+    """What is about no point stands at the head of the device; code has nothing else of errata but their ids."""
+    text = squeezed("".join(text for _, _, text in outputs(device, [name])))
+    for erratum in device.errata:
+        points = [one for one in device.points if one.name in erratum.points and (one.generated or name != "python")]
+        doubts = squeezed(", ".join(f"{said} ({erratum.id})" for _, said in erratum.leaves_open))
+        times, most = len(points) if erratum.points else name != "docs", text.count(doubts) if doubts else 0
+        assert (times if doubts else 0) == most or (name == "docs" and most > times), erratum.id
+        assert name == "docs" or squeezed(erratum.why) not in text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -14,10 +14,12 @@ from fieldscribe.model import Flag, Point
 from fieldscribe.resolve.point_facts import PointFacts
 
 
-def claims_of_flags(maker: ClaimMaker, point: Point, facts: PointFacts, notation: Notation) -> Iterator[Claim]:
-    """Yield the claims of each flag at its bits, with the values that have names."""
+def claims_of_flags(
+    maker: ClaimMaker, point: Point, facts: PointFacts, enums: Mapping[str, Map], notation: Notation
+) -> Iterator[Claim]:
+    """Yield the claims of each flag at its bits, with the values that have names; `enums` are shared ones."""
     for flag in point.flags:
-        yield from _FlagClaims(maker, point, facts, notation, flag).all()
+        yield from _FlagClaims(maker, point, facts, notation, flag).all(enums.get(flag.enum))
 
 
 class _FlagClaims:
@@ -31,9 +33,10 @@ class _FlagClaims:
         self.printed = self.node.get("printed", {}) if isinstance(self.node, Map) else {}
         self.named = notation.bits(self.high - above, flag.low)
 
-    def all(self) -> Iterator[Claim]:
+    def all(self, enum: Map | None) -> Iterator[Claim]:
+        """Yield the claims; `enum` is the shared one that names the flag's values."""
         label = self.notation.label(self.node.get("title")) if isinstance(self.node, Map) else ()
-        values = [_label_of_value(self.node, entry.raw, self.notation) for entry in self.flag.values]
+        values = [_label_of_value(self.node, entry.raw, enum, self.notation) for entry in self.flag.values]
         once_for_all = "values" in self.maker.lines_of_fact
         at_values = any(values) and not once_for_all  # the values carry the numbers, the title is one of them or none
         yield from self._bits(optional=bool(label or at_values) and not self.named)
@@ -93,10 +96,11 @@ class _FlagClaims:
         return low, high
 
 
-def _label_of_value(node: Any, raw: int, notation: Notation) -> tuple[str, ...]:
+def _label_of_value(node: Any, raw: int, enum: Map | None, notation: Notation) -> tuple[str, ...]:
     if not isinstance(node, Map):
         return ()
-    values = {int(number): entry for key, entry in node.get("values", {}).items() for number in numbers_in(key)}
+    named = node.get("values", {}) if enum is None else enum
+    values = {int(number): entry for key, entry in named.items() for number in numbers_in(key)}
     values |= {number: node[key] for number, key in enumerate(("zero", "one")) if key in node}
     entry = values.get(raw)
     titles = entry.get("title", entry) if isinstance(entry, Map) else None

@@ -56,7 +56,7 @@ class _PointClaims:
         yield from self._scale_and_default()
         yield from self._enum()
         yield from self._special_codes()
-        yield from claims_of_flags(self.maker, self.point, facts, self.notation)
+        yield from claims_of_flags(self.maker, self.point, facts, self.enums, self.notation)
         yield from self._printed()
 
     def _says(self, key: str) -> bool:

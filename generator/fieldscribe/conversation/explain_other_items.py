@@ -73,6 +73,7 @@ def _erratum(device: Device, erratum: Erratum) -> tuple[str, list[Row]]:
         ("Printed", erratum.printed),
         ("Taken", erratum.taken),
         ("Why", erratum.why),
+        ("Leaves open", "; ".join(text for _, text in erratum.leaves_open)),
         ("Source", place_in_manual(erratum.source, device)),
     ]
 

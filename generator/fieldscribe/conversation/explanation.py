@@ -114,7 +114,9 @@ def _sample_text(point: Point, raw: int) -> str:
 
 def _erratum_text(erratum: Erratum) -> str:
     printed, taken, why = (text.rstrip(". ") for text in (erratum.printed, erratum.taken, erratum.why))
-    return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}."
+    doubts = ", ".join(text for _, text in erratum.leaves_open)
+    tail = f" The manual leaves open {doubts}." if doubts else ""
+    return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}.{tail}"
 
 
 def _with_printed_facts(rows: list[Row], errata: list[Erratum]) -> list[Row]:

@@ -30,7 +30,7 @@ from fieldscribe.facts.schema import (
 )
 from fieldscribe.facts.table import API, BEHAVIOUR, DOCS, WIRE, Context, Exported, Fact, FactTable, Parts, View, Weight
 from fieldscribe.families import Family, families, family
-from fieldscribe.model import Bus, Code
+from fieldscribe.model import Bus, Code, Erratum
 from fieldscribe.wording import without_lines
 
 Listed: TypeAlias = Callable[[Exported], Iterable[Exported]]
@@ -72,6 +72,10 @@ def _errata(device: Exported) -> Iterator[Exported]:
     for erratum in device["errata"]:
         points = erratum["point"]
         yield {**erratum, "name": erratum["id"], "point": [points] if isinstance(points, str) else points or []}
+
+
+def _open(erratum: Erratum, _: object) -> Mapping[str, str]:
+    return dict(erratum.leaves_open)
 
 
 def _erratum_in_short(erratum: Exported) -> Exported:
@@ -214,6 +218,7 @@ ERRATUM: FactTable = (
     Fact("facts", "The printed facts by their keys.", map_of(STRING), published=False),
     Fact("reason", "Why.", STRING, DOCS, attribute="why", yaml=("why",)),
     Fact("certainty", "How sure that is.", one_of("certain", "likely", "unknown"), BEHAVIOUR),
+    Fact("leaves_open", "What the manual leaves open, by the key of the fact.", map_of(STRING), DOCS, value=_open),
 )
 _LIMITS: FactTable = (
     Fact("framings", "The framings that the device speaks: `rtu`, `tcp`.", TEXTS, grown),

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from fieldscribe.arithmetic.codec import powers_last
 from fieldscribe.lowered.plans import Plan, plan_of
 from fieldscribe.lowered.template_keys import TemplateKeys
-from fieldscribe.model import Device, Enum, Factor, Linear, Point, Shape
+from fieldscribe.model import Device, Enum, Erratum, Factor, Linear, Point, Shape
 
 __all__ = ["Lowered", "Operand", "Plan", "Rule", "lower", "named_numbers", "plan_of"]
 
@@ -73,7 +73,7 @@ class Lowered:
         self.device = device
         self.points: Mapping[str, Point] = _by_name(device)
         self._rules: dict[Linear, Rule] = {}
-        self._errata = frozenset([erratum.id for erratum in device.errata if erratum.facts])
+        self._errata = {erratum.id: erratum for erratum in device.errata if erratum.facts or erratum.leaves_open}
 
     def rule(self, linear: Linear) -> Rule:
         """Return the lowered rule, shared by all points that have the same."""
@@ -82,9 +82,13 @@ class Lowered:
             lowered = self._rules[linear] = _rule(linear, self.points)
         return lowered
 
-    def errata_of(self, point: Point) -> list[str]:
-        """Return the errata of a point that change a fact; others are in the documentation only."""
-        return [erratum for erratum in point.errata if erratum in self._errata]
+    def errata_of(self, point: Point) -> tuple[list[str], list[Erratum]]:
+        """Return the ids of errata that change a fact of the point, and those that leave one open.
+
+        Others are in the documentation only.
+        """
+        errata = [self._errata[name] for name in point.errata if name in self._errata]
+        return [each.id for each in errata if not each.leaves_open], [each for each in errata if each.leaves_open]
 
     @cached_property
     def template_keys(self) -> Mapping[int, int]:

@@ -52,6 +52,8 @@ class Erratum:
     certainty: str
     facts: tuple[tuple[str, str], ...] = ()
     """The printed facts by key; empty if the erratum states them in words only."""
+    leaves_open: tuple[tuple[str, str], ...] = ()
+    """What nobody knows, by the key of the fact: the ends of sentences that begin with `the manual leaves open`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,6 +242,11 @@ class Device:
     messages: tuple[Message, ...] = ()
     telegrams: tuple[Telegram, ...] = ()
     command: tuple[str, ...] = field(default=(), repr=False)
+
+    @property
+    def doubts(self) -> tuple[Erratum, ...]:
+        """The errata that leave something open that is no fact of a point."""
+        return tuple(erratum for erratum in self.errata if erratum.leaves_open and not erratum.points)
 
 
 class Version(NamedTuple):

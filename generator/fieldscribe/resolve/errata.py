@@ -9,6 +9,8 @@ from typing import Any
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.families import sections_of_codes
+from fieldscribe.language.keys import keys_of
+from fieldscribe.language.keys.places import POINT
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.model import About, Bus, Erratum, Named
@@ -85,6 +87,7 @@ def errata_of(scope: Scope, symbols: SymbolTable, bus: Bus) -> list[LocatedErrat
             str(node["why"]),
             node["certainty"],
             _facts(node["printed"]),
+            tuple(_leaves_open(scope, node)),
         )
         result.append(LocatedErratum(text, node, set()))
     return result
@@ -99,6 +102,26 @@ def _points(scope: Scope, symbols: SymbolTable, node: Map) -> Iterator[str]:
         if not named:
             symbols.unknown(word, span)
         yield from dict.fromkeys(facts.name for facts in named)
+
+
+def _leaves_open(scope: Scope, node: Map) -> Iterator[tuple[str, str]]:
+    """Yield what an erratum leaves open by the key of the fact; report what does not go with its certainty."""
+    texts: Map | dict[str, str] = node.get("leaves_open", {})
+    if not texts and node["certainty"] == "unknown":
+        message = f"the erratum `{node['id']}` does not say what is `unknown`"
+        hint = "say it as the end of a sentence: `leaves_open: {range: whether 5 may be written}`"
+        scope.report.error("erratum-open", message, node.span("certainty"), hint)
+    elif texts and node["certainty"] == "certain":
+        message, hint = (
+            f"the erratum `{node['id']}` is `certain`, and leaves something open",
+            "say `likely` or `unknown`",
+        )
+        scope.report.error("erratum-open", message, node.span("certainty"), hint)
+    keys = keys_of(POINT) if "point" in node or "points" in node else ()
+    for key, text in texts.items():
+        if keys and key not in keys:
+            scope.unknown("key", key, node["leaves_open"].key_span(key), keys)
+        yield key, str(text).rstrip(".")
 
 
 def _flag_exists(scope: Scope, symbols: SymbolTable, node: Map) -> None:

@@ -7,10 +7,11 @@ The texts are plain; targets escape them (text.py). Another point is written as 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from fieldscribe.arithmetic.exact import SAME
-from fieldscribe.model import Device, Entry, Flag, Point, ScaleCase, Special, Titles
+from fieldscribe.model import Device, Entry, Erratum, Flag, Point, ScaleCase, Special, Titles
 from fieldscribe.text import line
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, rounded
 from fieldscribe.wording.rules import Points, RenamedPoints, converted, inverse_text, name_of, ranges_text
@@ -353,6 +354,16 @@ def keeps_text(device: Device, point: Point) -> str:
     where = f"{command.space} {address_text(command.address)} with function {hex_text(command.function, 2)}"
     wears = f"; the memory stands {command.wears} writes" if command.wears else ""
     return f"only after the command {command.name} (write {value} to {where}){wears}"
+
+
+def open_texts(errata: Iterable[Erratum], quoted: Callable[[str], str] = line) -> list[str]:
+    """Return what errata leave open, each with the id of its erratum."""
+    return [f"{quoted(text)} ({quoted(erratum.id)})" for erratum in errata for _, text in erratum.leaves_open]
+
+
+def open_text(errata: Iterable[Erratum], quoted: Callable[[str], str] = line) -> str:
+    """Return what the errata of a point leave open, to follow a `the` or `The`."""
+    return f"manual leaves open {', '.join(open_texts(errata, quoted))}"
 
 
 def without_lines(text: Any) -> Any:

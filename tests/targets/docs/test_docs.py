@@ -346,7 +346,7 @@ def _hostile() -> Device:
     unit = replace(NUMBER, symbol="|<b>")
     group = replace(DEVICE.groups[0], title=titles, note={"en": "1. one"})
     enum = replace(DEVICE.enums[0], title=titles, entries=(entry(0, "zero", HOSTILE),))
-    errata = (replace(DEVICE.errata[0], printed=HOSTILE, why=HOSTILE, points=("bad",)),)
+    errata = (replace(DEVICE.errata[0], printed=HOSTILE, why=HOSTILE, points=("bad",), leaves_open=(("at", HOSTILE),)),)
     made = sample_device((bad, changed(bad, name="worse", unit=unit, enum=enum)))
     return replace(made, title=titles, note=titles, groups=(group,), enums=(enum,), errata=errata, vendor=HOSTILE)
 

@@ -213,18 +213,6 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     assert "is a point of another device" in refused[1]
 
 
-def test_errata_are_ids_of_those_that_change_a_fact(tmp_path: Path) -> None:
-    device = sample_device()
-    wire = replace(device.errata[0], facts=(("wire", "4137"),))
-    points = (point("one", 1, errata=("a020_wire", "note")), point("two", 2, errata=("note",)))
-    made = replace(sample_device(points), errata=(wire, replace(wire, id="note", facts=())), blocks={}, id="erred")
-    text = (write_package(made, tmp_path) / "erred" / "points.py").read_text("utf-8")
-    assert text.count("Errata:") == 1
-    assert '\n\n    Errata: a020_wire.\n    """' in text
-    assert "Hex is right" not in text
-    assert "wire 4137" not in text
-
-
 def test_what_is_documented_only_is_said_once(package: Any, folder: Path) -> None:
     text = (folder / "sample_drive" / "points.py").read_text("utf-8")
     for name in package.SampleDrive.DOCUMENTED:

@@ -17,7 +17,7 @@ from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
 from fieldscribe.targets.python.namespaces import LIBRARIES
-from support.models import STATUS_FLAGS, changed, plain_points, point, sample_device, titles
+from support.models import STATUS_FLAGS, changed, doubts, plain_points, point, sample_device, titles
 from support.python_families import CanUnit, UssDrive
 from support.python_package import (
     Awaited,
@@ -79,7 +79,10 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
     evil = '"""; import os\n# noqa # type: ignore {{ 7 }} \\'
     quoteless = evil.replace('"', "'")  # a formatter would choose the quotes of a literal by its contents
     hostile = replace(
-        sample_device(tuple(replace(one, title=titles(evil), code=quoteless) for one in sample_device().points)),
+        sample_device(
+            tuple(replace(one, title=titles(evil), code=quoteless, errata=("doubt",)) for one in sample_device().points)
+        ),
+        errata=doubts(evil, "base_frequency"),
         title=titles(evil),
         vendor=evil,
         version="1.0.0",  # the language takes no other, nor does pip

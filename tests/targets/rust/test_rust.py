@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from fieldscribe.lowered import lower
 from fieldscribe.model import Device, Flag
 from fieldscribe.resources import render, templates_dir
 from fieldscribe.targets import rust
@@ -101,10 +102,10 @@ def test_active_low_bits_say_so() -> None:
 def test_what_is_only_documented_has_its_address() -> None:
     settled = point("speed", 5)
     device = sample_device((settled, changed(settled, name="ramp", code="P1", generated=False)))
-    assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
+    assert left_out(device, lower(device)) == (("`ramp`, `P1`, holding 0005h (5)",),)
     assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
     drive = shipped("nord_sk5xxe")
-    known = ["h (" in line for line in left_out(drive)]
+    known = ["h (" in line for line, *_ in left_out(drive, lower(drive))]
     assert known == [bool(one.addresses) for one in drive.points if not one.generated]
     assert any(known)
 

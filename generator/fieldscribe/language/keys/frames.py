@@ -105,6 +105,14 @@ KEYS = (
         one_of("certain", "likely", "unknown"),
         required=True,
     ),
+    Key(
+        "leaves_open",
+        ERRATUM,
+        "What the manual leaves open, by the key of the fact: the rest of a sentence that begins with `the manual "
+        "leaves open`. Code and documentation say it where the fact stands. Required if `certainty` is `unknown`.",
+        [{"range": "whether 5 may be written in a 200 V unit"}],
+        by(forms.NAME, Shape("What is open.", ["whether 5 may be written in a 200 V unit"], Text(200)), least=1),
+    ),
     Key("document", (ERRATUM, LOOKED_THROUGH), "The document, if it is not the first one.", ["manual"], Text()),
     Key(
         "line",

@@ -56,8 +56,11 @@ def _rare_facts(point: Point, scope: HeaderScope) -> Iterator[str]:
         yield wording.codes_text(point)
     if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
         yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
-    if errata := scope.lowered.errata_of(point):
+    errata, doubts = scope.lowered.errata_of(point)
+    if errata:
         yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
+    if doubts:
+        yield f"the {wording.open_text(doubts)}"
 
 
 def range_words(point: Point) -> str:

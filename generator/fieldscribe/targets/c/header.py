@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product
 
+from fieldscribe import wording
 from fieldscribe.lowered import named_numbers
 from fieldscribe.model import Device, Point, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.c.declarations import defines, place_defines
-from fieldscribe.targets.c.layout import folded, framed
+from fieldscribe.targets.c.layout import filled, folded, framed
 from fieldscribe.targets.c.point_templates import GeneratedPoint, fields_of, texts_of
 from fieldscribe.targets.c.point_views import functions_of, symbols_of
 from fieldscribe.targets.c.scope import HeaderScope
@@ -41,6 +42,7 @@ def header_context(device: Device, points: Sequence[GeneratedPoint], scope: Head
         "telegrams": list(zip(device.telegrams, telegrams_of(device, scope), strict=True)),
         "aliases": tuple(aliases_of(points, scope)),
         "statuses": STATUSES,
+        "doubts": [filled(c_comment(text).split(" "), " ", "   ") for text in wording.open_texts(device.doubts)],
         "double": any(view.computes_in_double for view in dict.fromkeys(each.view for each in points)),
     }
 

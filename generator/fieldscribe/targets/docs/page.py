@@ -171,10 +171,15 @@ def _errata(device: Device) -> str:
         "Printed": lambda erratum: cell(erratum.printed),
         "Taken": lambda erratum: cell(erratum.taken),
         "Why": lambda erratum: cell(erratum.why),
-        "Certainty": lambda erratum: cell(erratum.certainty),
+        "Certainty": lambda erratum: cell(_certainty(erratum)),
         "Source": lambda erratum: source_cell(erratum.source, len(device.documents) > 1),
     }
     return table(device.errata, columns, always=columns)
+
+
+def _certainty(erratum: Erratum) -> str:
+    doubts = ", ".join(text for _, text in erratum.leaves_open)
+    return f"{erratum.certainty}: the manual leaves open {doubts}" if doubts else erratum.certainty
 
 
 def _where(erratum: Erratum) -> str:

@@ -93,7 +93,7 @@ def _group_view(group: Group, points: list[Point], rows: _Rows) -> GroupView:
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
         points=rows.table(points, lists, with_space=len(spaces) > 1),
-        more="".join(map(_more, filter(_has_more, points))),
+        more="".join(map(rows.more, filter(rows.has_more, points))),
         words=tuple(word_views(points)),
         lists=tuple(lists.views()),
     )
@@ -115,6 +115,8 @@ class _Rows:
 
     def __init__(self, scope: DocsScope) -> None:
         self.scope = scope
+        errata = scope.device.errata
+        self._doubts = {each.id: ", ".join(text for _, text in each.leaves_open) for each in errata if each.leaves_open}
         further = {
             "words": lambda point: f"bits: {narrow_link('bits', point.item)}" if point.shape.flags else "",
             "special_of": lambda point: (
@@ -124,7 +126,7 @@ class _Rows:
             "when": self._when,
             "changes_with": _changes_with,
             "was": lambda point: "; ".join([f"was {code(old)}" for old in point.was]),
-            "note": lambda point: _more_link(point) if _has_more(point) else _note(point),
+            "note": lambda point: _more_link(point) if self.has_more(point) else _note(point),
             "errata": self._errata,
         }
         self._remarks = Remarks(Context(scope.device, names=scope.by_code), cell, further)
@@ -175,9 +177,30 @@ class _Rows:
         return _Cells(cell(point.space), type_text, point.access, unit, scale, LINE_BREAK.join(names))
 
     def _errata(self, point: Point) -> str:
-        if _has_more(point):
+        if self.has_more(point):
             return "" if point.note else _more_link(point)
-        return _errata(point, narrow_link)
+        return self._errata_with(narrow_link, point)
+
+    def _errata_with(self, linked: Callable[[str, str], str], point: Point) -> str:
+        """Return the errata of a point, with what they leave open."""
+        links = ", ".join([linked("erratum", erratum) for erratum in point.errata if erratum not in self._doubts])
+        doubts = [
+            f"{cell(self._doubts[name])} ({linked('erratum', name)})" for name in point.errata if name in self._doubts
+        ]
+        known = f"{'erratum' if len(point.errata) - len(doubts) == 1 else 'errata'} {links}" if links else ""
+        return "; ".join(filter(None, (known, f"the manual leaves open {', '.join(doubts)}" if doubts else "")))
+
+    def has_more(self, point: Point) -> bool:
+        """Return True if note and errata would make the row a tall one."""
+        if not (point.note or point.errata):
+            return False
+        size = sum(len(self._doubts.get(name, name)) for name in point.errata)
+        return len(wording.title_text(point.note) if point.note else "") + size > _LONGEST_REMARK
+
+    def more(self, point: Point) -> str:
+        """Return the line below the table with the note and the errata of a point."""
+        texts = "; ".join(filter(None, (_note(point), self._errata_with(link, point))))
+        return f"- {target('more', point.item)}: {texts}\n"
 
     def _when(self, point: Point) -> str:
         text = wording.condition_text(point.when, self.scope.by_code)
@@ -213,29 +236,12 @@ def _changes_with(point: Point) -> str:
     return names and f"read it again after writing {names}"
 
 
-def _has_more(point: Point) -> bool:
-    """Return True if note and errata would make the row a tall one."""
-    if not (point.note or point.errata):
-        return False
-    return len(wording.title_text(point.note) if point.note else "") + sum(map(len, point.errata)) > _LONGEST_REMARK
-
-
 def _more_link(point: Point) -> str:
     return f"[more below](#{anchor('more', point.item)})"
 
 
-def _more(point: Point) -> str:
-    texts = "; ".join(filter(None, (_note(point), _errata(point, link))))
-    return f"- {target('more', point.item)}: {texts}\n"
-
-
 def _note(point: Point) -> str:
     return cell(wording.title_text(point.note).rstrip(".")) if point.note else ""
-
-
-def _errata(point: Point, linked: Callable[[str, str], str]) -> str:
-    links = ", ".join([linked("erratum", erratum) for erratum in point.errata])
-    return f"{'erratum' if len(point.errata) == 1 else 'errata'} {links}" if links else ""
 
 
 class _Lists:

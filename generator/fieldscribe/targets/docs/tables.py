@@ -148,6 +148,7 @@ ERRATA = (
     Column("taken", "what was taken"),
     Column("why", "why"),
     Column("certainty", "how sure that is: `certain`, `likely`, `unknown`"),
+    Column("leaves_open", "what the manual leaves open"),
     Column("document", "the manual"),
     Column("section", "the section of the manual"),
     Column("page", "the page", True),
@@ -169,5 +170,6 @@ def erratum_rows(device: Device, encode: Encode) -> Iterator[tuple[str, ...]]:
     for erratum in device.errata:
         points = "; ".join(item for name in erratum.points for item in items.get(name, ()))
         where = str(erratum.where)
-        texts = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty)
+        doubts = "; ".join(text for _, text in erratum.leaves_open)
+        texts = (erratum.id, points, where, erratum.printed, erratum.taken, erratum.why, erratum.certainty, doubts)
         yield (*map(encode, texts), *source_cells(erratum.source, encode))

@@ -9,9 +9,10 @@ from fieldscribe.model import Device
 from fieldscribe.resources import Render, runtime_files
 from fieldscribe.targets.heads import head_lines
 from fieldscribe.targets.python.identifiers import Identifiers
-from fieldscribe.targets.python.layout import comment
+from fieldscribe.targets.python.layout import comment, wrapped
 from fieldscribe.targets.python.namespaces import device_name_taken, identifiers
 from fieldscribe.text import python_doc, python_string, toml_string
+from fieldscribe.wording import open_texts
 
 SEES_TITLES = False
 _RUNTIME = "fieldscribe_runtime"
@@ -34,6 +35,7 @@ def outputs(device: Device, render: Render, *, tests: bool = True) -> Iterable[t
     folder = f"python/{names.package}"
     facts = {
         "uses": uses(device, names.device_class, ""),
+        "doubts": [wrapped(python_doc(f"- {text}")) for text in open_texts(device.doubts)],
         "version": python_string(device.version),
         "digest": python_string(device.digest),
     }

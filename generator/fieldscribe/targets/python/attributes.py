@@ -14,7 +14,7 @@ from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
 from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import codes_text, condition_text, range_text
+from fieldscribe.wording import codes_text, condition_text, open_text, range_text
 
 BODY = 8
 """The indentation of an attribute's arguments."""
@@ -167,8 +167,9 @@ def _remarks(point: Point, scope: PackageScope) -> str:
 
 
 def _errata(point: Point, scope: PackageScope) -> list[str]:
-    changing = scope.lowered.errata_of(point)
-    return ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
+    changing, doubts = scope.lowered.errata_of(point)
+    lines = ["", *wrapped(f"Errata: {', '.join(changing)}.")] if changing else []
+    return [*lines, "", *wrapped(python_doc(f"The {open_text(doubts)}."))] if doubts else lines
 
 
 def places(point: Point, addresses: Iterable[str], index: str, scope: PackageScope) -> Iterator[Node]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from fieldscribe import wording
 from fieldscribe.model import Device, Point, Version
 from fieldscribe.resources import Render
 from fieldscribe.targets.heads import head_lines
-from fieldscribe.targets.rust.documentation import left_out
+from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
 from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space
 from fieldscribe.targets.rust.layout import Item, Lines, binding, filled
@@ -54,7 +55,8 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     return {
         "head": head(device, "//"),
         "table": tuple(subject.name for subject in scope.subjects),
-        "left_out": left_out(device),
+        "left_out": left_out(device, scope.lowered),
+        "doubts": [tuple(wrapped(text)) for text in wording.open_texts(device.doubts, rust_code)],
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "codes": tuple(shared_codes(scope)),
         "first_word": first_word,

@@ -51,8 +51,11 @@ def _paragraphs(point: Point, lowered: Lowered) -> Iterator[str]:
     """Yield the special codes of a point, and its errata."""
     if point.specials:
         yield f"{wording.codes_text(point, '`')}."
-    if named := [f"`{name}`" for name in lowered.errata_of(point)]:
-        yield f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}."
+    errata, doubts = lowered.errata_of(point)
+    if errata:
+        yield f"Errat{'a' if len(errata) > 1 else 'um'}: {', '.join(f'`{name}`' for name in errata)}."
+    if doubts:
+        yield f"The {wording.open_text(doubts, rust_code)}."
 
 
 def is_long(text: str) -> bool:
@@ -75,21 +78,24 @@ def wrapped(text: str) -> Iterator[str]:
     yield line
 
 
-def left_out(device: Device) -> tuple[str, ...]:
-    """Return a line for each point that is only documented, with its address on the wire if it has one."""
+def left_out(device: Device, lowered: Lowered) -> tuple[tuple[str, ...], ...]:
+    """Return the lines for each point that is only documented: its address if it has one, and what is open."""
     return tuple(
-        f"`{point.item}`" + "".join(f", {fact}" for fact in _whereabouts(point))
+        tuple(wrapped(", ".join((f"`{point.item}`", *_whereabouts(point, lowered)))))
         for point in device.points
         if not point.generated
     )
 
 
-def _whereabouts(point: Point) -> Iterator[str]:
+def _whereabouts(point: Point, lowered: Lowered) -> Iterator[str]:
     if point.code:
         yield rust_code(point.code)
     if point.addresses:
         before, behind = _around_address(point)
         yield f"{before} {wording.address_text(min(point.addresses))}{behind}"
+    _, doubts = lowered.errata_of(point)
+    if doubts:
+        yield f"the {wording.open_text(doubts, rust_code)}"
 
 
 def _around_address(point: Point) -> tuple[str, str]:
