@@ -133,6 +133,10 @@ def markdown(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned)
 
 
+_FORMULA_SIGNS = frozenset("=+-@\uff1d\uff0b\uff0d\uff20")
+"""What starts a formula in spreadsheets; some take the full-width forms of Asian keyboards, too."""
+
+
 def csv_cell(text: str) -> str:
     """Return a cell of CSV, quoted if needed; what a spreadsheet would run as a formula gets an apostrophe in front."""
     if (
@@ -143,7 +147,7 @@ def csv_cell(text: str) -> str:
     ):
         return text
     cleaned = line(text)
-    if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
+    if cleaned[:1] in _FORMULA_SIGNS and not _NUMBERS.fullmatch(cleaned):
         cleaned = "'" + cleaned
     return '"' + cleaned.replace('"', '""') + '"' if any(char in cleaned for char in ',"') else cleaned
 

@@ -69,6 +69,7 @@ def test_notations(text: str, number: int | None) -> None:
         ("code:base_frequency", []),
         ("wire:4137", []),
         ("nonsense:4137", []),
+        ("408193", [("reference 408193, computed", "swapped_count", "low word (2 of 2, the high part first)")]),
     ],
 )
 def test_finding(what: str, found: list[tuple[str, str, str]]) -> None:
@@ -94,12 +95,17 @@ def test_printed_references_that_are_text() -> None:
     [
         ("base_frequenzy", ["base_frequency"]),
         ("A02", ["A020"]),
+        ("a-20", ["A020"]),
+        ("A020[3]", ["A020"]),
+        ("A020.1", ["A020"]),
+        ("A020 A021", ["A020"]),
+        ("404137", []),
         ("name:base_freqency", ["base_frequency"]),
         ("4200", ["lower_limit", "start_frequency"]),
     ],
 )
 def test_what_is_near(what: str, names: list[str]) -> None:
-    assert near(DEVICE, what)[: len(names)] == names
+    assert near(DEVICE, what)[: len(names) or None] == names
 
 
 @pytest.mark.parametrize(
@@ -121,6 +127,8 @@ def test_what_was_typed_is_repeated_clean_and_short(typed: str, shown: str) -> N
         ("code:a020_wire", []),
         ("wire:900h", ["wire address 0900h (2304), holding"]),
         ("name:900h", []),
+        ("402305", ["reference 402305"]),
+        ("modicon:2305", ["modicon 2305"]),
     ],
 )
 def test_what_is_no_point_is_found_by_its_name_or_its_place_alone(what: str, readings: list[str]) -> None:

@@ -70,7 +70,8 @@ def named_parts(one: Point) -> list[tuple[str, int]]:
     """The signals of a point, with their words: one, or a high and a low one where the words are in two frames."""
     slots = {address // CYCLIC.words for address in one.addresses}
     if len(slots) == 1:
-        return [(one.name, one.addresses[0] // CYCLIC.words)]
+        unsettled = "" if one.generated or one.reserved else "_raw"
+        return [(one.name + unsettled, one.addresses[0] // CYCLIC.words)]
     return [(f"{one.name}_{half}", at // CYCLIC.words) for half, at in zip(("high", "low"), one.addresses, strict=True)]
 
 
@@ -198,7 +199,7 @@ def test_what_a_database_cannot_say_is_in_comments() -> None:
     assert "Raw: the value is raw x 10^generator_power_exponent.raw W" in (power.comment or "")
     assert "bits 7..6 fault_class_3: 0 Inactive, 3 Active" in (signals["present_fault_classes"].comment or "")
     assert "cannot put them together" in (signals["operating_hours_high"].comment or "")
-    assert "does not settle its scale" in (signals["generator_reactive_power"].comment or "")
+    assert "does not settle its scale" in (signals["generator_reactive_power_raw"].comment or "")
     assert signals["generator_frequency"].unit == "Hz"
     assert dict(signals["mains_state"].choices or {}) == {0: "absent", 255: "present"}
     specifics = database().dbc

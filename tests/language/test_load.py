@@ -111,7 +111,7 @@ def test_yaml_is_read_as_yaml_says(text: str, value: dict[str, Any]) -> None:
     ("text", "finding"),
     [
         ("a: 1\n... b: 2\n", ("yaml-syntax", 2, 5)),
-        (f'a: 1\n"{"k" * 1_100}": 1\n', ("yaml-syntax", 2, 1_103)),
+        (f'a: 1\n"{"k" * 1_100}": 1\n', ("yaml-syntax", 2, 1)),
         ("a: b: c\n", ("yaml-syntax", 1, 5)),
         ("a:\tb\n\tc: 1\n", ("yaml-syntax", 2, 1)),
         ("a: 1\ra: 2\r", ("duplicate-key", 2, 1)),

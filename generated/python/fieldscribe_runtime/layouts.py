@@ -5,12 +5,19 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .arguments import shown
-from .errors import AccessError, RequestError, WrongLengthError, WrongTypeError
+from .errors import (
+    AccessError,
+    CodecError,
+    RequestError,
+    WrongLengthError,
+    WrongTypeError,
+)
 from .fast import bits_of, itself, put_together, taken_apart
 from .points import Decoding, Encoding
 from .rules import NO_RAWS
@@ -69,6 +76,7 @@ class Layout:
         self, points: Iterable[Point], words: range, wanted: Collection[str] = (), around: tuple[int, int] = (0, 0)
     ) -> None:
         self.words = words
+        self._wanted_names, self._around = frozenset(wanted), around
         ordered = sorted(points, key=lambda point: point.facts.at.address)
         self.points = tuple([point for point in ordered if all(at in words for at in addresses_of(point))])
         self._struct, self._pieces = self._cut(around)
@@ -76,12 +84,18 @@ class Layout:
         self._read = [piece for piece in self._pieces if isinstance(piece.point, Decoding)]
         self.needs = frozenset([name for piece in self._read for name in piece.point.scale_needs])
         self._own = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in self.needs}
-        self._wanted = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in wanted}
+        self._wanted = {
+            piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in self._wanted_names
+        }
         self.gives = bool(self._wanted)
 
     def __repr__(self) -> str:
         inside = ", ".join([point.facts.name for point in self.points])
         return f"<{type(self).__name__} of {self.size} bytes: {inside}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle by what makes the layout: a Struct cannot be pickled."""
+        return type(self), (self.points, self.words, self._wanted_names, self._around)
 
     def _cut(self, around: tuple[int, int]) -> tuple[Fields, tuple[Piece, ...]]:
         """Return what takes the bytes apart into fields, and where the points are in these."""
@@ -124,11 +138,14 @@ class Layout:
             raise WrongTypeError(f"raws are raw numbers by name, as {{'name': 1}}, not {shown(raws)}")
         return raws
 
-    def decode_known(self, data: bytes, raws: Raws) -> dict[str, Value]:
-        """Return the same without the points whose scales need what is not there."""
-        known = {**raws, **self._numbers(self._own, data)}
-        read = [piece for piece in self._read if known.keys() >= set(piece.point.scale_needs)]
-        values: dict[str, Value] = self._decoder(read)(data, known)
+    def decode_known(self, data: bytes, raws: Raws, errors: dict[str, CodecError] | None = None) -> dict[str, Value]:
+        """Return the same without the points whose scales need what is not there; with `errors` also without these."""
+        known, fields = {**raws, **self._numbers(self._own, data)}, self._struct.unpack(data)
+        values: dict[str, Value] = {}
+        for piece in self._read:
+            if known.keys() >= set(piece.point.scale_needs):
+                with noted(piece.point, errors):
+                    values[piece.point.facts.name] = piece.way(fields[piece.at], known)
         return values
 
     def wanted(self, data: bytes) -> dict[str, int]:
@@ -200,6 +217,17 @@ class Layout:
         if needs or not all(piece.whole for piece in self._pieces):
             return self._encode
         return put_together(self._struct.pack, [(point.facts.name, point.encoder) for point in self._written])
+
+
+@contextmanager
+def noted(point: Point, errors: dict[str, CodecError] | None) -> Iterator[None]:
+    """Keep the error of a point whose number has no value, so that the others are decoded."""
+    try:
+        yield
+    except CodecError as error:
+        if errors is None or isinstance(error, WrongTypeError):  # the latter is a mistake of the caller
+            raise
+        errors[point.facts.name] = error
 
 
 def addresses_of(point: Point) -> Sequence[int]:

@@ -202,7 +202,7 @@ class Floating(Form[float, float]):
                 return math.nan
             number, _ = self._structs
             nearest: float = number.unpack(number.pack(value))[0]
-        except OverflowError:
+        except (OverflowError, struct.error):  # integers beyond the type raise the latter
             return math.inf if value > 0 else -math.inf
         return nearest
 

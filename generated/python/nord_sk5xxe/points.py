@@ -77,7 +77,6 @@ class Points(PointTable):
             Block("holding", 0x03, 0x0C80, 6),
             Block("holding", 0x03, 0x0CC0, 6),
         ),
-        "parameters": (),
     }
     DOCUMENTED: ClassVar = {
         "p102_set_1": Documented(

@@ -7,7 +7,7 @@ from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.points import ResolvedPoint
 from fieldscribe.wording.exact import fixed_rule, number_text
 
-_LONGEST = 30
+_LONGEST, _MOST_NAMES = 30, 12
 
 
 def check(analysis: Analysis) -> None:
@@ -59,10 +59,13 @@ def _report(analysis: Analysis, resolved: ResolvedPoint, fault: str) -> None:
     hint = "it is in the unit; correct it, the range or the scale"
     if raw:
         hint = (
-            f"write `default_in_units: {stated}`"
+            f"write `default_in_units: {point.default_raw}`"
             if _fits_in_units(point)
             else "it is a raw number; correct it, or the range"
         )
+        if point.enum is not None and point.enum.closed:
+            names = ", ".join(entry.name for entry in point.enum.entries[:_MOST_NAMES])
+            hint = f"it is the raw number or one of the names: {names}"
     message = f"the default {stated}{unit} cannot be written: {fault}"
     analysis.report.error("default-outside-range", message, facts.span(key), hint)
 

@@ -13,6 +13,7 @@ from fieldscribe.model import Frame, Point
 from fieldscribe.resolve.analysis import Analysis
 from fieldscribe.resolve.errata import PrintedFact
 from fieldscribe.resolve.frames import LocatedFrame
+from fieldscribe.wording.frames import units_text
 
 Words = Mapping[tuple[str, int, int], tuple[int, ...]]
 """The words that a frame carries, by space or telegram, address, and the index that travels with it (0 without one)."""
@@ -110,12 +111,27 @@ def report_no_frame(analysis: Analysis, located: LocatedFrame, message: str) -> 
     return Seen(replace(located.frame, valid=False))
 
 
-def report_refused(analysis: Analysis, located: LocatedFrame, status: str) -> Seen:
+def report_refused(analysis: Analysis, located: LocatedFrame, status: str, unit: int = 0) -> Seen:
     """Report a request that the device does not take, or a response that does not answer its request."""
     frame = located.frame
+    if status == "bad_unit" and analysis.scope.bus is not None:
+        return _report_unit(analysis, located, unit, analysis.scope.bus)
     asks = frame.direction == "request"
     what = "this device takes no such request" if asks else f"this does not answer `{frame.answers}`"
     return report_no_frame(analysis, located, f"{what}: {status.replace('_', ' ')}")
+
+
+def _report_unit(analysis: Analysis, located: LocatedFrame, unit: int, bus: Map) -> Seen:
+    """Report a unit that the device cannot have: once for all frames, at the units of the bus."""
+    fact = located.printed("form", hex_of(located.frame.printed), None, "")
+    fact = replace(
+        fact,
+        span=bus.span("units"),
+        message=f"{units_text(analysis.bus)}, and printed frames have unit {unit}",
+        hint="correct `units`, or explain each of these frames: an erratum with `printed: {form: …}`",
+    )
+    analysis.report_printed(fact)
+    return Seen(replace(located.frame, valid=False))
 
 
 def report_no_request(analysis: Analysis, located: LocatedFrame) -> None:

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from contextlib import suppress
 
 from fieldscribe.cli.common import StopError, add_device, add_format, open_device, print_json
 from fieldscribe.cli.terminal import FINDINGS, FINE, print_lines, print_rows
 from fieldscribe.conversation.explain_other_items import explain_other_items
 from fieldscribe.conversation.explanation import Explanation, explain_point
-from fieldscribe.conversation.lookup import Match, find, near
+from fieldscribe.conversation.lookup import Match, advice, find, prefixes
 from fieldscribe.conversation.selection import absence
+from fieldscribe.families import family
 from fieldscribe.language.units import unit_hint
 from fieldscribe.model import Device
-from fieldscribe.pasted_numbers import number_of
+from fieldscribe.pasted_numbers import HexError, parse_hex
 from fieldscribe.text import shortened
-from fieldscribe.user_errors import did_you_mean
 from fieldscribe.wording import label
 
 Found = tuple[list[str], Explanation]
 """How WHAT was read (there may be several ways), and the explanation of what it then means."""
+
+_SHORTEST_FRAME = 4
 
 EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 A020
@@ -88,9 +91,23 @@ def _points(device: Device, matches: list[Match], *, as_documented: bool) -> lis
 
 def _nothing_found(device: Device, what: str) -> StopError:
     kind, _, rest = what.rpartition(":")
-    if kind.strip().lower() == "unit":
+    kind = kind.strip().lower()
+    if kind == "unit":
         return StopError(f"there is no unit `{shortened(rest.strip())}`", unit_hint(rest.strip(), ()))
-    hint = did_you_mean(near(device, what))
-    if number_of(rest.strip()) is not None:
-        hint = hint.replace("did you mean", "described near it:").rstrip("?")
-    return StopError(f"{device.id} has no code, name or address `{shortened(what)}`", hint)
+    return StopError(f"{device.id} has no code, name or address `{shortened(what)}`", _advice(device, kind, what))
+
+
+def _advice(device: Device, kind: str, what: str) -> str:
+    """Return what to try instead: a code of this kind, another kind, `decode` for a frame, or near names."""
+    own_family = family(device.family)
+    kinds = {codes.kind: codes for codes in own_family.codes}
+    if kind in kinds:
+        known = ", ".join(str(code.number) for code in device.bus.codes(kinds[kind].section))
+        return f"it has {known}" if known else f"the description lists no {kind}"
+    before = [*prefixes(device), *kinds, "unit", *([own_family.name] if own_family.lays_out_messages else [])]
+    if kind and kind not in before:
+        return f"before a colon stands one of {', '.join(before)}"
+    with suppress(HexError):
+        if len(parse_hex(what)) > _SHORTEST_FRAME:
+            return f'for a frame there is `fieldscribe decode {device.id} "…"`'
+    return advice(device, what)

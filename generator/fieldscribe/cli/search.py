@@ -29,6 +29,7 @@ same. Exact codes and names come first.
 ends with 1 when nothing has all words"""
 
 _MOST = 20
+_MOST_WORDS = 20
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -46,6 +47,8 @@ def run(arguments: Namespace) -> int:
     words = [word for text in arguments.words for word in text.split()]
     if not words:
         raise common.StopError("there is no word to search", "give a word, a code or a section")
+    if len(words) > _MOST_WORDS:
+        raise common.StopError(f"{len(words)} words are too many", f"give at most {_MOST_WORDS}: all must occur")
     entries = _entries(arguments)
     hits = search(entries, words)
     near = [] if hits else near_words(entries, words)

@@ -40,10 +40,8 @@ def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
     name = text.lower() if forced in ("", "name") else None
     number = number_of(text) if forced in ("", "wire") else None
     for command in device.commands:
-        if name == command.name:
-            yield f"command {command.name}", *_command(device, command)
-        elif number is not None and number == command.address:
-            yield f"wire address {wording.address_text(number)}, {command.space}", *_command(device, command)
+        if reading := _reading_of(device, command, text, forced):
+            yield reading, *_command(device, command)
     for erratum in device.errata:
         if name == erratum.id:
             yield f"erratum {erratum.id}", *_erratum(device, erratum)
@@ -53,6 +51,17 @@ def _items(device: Device, text: str, forced: str) -> Iterator[OtherItem]:
         for low, high in gaps:
             if number is not None and low <= number <= high:
                 yield f"wire address {wording.address_text(number)}, {space}", *_gap(space, low, high)
+
+
+def _reading_of(device: Device, command: Command, text: str, forced: str) -> str:
+    """Return how the text names a command: by its name, its address, or a number that people use for that."""
+    if forced in ("", "name") and text.lower() == command.name:
+        return f"command {command.name}"
+    numbers = {"wire": command.address, **family(device.family).numbers(command.space, command.address)}
+    key = next((key for key, number in numbers.items() if number == number_of(text) and forced in ("", key)), "")
+    if key == "wire":
+        return f"wire address {wording.address_text(command.address)}, {command.space}"
+    return key and f"{key} {numbers[key]}"
 
 
 def _command(device: Device, command: Command) -> tuple[str, list[Row]]:

@@ -18,7 +18,7 @@ from fieldscribe.wording.exact import hex_text, rounded
 
 _ROWS = {
     "wire": "Wire address",
-    "low_wire": "Words",
+    "low_wire": "Addresses",
     "range": "Raw range",
     "range_in_units": "Range",
     "default_in_units": "Default",

@@ -12,14 +12,20 @@ from fieldscribe.families import family
 from fieldscribe.model import Device, Place, Point
 from fieldscribe.pasted_numbers import number_of
 from fieldscribe.text import line
+from fieldscribe.user_errors import did_you_mean
 from fieldscribe.wording.exact import hex_text
 from fieldscribe.wording.frames import word_text
 
 _ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
+_BEHIND_CODE = re.compile(r"[\[.: ]")
+_SEPARATORS = re.compile(r"[^a-z0-9]")
+_LEADING_ZEROS = re.compile(r"(?<=[a-z])0+(?=[0-9])")
 _LONGEST = 64
 _ONLY_FORCED = frozenset({"mux", "word"})
 """Numberings that need a prefix: their numbers fit many points."""
 _MOST_NEAR = 5
+_NEAR = 256
+"""How far away an address may be for its point to be near."""
 _LOOK_ALIKE = str.maketrans("oil", "011")
 
 
@@ -37,11 +43,11 @@ def find(device: Device, what: str) -> list[Match]:
 
     `what` is a code, a name, or a number (`0x1028`, `1028h`, `H'1028`, `4136`) read as wire address and in each
     numbering of the device; `[1]` after it chooses one element of an array. A prefix forces one reading: `code:`,
-    `name:`, `wire:`, or a numbering such as `modicon:`.
+    `name:`, `wire:`, or a numbering such as `modicon:`. What nothing else has is read in the numberings of the family.
     """
     forced, text = _split(device, what.strip())
     element = _ELEMENT.fullmatch(text[:_LONGEST])
-    if element is not None:
+    if element is not None and not _by_code(device, text):
         matches = find(device, f"{forced}:{element[1]}" if forced else element[1])
         return [match for match in matches if match.point.index == int(element[2])]
     matches = []
@@ -55,7 +61,22 @@ def find(device: Device, what: str) -> list[Match]:
     for key in _numberings(device):
         if forced == key.lower() or (forced is None and key not in _ONLY_FORCED):
             matches += _by_reference(device, key, text, number)
+    if not matches and number is not None:
+        matches += _by_computed_number(device, forced, number)
     return matches
+
+
+def advice(device: Device, what: str) -> str:
+    """Return what to try instead of a text without a match; may be empty."""
+    forced, text = _split(device, what.strip())
+    if forced not in (None, "wire") and number_of(text) is not None:
+        return ""
+    if any(text.lower() == command.name for command in device.commands):
+        return f"it is a command, and no point: `fieldscribe explain {device.id} {line(text)}` says what it writes"
+    names = near(device, what)
+    if number_of(text) is not None:
+        return did_you_mean(names).replace("did you mean", "described near it:").rstrip("?")
+    return did_you_mean(names) or f"`fieldscribe search --device {device.id} …` looks into titles, flags and labels"
 
 
 def near(device: Device, what: str) -> list[str]:
@@ -66,8 +87,17 @@ def near(device: Device, what: str) -> list[str]:
         return _neighbours(device, number)
     known = {point.item: point.item for point in device.points}
     known |= {point.code.lower(): point.code for point in device.points if point.code}
+    whole, base = _plain(text), _plain(_BEHIND_CODE.split(text)[0])
+    for wanted in (whole, base):
+        if same := [name for spelling, name in known.items() if _plain(spelling) == wanted]:
+            return same[:_MOST_NEAR]
     spellings = dict.fromkeys([*_with_one_error(text, known), *get_close_matches(text, list(known), _MOST_NEAR)])
     return [known[spelling] for spelling in list(spellings)[:_MOST_NEAR]]
+
+
+def _plain(spelling: str) -> str:
+    """Return a code without separators and leading zeros: `a-020` and `a20` are one."""
+    return _LEADING_ZEROS.sub("", _SEPARATORS.sub("", spelling))
 
 
 def _with_one_error(text: str, known: Iterable[str]) -> list[str]:
@@ -82,23 +112,29 @@ def _with_one_error(text: str, known: Iterable[str]) -> list[str]:
 
 
 def _neighbours(device: Device, number: int) -> list[str]:
-    """Return the nearest points below and above an address."""
+    """Return the nearest points below and above an address, if they are not far away."""
     placed = [(point.address, point.item) for point in device.points if point.address is not None]
     below = max((entry for entry in placed if entry[0] < number), key=itemgetter(0), default=None)
     above = min((entry for entry in placed if entry[0] > number), key=itemgetter(0), default=None)
-    return [entry[1] for entry in (below, above) if entry is not None]
+    return [entry[1] for entry in (below, above) if entry is not None and abs(entry[0] - number) <= _NEAR]
 
 
 def _split(device: Device, what: str) -> tuple[str | None, str]:
     """Return the prefix, if any, and the text after it."""
     prefix, colon, rest = what.partition(":")
     prefix = prefix.strip().lower()
-    known = {"wire", "code", "name", *(key.lower() for key in _numberings(device))}
-    return (prefix, rest.strip()) if colon and prefix in known else (None, what)
+    return (prefix, rest.strip()) if colon and prefix in prefixes(device) else (None, what)
+
+
+def prefixes(device: Device) -> list[str]:
+    """Return what may stand before a colon to force one reading."""
+    return ["wire", "code", "name", *(key.lower() for key in _numberings(device))]
 
 
 def _numberings(device: Device) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(key for point in device.points for key in point.references))
+    first = device.points[0].space if device.points else ""
+    computed = family(device.family).numbers(first, 0)
+    return tuple(dict.fromkeys([*(key for point in device.points for key in point.references), *computed]))
 
 
 def _by_code(device: Device, text: str) -> list[Match]:
@@ -125,7 +161,7 @@ def _by_wire_address(device: Device, number: int) -> Iterator[Match]:
             reading = f"word {number} of the telegram {line(point.telegram)}"
         elif point.index is not None and point.space in family(device.family).indexed:
             reading += f", index {point.index}"
-        yield Match(reading, point, word_text(place.addresses, number, text=point.text is not None))
+        yield Match(reading, point, _word(point, place, number))
 
 
 def _by_reference(device: Device, key: str, text: str, number: int | None) -> Iterator[Match]:
@@ -141,9 +177,26 @@ def _by_reference(device: Device, key: str, text: str, number: int | None) -> It
             if isinstance(printed, int) and number is not None:
                 if printed <= number < printed + len(place.addresses):
                     address = min(place.addresses) + number - printed
-                    yield Match(f"{line(key)} {number}{purpose}", point, word_text(place.addresses, address))
+                    yield Match(f"{line(key)} {number}{purpose}", point, _word(point, place, address))
             elif isinstance(printed, str) and printed.lower() == text.lower():
                 yield Match(f"{line(key)} {line(printed)}{purpose}", point, "")
+
+
+def _by_computed_number(device: Device, forced: str | None, number: int) -> Iterator[Match]:
+    """Return points by a number that the manual does not print, but people (and our pages) use for the address."""
+    numbers = family(device.family).numbers
+    for point in device.points:
+        for place in point.places:
+            for address in place.addresses:
+                for key, computed in numbers(point.space, address).items():
+                    if computed == number and key not in place.references and forced in (None, key):
+                        reading = f"{key} {number}, computed{_purpose(point, place)}"
+                        yield Match(reading, point, _word(point, place, address))
+
+
+def _word(point: Point, place: Place, address: int) -> str:
+    """Return which word of the point has an address; empty where the manual leaves the order open."""
+    return "" if point.untyped is not None else word_text(place.addresses, address, text=point.text is not None)
 
 
 def _purpose(point: Point, place: Place) -> str:

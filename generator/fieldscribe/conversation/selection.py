@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 from fieldscribe import wording
 from fieldscribe.conditions import absent
-from fieldscribe.conversation.lookup import Match, find, near
+from fieldscribe.conversation.lookup import Match, advice, find
 from fieldscribe.model import Device, Point
 from fieldscribe.text import line, shortened
 from fieldscribe.user_errors import UnclearError, did_you_mean
@@ -61,7 +61,7 @@ def choose_point(device: Device, text: str, *, index: int | None = None, any_var
         )
     points = present(device, {match.point.item: match.point for match in matches}.values())
     if not points:
-        raise UnclearError(f"{device.id} has no point `{shortened(text)}`", did_you_mean(near(device, text)))
+        raise UnclearError(f"{device.id} has no point `{shortened(text)}`", advice(device, text))
     if len(points) == 1 or (any_variant and all(same_meaning(point, points[0]) for point in points)):
         return points[0]
     raise _several(text, points, matches)
@@ -77,11 +77,12 @@ def _several(text: str, points: list[Point], matches: list[Match]) -> UnclearErr
         names = (f"{line(point.code or text)}[{point.index}]" if in_one_set else point.item for point in points[:8])
         choices = " or ".join(f"`{name}`" for name in names)
         return UnclearError(f"`{shortened(text)}` has {len(points)} elements", f"write {choices}")
+    if len({match.reading for match in matches}) == 1:
+        choices = " or ".join(f"`{point.item}`" for point in points[:8])
+        return UnclearError(f"`{shortened(text)}` means {len(points)} points", f"write {choices}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
-    return UnclearError(
-        f"`{shortened(text)}` means several points: {readings}",
-        "name one, or force one reading: wire:, modicon:, code:",
-    )
+    hint = "name one, or force one reading: wire:, modicon:, code:"
+    return UnclearError(f"`{shortened(text)}` means several points: {readings}", hint)
 
 
 def points_by_name(device: Device) -> Mapping[str, Point]:

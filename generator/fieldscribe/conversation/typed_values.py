@@ -22,6 +22,7 @@ from fieldscribe.user_errors import RefusedError, UnclearError, did_you_mean
 from fieldscribe.wording import label
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*(?![eE][+-]?[0-9])([^\s0-9.,].{0,30})")
+_HEX_DIGITS = re.compile(r"[0-9A-Fa-f]+")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
 _SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
 _MOST_NAMES = 30
@@ -123,15 +124,15 @@ def _number(point: Point, text: str) -> Fraction:
     try:
         return parse_number(text)
     except NumberError:
-        measure = _MEASURE.fullmatch(text)
-        if measure is None:
+        measure, symbol = _MEASURE.fullmatch(text), point.unit.symbol
+        if measure is None or (not symbol and _HEX_DIGITS.fullmatch(text)):
             raise
     number, factor = parse_number(measure[1]), _factor(point, measure[2].strip())
     if factor is None:
-        has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
-        raise UnclearError(
-            f"{label(point)} {has}, not in `{shortened(measure[2])}`", "give the number in that unit, or alone"
-        )
+        unit = f"is in {symbol}, not in" if symbol else "has no unit, here is"
+        hint = "give the number in that unit, or alone" if symbol else "give the number alone"
+        hint += f"; hexadecimal is 0x{text}" if _HEX_DIGITS.fullmatch(text) else ""
+        raise UnclearError(f"{label(point)} {unit} `{shortened(measure[2])}`", hint)
     return number * factor
 
 

@@ -218,7 +218,7 @@ POINT: FactTable = (
             View("address", values.address_class, values.address_view, yaml=("at",)),
             View("order of words", WIRE, values.word_order_view, yaml=("words",)),
         ),
-        label="Words",
+        label="Addresses",
         text=lambda point, _: wording.words_text(point) if len(point.addresses) > 1 else "",
     ),
     Fact(

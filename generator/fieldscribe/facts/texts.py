@@ -83,7 +83,8 @@ def _needed(names: Iterable[str]) -> str:
 def enum_rows(point: Point, _: Context) -> Iterator[Row]:
     """Yield a row for each name of a number."""
     if point.enum is not None:
-        yield "Names", "only these may be written" if point.enum.closed else "the range says what may be written"
+        written = "only these may be written" if point.enum.closed else "the range says what may be written"
+        yield "Names", written if point.writable else ""
         for entry in point.enum.entries:
             yield f"Raw {entry.raw}", wording.entry_meaning(entry)
     if point.digits is not None:

@@ -130,6 +130,11 @@ class Family:
         """Return the number of bits of the widest number in the space."""
         return 16 * self.words.get(space, 4)
 
+    def numbers(self, space: str, address: int) -> Mapping[str, int]:
+        """Return the numbers that people use for an address, by numbering, where the manual prints none."""
+        numbers: Mapping[str, int] = getattr(self.part("bus_facts"), "numbers", lambda _space, _: {})(space, address)
+        return numbers
+
     def part(self, name: str) -> Any:
         """Return a module of the folder, imported on first use; None if the family does not have it."""
         path = f"{self.folder}.{name}"

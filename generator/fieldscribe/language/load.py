@@ -17,7 +17,8 @@ from yaml import MappingEndEvent, ScalarEvent, SequenceEndEvent
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq, Value, share
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.source import Place, SourceFile
+from fieldscribe.report import LINE_BREAK
 
 MOST_DIGITS = 64
 
@@ -78,10 +79,17 @@ MOST_DOCUMENTS = 10_000
 
 _MOST_PIECES = 100
 _WORD = re.compile(r"[a-z][a-z0-9_]*")
+_KEY = re.compile(r" *[^\s:]+")
+_NO_KEY = re.compile(r" *(?:-[^\s-].*|(?!.*:(?: |$))[^ #-].*)")
+"""A line that should have a key but has no colon, or no blank behind its dash."""
+_NOTICED_LATE = ("expected ':'", "expected ',' or '", "end of stream")
 
 _SYNTAX_HINTS = (
     ("start any token", "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"),
-    ("mapping values are not allowed", "quote a text that holds `: `, or look at the indentation"),
+    (
+        "mapping values are not allowed",
+        "quote a text that holds `: `, or look at dash, colon and indentation here and in the line above",
+    ),
     ("expected ',' or '", "a bracket is not closed, or a text in it holds a comma, a colon or a brace: quote it"),
     ("expected key", "this line is indented like a key, but is none: look at the indentation and at open quotes"),
     ("block end", "look at the indentation: all keys of a mapping start in one column"),
@@ -118,13 +126,31 @@ def load(source: SourceFile, report: Report) -> list[Map | None]:
 
 
 def _report_syntax(source: SourceFile, error: yaml.MarkedYAMLError, report: Report) -> None:
-    mark = error.problem_mark or error.context_mark
-    span = source.span(1, 1) if mark is None else source.span(mark.line + 1, mark.column + 1)
     problem = error.problem or "it ends too early"
+    span = source.span(*_place_of(source, error, problem))
     context = f" {error.context}," if error.context else ""
     hint = "look at the indentation, at missing quotes and at brackets that are not closed"
     hint = next((text for words, text in _SYNTAX_HINTS if words in problem), hint)
     report.error("yaml-syntax", f"this is not YAML:{context} {problem}", span, hint)
+
+
+def _place_of(source: SourceFile, error: yaml.MarkedYAMLError, problem: str) -> Place:
+    """Return where to look: libyaml notices an open quote or bracket, or a key without colon, on a later line."""
+    mark, opened = error.problem_mark or error.context_mark, error.context_mark
+    if mark is None:
+        return 1, 1
+    lines = [*LINE_BREAK.split(source.text), ""]
+    here, above = lines[mark.line], lines[mark.line - 1] if mark.line else ""
+    if opened is not None and any(words in problem for words in _NOTICED_LATE):
+        if _indentation(here) <= _indentation(lines[opened.line]):
+            return opened.line + 1, opened.column + 1
+    elif problem.startswith("mapping values") and _KEY.fullmatch(here[: mark.column]) and _NO_KEY.fullmatch(above):
+        return mark.line, _indentation(above) + 1
+    return mark.line + 1, mark.column + 1
+
+
+def _indentation(text: str) -> int:
+    return len(text) - len(text.lstrip(" "))
 
 
 class _Scalars(dict[str, Any]):

@@ -95,7 +95,7 @@ class Analysis:
                 return
         named = f"`flag: {fact.flag}` and " if fact.flag is not None else ""
         printed = f"`printed: {{{fact.key}: {fact_text(fact.printed)}}}`"
-        hint = f"correct the fact, or explain it: an erratum with {named}{printed}"
+        hint = fact.hint or f"correct the fact, or explain it: an erratum with {named}{printed}"
         self.report.error("printed-disagrees", fact.message, fact.span, hint)
 
     def _check_taken(self, erratum: Map, fact: PrintedFact) -> None:

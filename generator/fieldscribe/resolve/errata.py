@@ -28,7 +28,8 @@ class PrintedFact:
 
     `about` names the point or thing, `span` is the place of the fact. `taken` is the value in the description, None if
     only an erratum can give the right value. `right` decides whether the `taken` of an erratum is correct, where
-    comparing numbers or texts is not enough. `flag` names the flag that the fact is about.
+    comparing numbers or texts is not enough. `flag` names the flag that the fact is about; `hint` replaces the usual
+    advice.
     """
 
     about: About
@@ -39,6 +40,7 @@ class PrintedFact:
     message: str
     right: Callable[[Any], bool] | None = None
     flag: str | None = None
+    hint: str = ""
 
     def fits(self, stated: Any) -> bool:
         """Return True if the `taken` of an erratum is what the description says."""

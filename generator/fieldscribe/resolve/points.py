@@ -223,7 +223,12 @@ def _default_of(scope: Scope, facts: PointFacts, shape: Shape) -> tuple[Fraction
         return None, None
     rule = None if facts.floating else _rule(facts, shape)
     if facts.layer("default_in_units") is not None:
-        value = number(facts.get("default_in_units"), facts.span("default_in_units"), scope.report)
+        stated, span = facts.get("default_in_units"), facts.span("default_in_units")
+        if stated in _named_numbers(shape):
+            message = f"`{stated}` is a name, and `default_in_units` is a number in the unit"
+            scope.report.error("bad-number", message, span, f"write `default: {stated}`")
+            return None, None
+        value = number(stated, span, scope.report)
         exact = None if value is None or rule is None else rule.at(value)
         return value, exact.numerator if exact is not None and exact.denominator == 1 else None
     raw = None if facts.layer("default") is None else _default_raw(scope, facts, shape)
@@ -235,11 +240,10 @@ def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
     default, span, enum = facts.get("default"), facts.span("default"), shape.enum
     if facts.floating:
         message = "`default` is in raw numbers, which are bit patterns here"
-        scope.report.error("float-fact", message, span, f"write `default_in_units: {default}`")
+        stated = default if not isinstance(default, str) or _is_number(default) else "1.5"
+        scope.report.error("float-fact", message, span, f"write the value, as in `default_in_units: {stated}`")
         return None
-    named = {special.name: special.low for special in shape.specials if special.low == special.high}
-    named |= {entry.name: entry.raw for entry in (() if enum is None else enum.entries)}
-    if default in named:
+    if default in (named := _named_numbers(shape)):
         return named[default]
     if isinstance(default, str) and enum is not None and default.isidentifier():
         if "enum" in facts.failed:
@@ -247,18 +251,24 @@ def _default_raw(scope: Scope, facts: PointFacts, shape: Shape) -> int | None:
         hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{default}` is no name of this enum", span, hint)
         return None
-    if _has_a_fraction(default):
+    if isinstance(default, str) and "." in default and _is_number(default):
         message = f"`{default}` has a decimal point, and `default` is in raw numbers"
         scope.report.error("bad-number", message, span, f"write `default_in_units: {default}`, or the raw number")
         return None
     return integer(default, span, scope.report)
 
 
-def _has_a_fraction(default: object) -> bool:
+def _named_numbers(shape: Shape) -> dict[str, int]:
+    named = {special.name: special.low for special in shape.specials if special.low == special.high}
+    return named | {entry.name: entry.raw for entry in (() if shape.enum is None else shape.enum.entries)}
+
+
+def _is_number(text: str) -> bool:
     try:
-        return isinstance(default, str) and "." in default and parse_number(default) is not None
+        parse_number(text)
     except NumberError:
         return False
+    return True
 
 
 def _rule(facts: PointFacts, shape: Shape) -> Linear | None:

@@ -49,6 +49,8 @@ def write_place_text(point: Point) -> str:
 def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
     if len(addresses) < 2:
         return address_text(addresses[0]) if addresses else ""
+    if point.untyped is not None:
+        return f"{address_text(addresses[0])} to {address_text(addresses[-1])}"
     if len(addresses) == 2:
         return f"{address_text(addresses[0])} high, {address_text(addresses[1])} low"
     if point.text is not None:
@@ -57,9 +59,9 @@ def _words_of(point: Point, addresses: tuple[int, ...]) -> str:
 
 
 def order_text(point: Point) -> str:
-    """Return which of several words comes first: `low word first`; empty for a single word."""
+    """Return which of several words comes first: `low word first`; empty for a single word, or if it is not settled."""
     first, *others = point.addresses or (0,)
-    if not others:
+    if not others or point.untyped is not None:
         return ""
     what = "characters" if point.text is not None else "word"
     rising = all(address == first + number for number, address in enumerate(others, 1))

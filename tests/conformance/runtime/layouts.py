@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any
 
 from conformance.package import Package
@@ -164,6 +165,8 @@ def _holds(package: Package, layout: Any, words: list[int]) -> None:
     assert status in {one for one, _ in made.values()} or not made, (layout.words, status)
     if status == "ok":
         assert repr(values) == repr({name: value for name, (_, value) in made.items()}), layout.words
+        copied = pickle.loads(pickle.dumps(layout))
+        assert repr(copied.decode(data, dict.fromkeys(layout.needs, 1))) == repr(values)
 
 
 def check_bit_layouts(package: Package) -> None:

@@ -66,6 +66,7 @@ def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
             ("no_case", "setpoint: no scale for these raw numbers of unit_mode"),
         ),
         ("float_setpoint", 650.5, {}, ("out_of_range", "float_setpoint: 650.5 Hz is outside 0..650 Hz")),
+        ("float_setpoint", 10**39, {}, ("out_of_range", f"float_setpoint: {10**39} Hz is outside 0..650 Hz")),
     ],
 )
 def test_errors_say_what_is_wrong(

@@ -121,6 +121,16 @@ def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
     assert not hasattr(mpu.frequency, "write")
 
 
+def test_a_point_without_value_leaves_the_others_of_its_frame(can: Any, package: Any, unit: CanUnit) -> None:
+    decoder = can.Decoder(package.SampleCan, "measurements", 5)
+    assert decoder.decode(unit.words(0, 5000, 25, 0x7F00)) == {"frequency": 50.0, "power_exponent": 127}
+    assert {name: error.status for name, error in decoder.errors.items()} == {"power": "overflow"}
+    assert decoder.decode(unit.words(0, 5000, 25, 0x0200))["power"] == 2500.0
+    assert not decoder.errors
+    with pytest.raises(TypeError):
+        decoder.decode(unit.words(0, 5000, 25, 0x0200), raws=5)
+
+
 def test_another_answer_is_told_in_the_form_of_the_point(mpu: Any, unit: CanUnit) -> None:
     unit.parameters[507], unit.most[510], unit.most[737] = 200, 5, 1
     failure = error(mpu.voltage_setpoint.write, 100.0)

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from ..arguments import shown
-from ..errors import RequestError, TelegramError, WrongTypeError
-from ..layouts import Layout
+from ..errors import CodecError, RequestError, TelegramError, WrongTypeError
+from ..layouts import Layout, noted
 from ..points import Decoding, Point
 from ..rules import NO_RAWS
 from ..table import check_variants, exists
@@ -39,6 +39,7 @@ class Decoder(Receiver):
     """Tells what the frames of a telegram mean that one unit sends: `Decoder(WoodwardMpu2s, "visualisation", unit=1)`.
 
     It remembers of earlier frames what the scales of points need, and the words of numbers that two frames carry.
+    `errors` says, by the names of points, whose numbers in the last frame have no value, and why.
     """
 
     def __init__(self, device: type[CanSession], telegram: str, unit: int, **variants: str) -> None:
@@ -46,6 +47,7 @@ class Decoder(Receiver):
             raise RequestError("bad_device", f"takes the class of a CAN device, not {shown(device)}")
         check_variants(device.VARIANTS, variants)
         super().__init__(device.PROFILE, telegram, unit)
+        self.errors: dict[str, CodecError] = {}
         self._known: dict[str, int] = {}
         self._places = [place for pair in pairs_of(self._message) for place in pair]
         first = self._places[0]
@@ -65,8 +67,11 @@ class Decoder(Receiver):
         """The values that a frame brings, by the names of points; none for a frame of something else.
 
         `raws` holds the raw numbers that scales need of points that are not in the telegram. What needs a number that
-        has not come yet is left out, and so is a number that two frames carry while they may not belong together.
+        has not come yet is left out, and so is a number that two frames carry while they may not belong together, and
+        one that has no value (see `errors`): a scale may need an implausible number.
         """
+        if self.errors:
+            self.errors = {}
         number = self._taken(frame, moment)
         if number is None:
             return {}
@@ -78,12 +83,22 @@ class Decoder(Receiver):
             self._known.update(layout.wanted(data))
         if raws is not NO_RAWS:
             known = self._with(raws)
-        is_known = not layout.needs or layout.needs <= known.keys()
-        values: dict[str, Value] = (layout.decoder if is_known else layout.decode_known)(data, known)
+        values: dict[str, Value] = self._values(layout, data, known)
         for point in self._apart[number]:
             if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
-                values[point.facts.name] = point.decode(raw, known)
+                with noted(point, self.errors):
+                    values[point.facts.name] = point.decode(raw, known)
         return values
+
+    def _values(self, layout: Layout, data: bytes, known: Raws) -> dict[str, Value]:
+        if not layout.needs or layout.needs <= known.keys():
+            try:
+                values: dict[str, Value] = layout.decoder(data, known)
+            except CodecError:
+                pass  # one by one, then
+            else:
+                return values
+        return layout.decode_known(data, known, self.errors)
 
     def _with(self, raws: Raws) -> Raws:
         """What earlier frames brought, beside what the caller brings; raises WrongTypeError."""

@@ -93,7 +93,10 @@ def read(subject: Analysis, open_frame: LocatedFrame, seen: dict[str, Seen]) -> 
         return Seen(replace(frame, valid=False))
     readings = list(_readings(subject, frame, number, request))
     frame, reading = _with_right_checksum(subject, open_frame, number, readings)
-    fault = _fault(subject, frame, readings, reading, request)
+    low, high = subject.bus.units
+    if reading is not None and not low <= reading.unit <= high:
+        return frames_agree.report_refused(subject, open_frame, "bad_unit", reading.unit)
+    fault = _fault(frame, readings, reading, request)
     if fault is not None or reading is None:
         return frames_agree.report_no_frame(subject, open_frame, fault or "")
     return Seen(frame, reading, _words(subject, reading, frame))
@@ -126,17 +129,12 @@ def _with_right_checksum(
     return replace(frame, corrected=bytes(data), valid=False), replace(wrong, parsed=parsed)
 
 
-def _fault(
-    subject: Analysis, frame: Frame, readings: list[_Reading], reading: _Reading | None, request: _Reading | None
-) -> str | None:
+def _fault(frame: Frame, readings: list[_Reading], reading: _Reading | None, request: _Reading | None) -> str | None:
     """Return why the frame is no message of the device, or does not answer its request."""
     what = f"does not answer `{frame.answers}`" if request is not None else "is no message of this device"
     if reading is None:
         faults = {tried.parsed.status.replace("_", " ") for tried in readings} or {"wrong id"}
         return f"this {what}: {', '.join(sorted(faults))}"
-    low, high = subject.bus.units
-    if not low <= reading.unit <= high:
-        return f"there is no unit {reading.unit}"
     if request is not None and (reading.unit, reading.parsed.address) != (request.unit, request.parsed.address):
         return f"this {what}: another unit or another parameter"
     return None

@@ -251,8 +251,9 @@ def _scaled_signal(point: Point, comment: str) -> Signal:
     rule = fixed_rule(point) if point.generated else None
     multiply, add, divide = exact = rule or SAME
     least, greatest = sorted(map(exact.result, wording.outer_raw(point) or (point.least, point.greatest)))
+    unsettled = not point.generated and not point.reserved
     return Signal(
-        point.name,
+        f"{point.name}_raw" if unsettled else point.name,
         signed=point.info.signed,
         factor=decimal(Fraction(multiply, divide)),
         offset=decimal(Fraction(add, divide)),

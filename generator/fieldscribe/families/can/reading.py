@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.families.can import CanBus, CanExample, identifier_bits
+from fieldscribe.families.can import USUAL_BITS, CanBus, CanExample, identifier_bits
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.language.formula.normal import evaluate
 from fieldscribe.language.formula.parser import parse_expression
@@ -23,6 +24,7 @@ _HOW = "write a number, unit, address, raw, multiplexer, telegram, or xor 0..5"
 _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "telegram": LENGTH}
 """The most bytes that each word of a layout covers."""
 _UNITS = 256
+_MOST_BITS = 29
 _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
 
@@ -59,7 +61,7 @@ class CanReading(FamilyReader):
             read = _message(scope, bus, node)
             if read is not None:
                 result[name] = read
-        _check_answers(scope, result)
+        _check_answers(scope, result, seen)
         return tuple(result.values())
 
 
@@ -84,7 +86,7 @@ def _message(scope: Scope, bus: Bus, node: Map) -> Message | None:
 
 
 def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
-    """Return the identifier, and True if the unit is added to it; None after a finding."""
+    """Return the identifier, and True if the unit is added to it; None if it cannot be read."""
     span, text = node.span("can_id"), str(node["can_id"])
     try:
         expression = parse_expression(text)
@@ -101,12 +103,15 @@ def _identifier(scope: Scope, bus: Bus, node: Map) -> tuple[int, bool] | None:
         return None
     first, adds, bits = at[0].numerator, bool(slope), identifier_bits(bus)
     low, high = sorted(first + unit * adds for unit in bus.units)
-    if not 0 <= low <= high < 1 << bits:
+    known = scope.bus is not None and not {"identifier_bits", "units"} & {*scope.bus.broken}
+    if known and not 0 <= low <= high < 1 << bits:
         message = f"the identifier {low if low < 0 else high:X}h lies outside {bits} bits"
-        ends = f"identifiers of {bits} bits are 0..{(1 << bits) - 1:X}h"
-        hint = f"{ends}; `identifier_bits` and `units` stand under `bus`"
+        hint = (
+            f"identifiers of {bits} bits are 0..{(1 << bits) - 1:X}h; `identifier_bits` and `units` stand under `bus`"
+        )
+        if bits == USUAL_BITS and 0 <= low <= high < 1 << _MOST_BITS:
+            hint = f"write `identifier_bits: {_MOST_BITS}` under `bus`"
         scope.report.error("address-outside-space", message, span, hint)
-        return None
     return first, adds
 
 
@@ -210,7 +215,7 @@ def _roles_fit(scope: Scope, node: Map, role_of: dict[int, Role]) -> bool:
     return False
 
 
-def _check_answers(scope: Scope, messages: dict[str, Message]) -> None:
+def _check_answers(scope: Scope, messages: dict[str, Message], all_names: Collection[str]) -> None:
     """Report responses that name no existing request, and `answers` at other messages."""
     for node in scope.listed("messages"):
         name, answers = str(node["name"]), node.get("answers")
@@ -225,8 +230,8 @@ def _check_answers(scope: Scope, messages: dict[str, Message]) -> None:
             message = f"`{name}` answers, but is no response"
             scope.report.error("wrong-choice", message, node.span("direction"), "write `direction: response`")
         request = messages.get(answers)
-        if request is None:
+        if request is None and answers not in all_names:
             scope.unknown("message", answers, node.span("answers"), list(messages))
-        elif request.direction != "request":
+        elif request is not None and request.direction != "request":
             message = f"`{answers}` is no request"
             scope.report.error("wrong-choice", message, node.span("answers"), "a response answers a request")

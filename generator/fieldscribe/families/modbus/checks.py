@@ -135,7 +135,7 @@ def _request(subject: Analysis, open_frame: LocatedFrame) -> Seen:
         frame = replace(frame, valid=False)
     status, rebuilt = build(profile, frame.framing, request)
     if status != "ok":
-        return frames_agree.report_refused(subject, open_frame, status)
+        return frames_agree.report_refused(subject, open_frame, status, request.unit)
     if frame.valid and rebuilt != frame.printed:
         message = f"this request would be {frames_agree.hex_of(rebuilt)}"
         frame = frames_agree.report_no_frame(subject, open_frame, message).frame

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fieldscribe.arithmetic.codec import Settings
 from fieldscribe.arithmetic.words import group_mask, split
 from fieldscribe.families.frame_results import BuiltFrames, Options, WriteMethod, refused
-from fieldscribe.families.modbus import SPACES, framings_of, profile_of
+from fieldscribe.families.modbus import FAMILY, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.exchange import Request, build
 from fieldscribe.model import Device, Point
 from fieldscribe.text import counted
@@ -63,7 +63,7 @@ def read_text(device: Device, point: Point) -> str:
     if point.space not in SPACES:
         return ""
     function, count = SPACES[point.space].read, len(point.addresses)
-    how = f"function {hex_text(function, 2)}, {counted(count, 'bit' if point.type == 'bit' else 'word')}"
+    how = f"function {hex_text(function, 2)}, {counted(count, FAMILY.spaces[point.space])}"
     return how + _example(device, function, min(point.addresses), count, ())
 
 

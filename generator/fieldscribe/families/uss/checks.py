@@ -199,7 +199,7 @@ def _request(subject: Analysis, open_frame: LocatedFrame, words: tuple[int, ...]
     request = Request(unit, 0, words=rest) if part is None else request_in(unit, part, link, rest)
     status, data = build(subject.bus, link, request)
     if status != "ok":
-        return frames_agree.report_refused(subject, open_frame, status)
+        return frames_agree.report_refused(subject, open_frame, status, unit)
     built = words_in(data[3:-1])[: len(words)] if short else words_in(data[3:-1])
     if built != words:
         return frames_agree.report_no_frame(subject, open_frame, f"this request would be {words_printed(built)}")

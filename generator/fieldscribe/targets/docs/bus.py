@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -51,12 +50,6 @@ def bus_view(device: Device) -> BusView:
         by_rows(("Fact", "Value"), [(cell(label), cell(text)) for label, text in facts_of(bus)]),
         tuple((heading, table) for heading, table in sections if table),
     )
-
-
-def numbers_of(device: Device) -> Callable[[str, int], Mapping[str, int]]:
-    """Return the function of the family that gives the numbers that people use for an address, by numbering."""
-    numbers: Callable[[str, int], Mapping[str, int]] = getattr(_bus_facts(device), "numbers", lambda _space, _: {})
-    return numbers
 
 
 def _bus_facts(device: Device) -> Any:

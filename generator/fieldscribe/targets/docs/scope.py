@@ -46,9 +46,11 @@ def place_text(point: Point) -> str:
     """Return where a point starts and how many words it has: `3100h (12544)`, then `2 words, low word first`."""
     if not point.addresses:
         return ""
-    start = wording.address_text(min(point.addresses))
-    order = wording.order_text(point) if len(point.addresses) > 1 else ""
-    return f"{start}{LINE_BREAK}{len(point.addresses)} words, {cell(order)}" if order else start
+    start, count = wording.address_text(min(point.addresses)), len(point.addresses)
+    if count == 1:
+        return start
+    order = wording.order_text(point)
+    return f"{start}{LINE_BREAK}" + (f"{count} words, {cell(order)}" if order else f"{count} addresses")
 
 
 def reference_heads(points: Iterable[Point]) -> tuple[str, ...]:

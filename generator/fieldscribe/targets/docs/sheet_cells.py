@@ -8,8 +8,8 @@ from functools import cache
 from fieldscribe import wording
 from fieldscribe.arithmetic.exact import SAME, Line
 from fieldscribe.facts.table import Fact
+from fieldscribe.families import family
 from fieldscribe.model import Point
-from fieldscribe.targets.docs.bus import numbers_of
 from fieldscribe.targets.docs.scope import DocsScope, Remarks
 from fieldscribe.targets.docs.tables import Encode, decimal, enum_of
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
@@ -23,7 +23,7 @@ class Sheet:
     """What the cells of all points of a device need."""
 
     def __init__(self, scope: DocsScope, encode: Encode) -> None:
-        self.scope, self.encode, self.numbers_at = scope, encode, numbers_of(scope.device)
+        self.scope, self.encode, self.numbers_at = scope, encode, family(scope.device.family).numbers
         further = {
             "type": lambda point: wording.type_text(point) if point.form in ("text", "digits") else "",
             "untyped": lambda point: f"type: {point.untyped}" if point.untyped else "",

@@ -31,11 +31,12 @@ def _profile(device: Device, scope: PackageScope) -> Node:
 
 
 def _blocks(device: Device, scope: PackageScope) -> Node | None:
-    """Return the planned reads of each group."""
-    if not device.blocks:
+    """Return the planned reads of each group that has some."""
+    planned = {group: blocks for group, blocks in device.blocks.items() if blocks}
+    if not planned:
         return None
     block_class, groups = scope.runtime("Block"), []
-    for group, blocks in device.blocks.items():
+    for group, blocks in planned.items():
         rows = [
             (python_string(block.space), f"0x{block.function:02X}", f"0x{block.address:04X}", str(block.count))
             for block in blocks
