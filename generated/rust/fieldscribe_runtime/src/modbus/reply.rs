@@ -150,14 +150,11 @@ impl Request<'_> {
         if function & 0x7F == self.function {
             check_length(bytes.len(), rtu_length(function, count))?;
         }
-        let (body, sent) = bytes
-            .split_last_chunk::<2>()
-            .map_or((bytes, [0; 2]), |(body, sent)| (body, *sent));
-        if crc(body) != u16::from_le_bytes(sent) {
+        if crc(bytes) != 0 {
             return Err(ReplyError::BadCrc);
         }
         self.check_unit(unit)?;
-        Ok(body.get(1..).unwrap_or_default())
+        Ok(bytes.get(1..bytes.len() - 2).unwrap_or_default())
     }
 
     fn unwrap_tcp<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], ReplyError> {

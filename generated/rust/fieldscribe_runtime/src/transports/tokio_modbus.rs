@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: 0BSD
 //! A client of tokio-modbus 0.17 as a transport. Needs the feature `tokio-modbus`.
 
+use std::boxed::Box;
+use std::future::Future;
 use std::io::{Error, ErrorKind};
+use std::pin::Pin;
 use std::time::Duration;
 use std::vec::Vec;
 
@@ -12,93 +15,70 @@ use ::tokio_modbus::{ExceptionResponse, ProtocolError, Request, Response, Slave}
 use crate::modbus::{crc, framing_of, Framing};
 use crate::AsyncTransport;
 
+type Connecting = Pin<Box<dyn Future<Output = Result<Context, Error>> + Send>>;
+
 /// A client of tokio-modbus, over TCP, a serial line or RTU over TCP.
 ///
 /// Our frames reach it as requests, its answers come back as frames; the framing on the wire is its own affair, and
-/// ours may be either. After a failure nobody knows which request a later answer is for. So the
-/// client is given up then, and each exchange fails with [`ErrorKind::NotConnected`] until it gets another:
-/// [`Attached::attach`]. The same holds if the future of an exchange was dropped. A serial port is held until it is
-/// closed: [`Attached::detach`] before it is opened anew.
-pub struct Attached {
+/// ours may be either. It connects when it is used first, and anew after a failure, since nobody knows then which
+/// request a later answer is for; a dropped future of an exchange is such a failure. The old connection is closed
+/// before, so that a serial port is free.
+///
+/// ```ignore
+/// // with the feature `tcp` of tokio-modbus
+/// let line = Line::new(|| tokio_modbus::client::tcp::connect(([192, 168, 0, 20], 502).into()));
+/// ```
+pub struct Line {
+    connect: Box<dyn FnMut() -> Connecting + Send>,
     context: Option<Context>,
     timeout: Duration,
-    is_given_up: bool,
 }
 
-impl Attached {
-    /// A client, with a second for each answer.
+impl Line {
+    /// A line that `connect` opens, with a second for that and for each answer.
     #[must_use]
-    pub const fn new(context: Context) -> Self {
+    pub fn new<F, E>(mut connect: impl FnMut() -> F + Send + 'static) -> Self
+    where
+        F: Future<Output = Result<Context, E>> + Send + 'static,
+        E: Into<Error>,
+    {
         Self {
-            context: Some(context),
+            connect: Box::new(move || {
+                let connecting = connect();
+                Box::pin(async move { connecting.await.map_err(Into::into) })
+            }),
+            context: None,
             timeout: Duration::from_secs(1),
-            is_given_up: false,
         }
     }
 
-    /// The same with another time for each answer. As long all units have to do what goes to all of them.
+    /// The same with another time for connecting, and for each answer. As long all units have to do what goes to all
+    /// of them.
     #[must_use]
     pub fn timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// Takes another client.
-    pub fn attach(&mut self, context: Context) {
-        self.context = Some(context);
-        self.is_given_up = false;
-    }
-
-    /// Gives the client up, which closes its port, as before a serial port is opened anew; the next exchanges fail
-    /// until there is another client.
-    pub fn detach(&mut self) {
-        self.context = None;
-        self.is_given_up = true;
-    }
-
-    /// The client of tokio-modbus, as for functions that are none of ours; none after [`Attached::detach`].
+    /// The client of tokio-modbus, as for functions that are none of ours; none before the first exchange and after a
+    /// failure.
     pub fn context(&mut self) -> Option<&mut Context> {
         self.context.as_mut()
     }
 
-    /// The data of the answer, with the function before them; none if none came in time.
-    async fn call(
-        &mut self,
-        unit: u8,
-        function: u8,
-        data: &[u8],
-    ) -> Result<Option<Vec<u8>>, Error> {
-        let context = self.context.as_mut().ok_or(ErrorKind::NotConnected)?;
-        context.set_slave(Slave(unit));
-        let asked = context.call(Request::Custom(function, data.into()));
-        let Ok(answered) = ::tokio::time::timeout(self.timeout, asked).await else {
-            return Ok(None);
-        };
-        // Since the request is one of bytes, tokio-modbus calls a well-known answer another function's, and brings it.
-        let answer = match answered {
-            Ok(answer) => answer.map_err(|exception| ExceptionResponse {
-                function: ::tokio_modbus::FunctionCode::Custom(function),
-                exception,
-            }),
-            Err(::tokio_modbus::Error::Protocol(ProtocolError::FunctionCodeMismatch {
-                result,
-                ..
-            })) => result,
-            Err(::tokio_modbus::Error::Protocol(other)) => {
-                return Err(Error::new(ErrorKind::InvalidData, other))
-            }
-            Err(::tokio_modbus::Error::Transport(error)) => return Err(error),
-        };
-        pdu(answer).map(Some)
+    /// The connection that there is, else a new one; it is the caller's until an answer proves it.
+    async fn connection(&mut self) -> Result<Context, Error> {
+        if let Some(context) = self.context.take() {
+            return Ok(context);
+        }
+        let connecting = ::tokio::time::timeout(self.timeout, (self.connect)());
+        connecting.await.map_err(|_| ErrorKind::TimedOut)?
     }
 }
 
-impl AsyncTransport for Attached {
+impl AsyncTransport for Line {
     type Error = Error;
 
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error> {
-        if core::mem::replace(&mut self.is_given_up, true) {
-            return Err(ErrorKind::NotConnected.into());
-        }
         let framing = framing_of(request);
         let whole = match framing {
             Framing::Rtu => request.get(..request.len().saturating_sub(2)),
@@ -107,8 +87,11 @@ impl AsyncTransport for Attached {
         let Some(&[unit, function, ref data @ ..]) = whole else {
             return Err(ErrorKind::InvalidInput.into());
         };
-        let answer = self.call(unit, function, data).await?;
-        self.is_given_up = answer.is_none() && !reply.is_empty();
+        let mut context = self.connection().await?;
+        let answer = call(&mut context, self.timeout, unit, function, data).await?;
+        if answer.is_some() || reply.is_empty() {
+            self.context = Some(context);
+        }
         if reply.is_empty() {
             return Ok(0);
         }
@@ -116,6 +99,37 @@ impl AsyncTransport for Attached {
         frame.extend(answer.ok_or(ErrorKind::TimedOut)?);
         put(&framed(framing, request, frame), reply)
     }
+}
+
+/// The data of the answer, with the function before them; none if none came in time.
+async fn call(
+    context: &mut Context,
+    timeout: Duration,
+    unit: u8,
+    function: u8,
+    data: &[u8],
+) -> Result<Option<Vec<u8>>, Error> {
+    context.set_slave(Slave(unit));
+    let asked = context.call(Request::Custom(function, data.into()));
+    let Ok(answered) = ::tokio::time::timeout(timeout, asked).await else {
+        return Ok(None);
+    };
+    // Since the request is one of bytes, tokio-modbus calls a well-known answer another function's, and brings it.
+    let answer = match answered {
+        Ok(answer) => answer.map_err(|exception| ExceptionResponse {
+            function: ::tokio_modbus::FunctionCode::Custom(function),
+            exception,
+        }),
+        Err(::tokio_modbus::Error::Protocol(ProtocolError::FunctionCodeMismatch {
+            result,
+            ..
+        })) => result,
+        Err(::tokio_modbus::Error::Protocol(other)) => {
+            return Err(Error::new(ErrorKind::InvalidData, other))
+        }
+        Err(::tokio_modbus::Error::Transport(error)) => return Err(error),
+    };
+    pdu(answer).map(Some)
 }
 
 /// The bytes of an answer, as they stood in its frame.

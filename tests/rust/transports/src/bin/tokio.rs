@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use hitachi_l200::enums::RunCommand;
 use hitachi_l200::runtime::modbus::{Profile, ReplyError, Request};
-use hitachi_l200::runtime::transports::tokio_modbus::Attached;
+use hitachi_l200::runtime::transports::tokio_modbus::Line;
 use hitachi_l200::{blocks, points as p, AsyncClient, ClientError, Framing, PROFILE};
 use tokio::io::AsyncReadExt;
 use tokio::net::{TcpListener, TcpStream};
@@ -14,8 +14,8 @@ use tokio_modbus::client::{rtu, tcp, Context};
 
 static GATEWAY: Profile = PROFILE.with_framings(&[Framing::Tcp]);
 
-async fn talks(context: Context, profile: &'static Profile, framing: Framing) {
-    let mut client = AsyncClient::new(Attached::new(context), framing, 1).with_profile(profile);
+async fn talks(line: Line, profile: &'static Profile, framing: Framing) {
+    let mut client = AsyncClient::new(line, framing, 1).with_profile(profile);
     assert_eq!(client.read::<p::OutputFrequency>().await.unwrap(), 0.7);
     client.write::<p::BaseFrequency>(50.0).await.unwrap();
     assert_eq!(client.read::<p::BaseFrequency>().await.unwrap(), 50.0);
@@ -40,51 +40,57 @@ fn kind(error: &ClientError<std::io::Error>) -> Option<ErrorKind> {
     }
 }
 
-async fn whoever_does_not_answer_is_given_up(server: SocketAddr) {
+/// A line that connects to these servers, one after the other, and again to the last.
+fn line(servers: impl IntoIterator<Item = SocketAddr>) -> Line {
+    let mut servers: Vec<SocketAddr> = servers.into_iter().collect();
+    servers.reverse();
+    Line::new(move || {
+        let server = if servers.len() > 1 { servers.pop() } else { servers.last().copied() }.unwrap();
+        async move { TcpStream::connect(server).await.map(rtu::attach) }
+    })
+    .timeout(Duration::from_millis(50))
+}
+
+async fn whoever_does_not_answer_is_left(server: SocketAddr) {
     let silent = TcpListener::bind("127.0.0.1:0").await.unwrap();
-    let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
-    let line = Attached::new(rtu::attach(stream)).timeout(Duration::from_millis(50));
-    let mut client = AsyncClient::new(line, Framing::Rtu, 1);
+    let nobody = silent.local_addr().unwrap();
+    let mut client = AsyncClient::new(line([nobody, server]), Framing::Rtu, 1);
     let late = client.read::<p::OutputFrequency>().await.unwrap_err();
     assert_eq!(kind(&late), Some(ErrorKind::TimedOut), "{late}");
-    let gone = client.read::<p::OutputFrequency>().await.unwrap_err();
-    assert_eq!(kind(&gone), Some(ErrorKind::NotConnected), "{gone}");
-    let stream = TcpStream::connect(server).await.unwrap();
-    client.transport().attach(rtu::attach(stream));
     assert_eq!(client.read::<p::OutputFrequency>().await.unwrap(), 0.7);
+    let closed = silent.accept().await.unwrap().0.read(&mut [0; 64]).await; // the request, then the end
+    assert_eq!(closed.unwrap(), 8);
 
-    let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
-    client.transport().attach(rtu::attach(stream));
+    let mut client = AsyncClient::new(line([nobody, server]), Framing::Rtu, 1);
     let dropped = tokio::time::timeout(Duration::from_millis(10), client.read::<p::OutputFrequency>()).await;
     assert!(dropped.is_err());
-    assert_eq!(kind(&client.read::<p::OutputFrequency>().await.unwrap_err()), Some(ErrorKind::NotConnected));
-
-    let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
-    client.transport().attach(rtu::attach(stream));
-    client.transport().detach(); // a serial port could be opened anew
     assert!(client.transport().context().is_none());
-    assert_eq!(kind(&client.read::<p::OutputFrequency>().await.unwrap_err()), Some(ErrorKind::NotConnected));
-    let mut left = [0; 64];
+    assert_eq!(client.read::<p::OutputFrequency>().await.unwrap(), 0.7);
+    assert!(client.transport().context().is_some());
     let (mut heard, _) = silent.accept().await.unwrap();
-    for _ in 0..2 {
-        heard = silent.accept().await.unwrap().0;
-    }
-    while heard.read(&mut left).await.unwrap() > 0 {} // it was closed
+    while heard.read(&mut [0; 64]).await.unwrap() > 0 {} // it was closed
 
-    let stream = TcpStream::connect(silent.local_addr().unwrap()).await.unwrap();
-    client.transport().attach(rtu::attach(stream));
+    let mut client = AsyncClient::new(line([nobody]), Framing::Rtu, 1);
     let for_all = Request::write::<p::BaseFrequency>(0, 500);
     for _ in 0..2 {
         assert!(client.exchange(for_all).await.unwrap().is_none()); // and waits until all have done it
     }
+    assert!(client.transport().context().is_some());
+
+    drop(silent);
+    let refused = AsyncClient::new(line([nobody]), Framing::Rtu, 1).read::<p::OutputFrequency>().await.unwrap_err();
+    assert_eq!(kind(&refused), Some(ErrorKind::ConnectionRefused), "{refused}");
+    let never = Line::new(std::future::pending::<std::io::Result<Context>>).timeout(Duration::from_millis(50));
+    let late = AsyncClient::new(never, Framing::Rtu, 1).read::<p::OutputFrequency>().await.unwrap_err();
+    assert_eq!(kind(&late), Some(ErrorKind::TimedOut), "{late}");
 }
 
 #[tokio::main(flavor = "current_thread")]
 async fn main() {
     let ports: Vec<u16> = std::env::args().skip(1).map(|port| port.parse().unwrap()).collect();
     let [serial, net] = [ports[0], ports[1]].map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
-    talks(rtu::attach(TcpStream::connect(serial).await.unwrap()), &PROFILE, Framing::Rtu).await;
-    talks(tcp::connect(net).await.unwrap(), &GATEWAY, Framing::Tcp).await;
-    talks(tcp::connect(net).await.unwrap(), &PROFILE, Framing::Rtu).await; // ours need not be the wire's
-    whoever_does_not_answer_is_given_up(serial).await;
+    talks(line([serial]), &PROFILE, Framing::Rtu).await;
+    talks(Line::new(move || tcp::connect(net)), &GATEWAY, Framing::Tcp).await;
+    talks(Line::new(move || tcp::connect(net)), &PROFILE, Framing::Rtu).await; // ours need not be the wire's
+    whoever_does_not_answer_is_left(serial).await;
 }

@@ -133,14 +133,12 @@ impl Unit {
         }
     }
 
-    /// The request in this unit's framing, as its next transaction.
-    fn next<'a>(&mut self, request: Request<'a>) -> Request<'a> {
-        match self.framing {
-            Framing::Rtu => request,
-            Framing::Tcp => {
-                self.transaction = self.transaction.wrapping_add(1);
-                request.tcp(self.transaction)
-            }
+    /// Makes the request one of this unit's framing, as its next transaction.
+    fn number(&mut self, request: &mut Request<'_>) {
+        request.framing = self.framing;
+        if self.framing == Framing::Tcp {
+            self.transaction = self.transaction.wrapping_add(1);
+            request.transaction = self.transaction;
         }
     }
 
@@ -226,9 +224,9 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn exchange(
                 &mut self,
-                request: Request<'_>,
+                mut request: Request<'_>,
             ) -> Result<Option<Reply<'_, D>>, ClientError<T::Error>> {
-                let request = self.unit.next(request);
+                self.unit.number(&mut request);
                 let about = Some(request.about());
                 let frames = self.unit.frames(&request);
                 let (sent, space) = frames.map_err(|error| ClientError::Build(error, about))?;

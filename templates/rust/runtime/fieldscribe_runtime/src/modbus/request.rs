@@ -157,19 +157,20 @@ impl<'a> Request<'a> {
         self.check(profile)?;
         let mut frame = Writer { buffer, length: 0 };
         if self.framing == Framing::Tcp {
-            let length = self
-                .pdu_length(profile.pad_coil_bytes_even)
-                .saturating_add(1);
-            frame.words([self.transaction, 0, length])?;
+            let length = self.pdu_length(profile.pad_coil_bytes_even);
+            frame.word(self.transaction);
+            frame.word(0);
+            frame.word(length.saturating_add(1));
         }
-        frame.bytes([self.unit, self.function])?;
-        frame.words([self.address])?;
-        self.build_data(profile, &mut frame)?;
+        frame.byte(self.unit);
+        frame.byte(self.function);
+        frame.word(self.address);
+        self.build_data(profile, &mut frame);
         if self.framing == Framing::Rtu {
-            let crc = crc(frame.written());
-            frame.bytes(crc.to_le_bytes())?;
+            let crc = crc(frame.written()?);
+            frame.word(crc.swap_bytes());
         }
-        Ok(frame.length)
+        Ok(frame.written()?.len())
     }
 
     fn check(&self, profile: &Profile) -> Result<(), BuildError> {
@@ -201,25 +202,28 @@ impl<'a> Request<'a> {
         Ok(())
     }
 
-    fn build_data(&self, profile: &Profile, frame: &mut Writer<'_>) -> Result<(), BuildError> {
+    fn build_data(&self, profile: &Profile, frame: &mut Writer<'_>) {
         let values = self.values.as_slice();
+        if matches!(self.function, 5 | 6 | 8) {
+            return frame.word(self.echo_value());
+        }
+        frame.word(self.count);
         match self.function {
-            5 | 6 | 8 => frame.words([self.echo_value()]),
             15 => {
                 let bytes = coil_bytes(self.count, profile.pad_coil_bytes_even);
-                frame.words([self.count])?;
-                frame.bytes([bytes])?;
-                let packed = values.chunks(8).map(pack).chain(core::iter::repeat(0));
-                packed
-                    .take(usize::from(bytes))
-                    .try_for_each(|byte| frame.bytes([byte]))
+                frame.byte(bytes);
+                for place in 0..usize::from(bytes) {
+                    let bits = values.get(place.saturating_mul(8)..);
+                    frame.byte(pack(bits.unwrap_or_default()));
+                }
             }
             16 => {
-                frame.words([self.count])?;
-                frame.bytes([low_byte(self.count.saturating_mul(2))])?;
-                values.iter().try_for_each(|value| frame.words([*value]))
+                frame.byte(low_byte(self.count.saturating_mul(2)));
+                for value in values {
+                    frame.word(*value);
+                }
             }
-            _ => frame.words([self.count]),
+            _ => {}
         }
     }
 
@@ -276,10 +280,10 @@ fn coil_bytes(count: u16, pad_even: bool) -> u8 {
     })
 }
 
+/// The first eight bits as a byte; bits that are missing are 0.
 fn pack(bits: &[u16]) -> u8 {
-    bits.iter()
-        .rev()
-        .fold(0, |byte, bit| byte << 1 | u8::from(*bit != 0))
+    let first = bits.iter().take(8).rev();
+    first.fold(0, |byte, bit| byte << 1 | u8::from(*bit != 0))
 }
 
 const fn low_byte(word: u16) -> u8 {
@@ -287,33 +291,28 @@ const fn low_byte(word: u16) -> u8 {
     low
 }
 
-/// Fills a buffer from its start.
+/// Fills a buffer from its start, and counts what it does not hold.
 struct Writer<'a> {
     buffer: &'a mut [u8],
     length: usize,
 }
 
 impl Writer<'_> {
-    fn bytes<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), BuildError> {
-        let rest = self
-            .buffer
-            .get_mut(self.length..)
-            .ok_or(BuildError::BufferTooSmall)?;
-        let place = rest
-            .first_chunk_mut::<N>()
-            .ok_or(BuildError::BufferTooSmall)?;
-        *place = bytes;
-        self.length += N;
-        Ok(())
+    fn byte(&mut self, byte: u8) {
+        if let Some(place) = self.buffer.get_mut(self.length) {
+            *place = byte;
+        }
+        self.length = self.length.saturating_add(1);
     }
 
-    fn words<const N: usize>(&mut self, words: [u16; N]) -> Result<(), BuildError> {
-        words
-            .iter()
-            .try_for_each(|word| self.bytes(word.to_be_bytes()))
+    fn word(&mut self, word: u16) {
+        let [high, low] = word.to_be_bytes();
+        self.byte(high);
+        self.byte(low);
     }
 
-    fn written(&self) -> &[u8] {
-        self.buffer.get(..self.length).unwrap_or_default()
+    fn written(&self) -> Result<&[u8], BuildError> {
+        let written = self.buffer.get(..self.length);
+        written.ok_or(BuildError::BufferTooSmall)
     }
 }
