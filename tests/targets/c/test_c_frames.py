@@ -128,19 +128,6 @@ def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path:
     assert text <= 4112
 
 
-# a receiver that knows how long an answer is before it comes, byte by byte as a UART gives them
-SERIAL = program("serial")
-
-SERIAL_USS = program("serial_uss")
-
-
-@pytest.mark.parametrize("way", SANITIZING)
-@pytest.mark.parametrize("use", ["modbus", "uss"])
-def test_a_receiver_knows_how_long_an_answer_is(use: str, way: str, folder: Path, tmp_path: Path) -> None:
-    """It takes the bytes of one answer from a stream, and not one more."""
-    run_program(SERIAL if use == "modbus" else SERIAL_USS, way, folder, tmp_path)
-
-
 # words in memory that has not one more than is told: too few are refused, and nothing beyond them is touched
 TOO_FEW = {
     "modbus": program("too_few_modbus"),

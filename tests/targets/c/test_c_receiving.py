@@ -51,15 +51,6 @@ def test_the_recipe_of_a_runtime_works(family: str, way: str, tmp_path: Path) ->
     run_program(head + program, way, tmp_path / "c", tmp_path, *allowed)
 
 
-@pytest.mark.parametrize("family", ["modbus", "uss"])
-def test_a_recipe_says_what_a_serial_line_does(family: str) -> None:
-    """Echoes of one's own bytes, answers that come late, and what a write is answered with."""
-    text = (templates_dir() / "c" / "runtime" / f"fieldscribe_{family}.h").read_text("utf-8")
-    head = re.sub(r"\s*\n \*\s*", " ", text[: text.index("*/")])
-    for said in ("drop these `length` bytes again", "until the line is silent", "Its answer is parsed, too"):
-        assert said in head
-
-
 TOLD = {
     "modbus": program("told_modbus"),
     "uss": program("told_uss"),
@@ -144,19 +135,6 @@ def test_words_of_a_telegram_are_of_one_moment_in_interrupts(level: str, tmp_pat
     source = ROOT / "tests/targets/c/programs/can_interrupts.c"
     flags = ("-std=gnu99", level, *WARNINGS, f"-I{templates_dir() / 'c' / 'runtime'}")
     succeed([compiled("gcc", flags, source, tmp_path / "interrupts")])
-
-
-READS = program("modbus_reads")
-
-
-def test_what_is_not_asked_for_is_left_out_by_sections_of_functions_alone(folder: Path, tmp_path: Path) -> None:
-    """No table holds what reads and writes together, so nobody has to know of -fdata-sections."""
-    (tmp_path / "reads.c").write_text(READS, "utf-8")
-    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", f"-I{folder}")
-    sections = ("-ffunction-sections", "-Wl,--gc-sections")
-    image = compiled("arm-none-eabi-gcc", (*flags, *sections, *WARNINGS), tmp_path / "reads.c", tmp_path / "reads.elf")
-    symbols = succeed([tool("arm-none-eabi-nm"), image])
-    assert not re.search("take_bits|take_echo|put_writing|put_values|_tcp", symbols)
 
 
 ASK = program("ask")
