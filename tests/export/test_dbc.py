@@ -200,6 +200,7 @@ def test_what_a_database_cannot_say_is_in_comments() -> None:
     assert "bits 7..6 fault_class_3: 0 Inactive, 3 Active" in (signals["present_fault_classes"].comment or "")
     assert "cannot put them together" in (signals["operating_hours_high"].comment or "")
     assert "does not settle its scale" in (signals["generator_reactive_power_raw"].comment or "")
+    assert "byte 6 is bytes 0, 2, 4 combined" in (signals["read_answer_checksum"].comment or "")
     assert signals["generator_frequency"].unit == "Hz"
     assert dict(signals["mains_state"].choices or {}) == {0: "absent", 255: "present"}
     specifics = database().dbc
