@@ -113,8 +113,9 @@ def check_old_names(package: Package) -> None:
         warnings.simplefilter("always")
         assert (device.old.read(), device.old_one.read(), device.both.read()) == (7, 1, 7)
         assert (kind.old.facts, kind.old_one.points) == (kind.both.facts, kind.one.points)
+        assert package.runtime.renamed_classes("m", Old=int)("Old") is int
     told = [(str(one.message), one.category, one.filename) for one in caught]
-    names = ["old is now called both", "old_one is now called one"] * 2
+    names = [*["old is now called both", "old_one is now called one"] * 2, "Old is now called int"]
     assert told == [(name, DeprecationWarning, __file__) for name in names]
 
 

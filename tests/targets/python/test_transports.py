@@ -47,6 +47,7 @@ def test_a_socket(framing: str, l200: Any) -> None:
     with server(FramerType.SOCKET if framing == "tcp" else FramerType.RTU) as port:
         with transport("tcp").TcpLine("127.0.0.1", port, framing=framing) as line:
             use(behind_a_gateway(l200.HitachiL200)(line, unit=1))
+            assert line._connection.socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
         async def asynchronous() -> None:
             async with transport("tcp").AsyncTcpLine("127.0.0.1", port, framing=framing) as line:
