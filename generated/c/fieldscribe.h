@@ -3,7 +3,7 @@
  *
  * The shared part of generated headers: status codes, limits, scales, rules that need other points, names of numbers,
  * bits, words and texts. <device>.h holds the facts of a device and calls these functions. This file needs no heap and
- * no library, and keeps no state.
+ * no library, and keeps no state: everything in it may be called in an interrupt.
  *
  * Headers of points need only this file. Headers of frames also need functions that a program must define exactly once:
  * one C file writes `#define FIELDSCRIBE_IMPLEMENTATION` before it includes the headers of frames.

@@ -1,6 +1,7 @@
 /*
  * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
- * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap, no state; any bytes at any length are safe to parse.
+ * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap; any bytes at any length are safe to parse. No state but the
+ * caller's: everything may be called in an interrupt, with its own buffers, and a receiver from one place at a time.
  * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
@@ -359,7 +360,7 @@ typedef struct fieldscribe_modbus_line {
     void (*send)(void *context, const uint8_t *bytes, size_t length);
     bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
-    uint32_t answer_ms; /* how long an answer may take to begin */
+    uint32_t answer_ms; /* how long an answer may take to begin; it has that time once more after noise */
     uint32_t pause_ms;  /* how long a pause within an answer may be */
 } fieldscribe_modbus_line;
 
@@ -1002,15 +1003,24 @@ static fieldscribe_modbus_status fieldscribe_modbus_exchange(const fieldscribe_m
     const bool answered = request->unit != line->profile->broadcast;
     const size_t needed = fieldscribe_modbus_reads(request->function) ? request->count : 0U;
     uint16_t left = FIELDSCRIBE_MODBUS_ASK_MOST;
+    uint32_t wait = line->answer_ms;
+    bool again = true; /* after noise that is followed by silence, an answer has its time once more */
     uint8_t byte = 0U;
     if (answered && (receiver->done || (fieldscribe_modbus_room(reply) < needed))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     line->send(line->context, line->buffer, length);
-    while ((!receiver->done) && (left > 0U) &&
-        line->receive(line->context, (receiver->length > 0U) ? line->pause_ms : line->answer_ms, &byte)) {
-        fieldscribe_modbus_add(receiver, byte);
-        --left;
+    while ((!receiver->done) && (left > 0U)) {
+        if (line->receive(line->context, wait, &byte)) {
+            fieldscribe_modbus_add(receiver, byte);
+            wait = line->pause_ms;
+            --left;
+        } else if (again && (receiver->length == 0U) && (receiver->dropped > 0U)) {
+            again = false;
+            wait = line->answer_ms;
+        } else {
+            break;
+        }
     }
     fieldscribe_modbus_silent(receiver);
     if (!receiver->done) {

@@ -1,7 +1,8 @@
 /*
  * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
  * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
- * No heap, no state; any bytes at any length are safe to parse.
+ * No heap; any bytes at any length are safe to parse. No state but the caller's: everything may be called in an
+ * interrupt, with its own buffers, and a receiver from one place at a time.
  * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
@@ -311,7 +312,7 @@ typedef struct fieldscribe_uss_line {
     void (*send)(void *context, const uint8_t *bytes, size_t length);
     bool (*receive)(void *context, uint32_t milliseconds, uint8_t *byte);
     void *context;
-    uint32_t answer_ms; /* how long an answer may take to begin */
+    uint32_t answer_ms; /* how long an answer may take to begin; it has that time once more after noise */
     uint32_t pause_ms;  /* how long a pause within an answer may be */
 } fieldscribe_uss_line;
 
@@ -789,11 +790,20 @@ fieldscribe_uss_status fieldscribe_uss_ask(const fieldscribe_uss_line *line,
         fieldscribe_uss_receiver receiver = fieldscribe_uss_await(line->link, request, line->buffer, line->size);
         uint8_t byte = 0U;
         uint16_t left = FIELDSCRIBE_USS_ASK_MOST;
+        uint32_t wait = line->answer_ms;
+        bool again = true; /* after noise that is followed by silence, an answer has its time once more */
         line->send(line->context, line->buffer, length);
-        while ((!receiver.done) && (left > 0U) &&
-            line->receive(line->context, (receiver.length > 0U) ? line->pause_ms : line->answer_ms, &byte)) {
-            (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
-            --left;
+        while ((!receiver.done) && (left > 0U)) {
+            if (line->receive(line->context, wait, &byte)) {
+                (void)fieldscribe_uss_receive(&receiver, &byte, 1U);
+                wait = line->pause_ms;
+                --left;
+            } else if (again && (receiver.length == 0U) && (receiver.dropped > 0U)) {
+                again = false;
+                wait = line->answer_ms;
+            } else {
+                break;
+            }
         }
         fieldscribe_uss_silent(&receiver);
         status = ((!receiver.done) && (receiver.dropped > 0U))

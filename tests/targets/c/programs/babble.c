@@ -7,20 +7,25 @@ static size_t length;
 static size_t heard;
 static uint32_t waits; /* as it was told last */
 static size_t most;
+static size_t gap; /* after so many bytes the line is silent for a time; 0: never */
+static bool silent;
 static void send(void *context, const uint8_t *bytes, size_t count)
 {
     (void)context;
     (void)bytes;
     (void)count;
     heard = 0U;
+    silent = true;
 }
 static bool receive(void *context, uint32_t milliseconds, uint8_t *byte)
 {
     (void)context;
     waits = milliseconds;
-    if (heard == most) {
+    if (heard == most || (gap != 0U && (heard % gap == 0U) && !silent)) {
+        silent = true;
         return false;
     }
+    silent = false;
     *byte = said[heard % length];
     ++heard;
     return true;
@@ -39,6 +44,7 @@ int main(void)
     static const uint8_t good[] = {1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t wrong_crc[] = {1, 3, 2, 0, 1, 0x79, 0x85};
     static const uint8_t other_unit[] = {2, 3, 2, 0, 1, 0x3D, 0x84};
+    static const uint8_t others[] = {2, 3, 2, 0, 1, 0x3D, 0x84, 1, 3, 2, 0, 1, 0x79, 0x84};
     static const uint8_t two_words[] = {1, 3, 4, 0, 1, 0, 2, 0x2A, 0x32};
     static const uint8_t no_words[] = {1, 3, 0, 0x20, 0xF0};
     static const uint8_t behind_noise[] = {1, 3, 200, 1, 3, 2, 0, 1, 0x79, 0x84};
@@ -62,7 +68,7 @@ int main(void)
         {behind_noise, 4U, 1U, FIELDSCRIBE_MODBUS_SHORT_FRAME, 40U},
         {other_unit, 1U, 1U, FIELDSCRIBE_MODBUS_NOISE, 900U},
         {other_unit, sizeof other_unit, 1U, FIELDSCRIBE_MODBUS_NOISE, 900U},
-        {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE, 900U},
+        {other_unit, sizeof other_unit, 1000U, FIELDSCRIBE_MODBUS_NOISE, 40U},
     };
     const fieldscribe_uss_link link = {4U, 1U, false};
     uint8_t buffer[FIELDSCRIBE_MODBUS_TCP_MOST];
@@ -87,6 +93,16 @@ int main(void)
     if (heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
         return 20;
     }
+    gap = sizeof other_unit;
+    say(others, sizeof others, 1U);
+    if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != FIELDSCRIBE_MODBUS_OK) {
+        return 28; /* an answer that comes later than noise */
+    }
+    say(other_unit, sizeof other_unit, 1000U);
+    if (fieldscribe_modbus_ask_rtu(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE || heard != 14U) {
+        return 29; /* others talk as long as they like */
+    }
+    gap = 0U;
     say(tcp, sizeof tcp, 1000U);
     if (fieldscribe_modbus_ask_tcp(&line, &request, &reply) != FIELDSCRIBE_MODBUS_NOISE ||
         heard != FIELDSCRIBE_MODBUS_ASK_MOST) {
