@@ -48,7 +48,7 @@ int main(void)
         fieldscribe_can_age(&receiver, &kitchen_can_operating_hours_frame.heard, time, &age) != FIELDSCRIBE_CAN_OK ||
         age != 20U ||
         fieldscribe_can_age(&receiver, &kitchen_can_power_exponent_frame.heard, time, &age) != FIELDSCRIBE_CAN_OK ||
-        age != 40U) {
+        age != 50U) {
         return 5;
     }
     if (fieldscribe_can_word(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_WORDS, words) != FIELDSCRIBE_CAN_MISSING) {
