@@ -192,6 +192,9 @@ def test_a_description_cannot_name_a_manual_outside_the_folder_that_was_given(
     (tmp_path / "empty").mkdir()
     assert main(["audit", str(tmp_path / "audited"), "--manual", str(tmp_path / "empty")]) == 2
     assert "name the file itself: the description names none" in capsys.readouterr().err
+    (tmp_path / "short.txt").write_text("1\n", "utf-8")
+    assert main(["audit", str(tmp_path / "audited"), "--manual", str(tmp_path / "short.txt")]) == 1
+    assert "`short.txt` has 1 line, and facts cite line 18" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

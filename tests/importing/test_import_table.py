@@ -236,7 +236,11 @@ def test_tables_are_chosen_and_listed(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["import", "table", path, "--table", "2"]) == 1
     assert main(["import", "table", path, "--lines", "1..5"]) == 0
     assert main(["import", "table", path, "--lines", "4-20"]) == 1
-    capsys.readouterr()
+    assert main(["import", "table", path, "--lines", "90..95"]) == 1
+    assert "no table that --lines chooses" in capsys.readouterr().err
+    wide = write(tmp_path, "wide.csv", "Address,Name,Type\n1,Speed,u32\n")
+    assert main(["import", "table", wide, "--family", "uss", "--device", "x"]) == 0
+    assert "type: u32" in capsys.readouterr().out
     assert main(["import", "table", path, "--list"]) == 0
     assert capsys.readouterr().out == (
         "   1  3..11  points     Gruppe A: 1 code, 2 name, 3 access, 4 description, 5 address, 6 address, 7 range, "

@@ -5,15 +5,16 @@ from __future__ import annotations
 
 import threading
 from abc import abstractmethod
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .errors import LineError
+from .errors import FieldscribeError, LineError
 from .session import Session, Steps, Value
 from .turns import Turns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from typing import Literal
 
     from .descriptors import PointAttribute
     from .handles import AsyncHandle, AsyncReadWriteHandle, Handle, ReadWriteHandle
@@ -72,9 +73,22 @@ class AnyDevice(Session):
             finally:
                 steps.close()
 
-    def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
-        """Read a group by its name, or several points, with few requests; values by point name."""
-        return self._run(self._read_many_steps(what))
+    @overload
+    def read_many(
+        self, what: str | Iterable[str | Point], *, errors: Literal["raise"] = "raise"
+    ) -> dict[str, Value]: ...
+
+    @overload
+    def read_many(
+        self, what: str | Iterable[str | Point], *, errors: Literal["return"]
+    ) -> dict[str, Value | FieldscribeError]: ...
+
+    def read_many(self, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
+        """Read a group by its name, or several points, with few requests; values by point name.
+
+        With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
+        """
+        return self._run(self._read_many_steps(what, errors))
 
 
 class AnyAsyncDevice(Session):
@@ -127,6 +141,19 @@ class AnyAsyncDevice(Session):
             finally:
                 steps.close()
 
-    async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
-        """Read a group by its name, or several points, with few requests; values by point name."""
-        return await self._run(self._read_many_steps(what))
+    @overload
+    async def read_many(
+        self, what: str | Iterable[str | Point], *, errors: Literal["raise"] = "raise"
+    ) -> dict[str, Value]: ...
+
+    @overload
+    async def read_many(
+        self, what: str | Iterable[str | Point], *, errors: Literal["return"]
+    ) -> dict[str, Value | FieldscribeError]: ...
+
+    async def read_many(self, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
+        """Read a group by its name, or several points, with few requests; values by point name.
+
+        With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
+        """
+        return await self._run(self._read_many_steps(what, errors))

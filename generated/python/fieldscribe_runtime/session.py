@@ -12,8 +12,8 @@ from collections.abc import Generator, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .about import about, needing, of_group
-from .arguments import check_name
-from .errors import AccessError, EchoError
+from .arguments import check_name, shown
+from .errors import AccessError, EchoError, FieldscribeError, RequestError
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
@@ -158,15 +158,31 @@ class Session(NamedPoints, ABC):
                 del self._kept[item]
         yield from self._store_steps(place, values)
 
-    def _read_many_steps(self, what: str | Iterable[str | Point]) -> Steps[dict[str, Value]]:
+    def _read_many_steps(self, what: str | Iterable[str | Point], errors: str) -> Steps[dict[str, Any]]:
         """Read a group, or any points, with as few requests as the device allows.
 
-        Of a group those points are left out that do not travel the way the link is set.
+        Of a group those points are left out that do not travel the way the link is set. With `errors` "return", a point
+        that the device refuses, or whose number has no value, has the error as its value: all are read one by one then.
         """
+        if errors not in ("raise", "return"):
+            raise RequestError("bad_errors", f"errors is 'raise' or 'return', not {shown(errors)}")
         group = what if isinstance(what, str) else None
         points = self._group(what) if isinstance(what, str) else self._listed(what)
-        with of_group(group):
-            return (yield from self._values_steps(points, group))
+        try:
+            with of_group(group):
+                return (yield from self._values_steps(points, group))
+        except FieldscribeError as error:
+            if errors == "raise" or error.lost:
+                raise
+        values: dict[str, Any] = {}
+        for point in points:
+            try:
+                values.update((yield from self._values_steps([point], None)))
+            except FieldscribeError as error:
+                if error.lost:
+                    raise
+                values[point.facts.name] = error
+        return values
 
     def _values_steps(self, points: Sequence[Decoding[Any]], group: str | None) -> Steps[dict[str, Value]]:
         """Yield the values of points, by name, and before them what their scales need."""

@@ -12,7 +12,15 @@ from fieldscribe.audit import Citations, Comparison, Editions, audit, audit_of
 from fieldscribe.audit.renumbering import LONGEST, hindrances, renumber, with_recorded
 from fieldscribe.audit.report import audit_lines, audit_page, comparison_lines
 from fieldscribe.cli import FINDINGS, FINE
-from fieldscribe.cli.common import StopError, add_device, device_file, print_json, report_findings, some_path
+from fieldscribe.cli.common import (
+    StopError,
+    add_device,
+    device_file,
+    print_json,
+    report_findings,
+    some_path,
+    usage_error,
+)
 from fieldscribe.cli.rewriting import rewrite
 from fieldscribe.cli.terminal import print_lines
 from fieldscribe.diagnostics import Report
@@ -81,8 +89,12 @@ def run(arguments: Namespace) -> int:
 
 def _audit(arguments: Namespace) -> int:
     subject = _subject(arguments)
-    text = _text(subject, arguments.manual)
-    outcome = audit(Citations(subject), text.name, text.text, same_text=text.is_recorded)
+    text, citations = _text(subject, arguments.manual), Citations(subject)
+    last = max((max(cited.lines) for claim in citations.claims for cited in claim.cited), default=0)
+    if (lines := len(text.text.splitlines())) < last:
+        hint = "is it the text that the description cites? For another edition give that text with --old"
+        usage_error(f"`{text.name}` has {counted(lines, 'line')}, and facts cite line {last}", hint)
+    outcome = audit(citations, text.name, text.text, same_text=text.is_recorded)
     if arguments.format == "json":
         print_json(outcome.as_data())
     elif arguments.format == "html":

@@ -107,6 +107,8 @@ def _advice(device: Device, kind: str, what: str) -> str:
     before = [*prefixes(device), *kinds, "unit", *([own_family.name] if own_family.lays_out_messages else [])]
     if kind and kind not in before:
         return f"before a colon stands one of {', '.join(before)}"
+    if kind == own_family.name:
+        return ""
     with suppress(HexError):
         if len(parse_hex(what)) > _SHORTEST_FRAME:
             return f'for a frame there is `fieldscribe decode {device.id} "…"`'

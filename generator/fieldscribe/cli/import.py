@@ -79,12 +79,22 @@ def run(arguments: Namespace) -> int:
         return FINE
     _print_left_out(drafted)
     if not drafted.groups:
-        hint = "`--list` shows the tables; `--column` says what their columns hold"
-        raise StopError(f"`{arguments.file}` holds no table of points", hint, FINDINGS)
+        raise _nothing_drafted(arguments, drafted)
     digest = sha256(read_regular(arguments.file, MOST_BYTES).data).hexdigest()
     head = Head(arguments.device or "draft", arguments.file.name, digest, drafted.family.name, arguments.language)
     _write(compilable(drafted, head, with_head=arguments.device is not None), arguments.out)
     return FINE
+
+
+def _nothing_drafted(arguments: Namespace, drafted: Draft) -> StopError:
+    """Return the error for a file whose tables hold no points, or for options that leave out all tables."""
+    if drafted.tables:
+        hint = "`--list` shows the tables; `--column` says what their columns hold"
+        return StopError(f"`{arguments.file}` holds no table of points", hint, FINDINGS)
+    if arguments.tables or arguments.lines:
+        message = f"`{arguments.file}` has no table that --{'table' if arguments.tables else 'lines'} chooses"
+        return StopError(message, "`--list` without it shows the tables", FINDINGS)
+    return StopError(f"`{arguments.file}` holds no table", "a table has headings, and a row for each point", FINDINGS)
 
 
 def _column(text: str) -> tuple[str, str]:

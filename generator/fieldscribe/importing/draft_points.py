@@ -132,6 +132,7 @@ class _RowReader:
         found = [wire for place, text in texts.items() for wire in self._on_wire(text, place)]
         if len({wire and wire[1:] for wire in found}) != 1 or found[0] is None:
             printed = f"which is the address: {' | '.join(texts.values())}?" if texts else "no address is printed"
+            printed += f" By `--base` none lies below {self._options.base}" if texts and self._options.base else ""
             point.questions += [printed] if self._places else []
             return
         address, space, wire = found[0]
@@ -241,9 +242,9 @@ def _read_range(point: DraftPoint, cells: Mapping[str, str], ranges: str | None)
         point.questions.append(f"is the range {one_line(text)} raw, or in the unit?")
         return
     point.facts["range" if ranges == "raw" else "range_in_units"] = found.text
-    if ranges == "units" and scale is None and "." in found.text:
+    if ranges == "units" and scale is None and ".." in found.text:
         point.facts["scale"] = "~"
-        point.questions.append("what is one raw step worth? The range has decimals, and no step is printed")
+        point.questions.append("what is one raw step worth? The range is in the unit, and no step is printed")
 
 
 def _read_labels(point: DraftPoint, cells: Mapping[str, str], language: str) -> None:

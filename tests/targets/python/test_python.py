@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -208,6 +209,12 @@ def test_read_many(drive: Any, slave: Slave) -> None:
     assert len(everything) == len({one.name for one in sample_device().points if one.generated and one.readable})
     assert all(count <= (32 if function == 1 else 4) for function, _, count in slave.log)
     assert status(drive.read_many, "no_such_group")[0] == "no_access"
+    assert drive.read_many("main", errors="return") == everything
+    slave.words[0x2009] = 200  # an exponent that no float holds
+    assert status(drive.read_many, ["power", "dc_level"])[0] == "overflow"
+    kept = drive.read_many(["power", "dc_level"], errors="return")
+    assert (kept["power"].status, kept["dc_level"]) == ("overflow", 0)
+    assert status(partial(drive.read_many, "main", errors="ignore"))[0] == "bad_errors"
     other = type(drive)(slave, unit=drive.unit)
     refused = status(drive.read_many, [other.power])
     assert refused[0] == "no_access"

@@ -44,13 +44,15 @@ bus:
   pkw: [0, 3, 4, 127]              # lengths of the parameter part in words; 127 is variable
   pzd: 0..2                        # words of process data
   functions:                       # the task ids, with the responses and refusals that answer them
-    1: {name: read_value, answers: [1], refusals: [7]}
+    1: {name: read_value, answers: [1, 2], refusals: [7]}
     2: {name: write_word, answers: [1], refusals: [7]}
+    3: {name: write_double_word, answers: [2], refusals: [7]}
   responses:                       # the response ids, with the tasks that they answer
     1: {name: word, answers: [1, 2]}
-    7: {name: cannot_execute, answers: [1, 2]}
+    2: {name: double_word, answers: [1, 3]}
+    7: {name: cannot_execute, answers: [1, 2, 3]}
   exceptions:                      # the error values, with their tasks
-    0: {name: illegal_parameter_number, answers: [1, 2]}
+    0: {name: illegal_parameter_number, answers: [1, 2, 3]}
 """
 _FRAMES = """\
 frames:                            # tasks and answers that the manual prints: each is held against the points
