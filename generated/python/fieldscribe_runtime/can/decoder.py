@@ -83,22 +83,24 @@ class Decoder(Receiver):
             self._known.update(layout.wanted(data))
         if raws is not NO_RAWS:
             known = self._with(raws)
-        values: dict[str, Value] = self._values(layout, data, known)
-        for point in self._apart[number]:
+        values: dict[str, Value] | None = None
+        if not layout.needs or layout.needs <= known.keys():
+            try:
+                values = layout.decoder(data, known)
+            except CodecError:
+                values = None
+        if values is None:  # point by point
+            values = layout.decode_known(data, known, self.errors)
+        if self._apart[number]:
+            self._add_apart(self._apart[number], known, values)
+        return values
+
+    def _add_apart(self, points: Sequence[Decoding[Value]], known: Raws, values: dict[str, Value]) -> None:
+        """Add the values of points in several frames."""
+        for point in points:
             if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
                 with noted(point, self.errors):
                     values[point.facts.name] = point.decode(raw, known)
-        return values
-
-    def _values(self, layout: Layout, data: bytes, known: Raws) -> dict[str, Value]:
-        if not layout.needs or layout.needs <= known.keys():
-            try:
-                values: dict[str, Value] = layout.decoder(data, known)
-            except CodecError:
-                pass  # one by one, then
-            else:
-                return values
-        return layout.decode_known(data, known, self.errors)
 
     def _with(self, raws: Raws) -> Raws:
         """What earlier frames brought, beside what the caller brings; raises WrongTypeError."""
