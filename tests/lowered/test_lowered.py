@@ -159,8 +159,8 @@ def test_an_operand_knows_its_point() -> None:
     made = lowered.rule(rule)
     power, divisor, number = made.operands
     assert [operand.factor.point for operand in made.steps] == ["factor", "number", "exponent"]
-    assert (power.exponents, power.held) == ((-4, 4), (-128, 127))
-    assert (divisor.ends, divisor.over, divisor.largest, divisor.exponents) == ((-509, 1), True, 509, None)
+    assert (power.within, power.held) == ((-4, 4), (-128, 127))
+    assert (divisor.ends, divisor.over, divisor.largest, divisor.within) == ((-509, 1), True, 509, None)
     assert made.coded == (("factor", (9, 9)), ("factor", (3, 4)))
     assert (number.floating, number.ends) == (True, (-(1 << 24), 1 << 24))
     assert lowered.rule(linear(2, 1, *rule.factors)) is made

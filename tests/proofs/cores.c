@@ -151,6 +151,8 @@ void prove_128_bits(void)
     fieldscribe_u128 product = fieldscribe_product(big, big);
     uint64_t rest = big;
     bool left_over = false;
+    const fieldscribe_status status = fieldscribe_exact_count(coin != 0U, big, big, coin != 0U, big, big, &an_s64);
+    (void)status;
     (void)fieldscribe_quotient_bit(&product, &rest, big);
     (void)fieldscribe_twice_ratio(big, big, big, narrow, &a_u64, &left_over);
     (void)fieldscribe_ratio_of(wide, wide, wide, narrow, &an_s64);

@@ -191,6 +191,8 @@ def _product(rule: Linear, settings: Settings, *, zero: bool) -> Fraction:
         number = _factor(factor, settings)
         if number == 0 and not (zero and factor.power > 0):
             raise CodecError("zero_factor", (factor.point,))
+        if factor.within is not None and not factor.within[0] <= settings[factor.point] <= factor.within[1]:
+            raise CodecError("overflow", (factor.point,))
         product *= number**factor.power
     return product
 
@@ -204,7 +206,7 @@ def _factor(factor: Factor, settings: Settings) -> Fraction:
     number = Fraction(factor.slope * settings[factor.point] + factor.intercept)
     if not factor.ten_to:
         return number
-    low, high = factor.exponents or (-MOST_EXPONENT, MOST_EXPONENT)
+    low, high = factor.within or (-MOST_EXPONENT, MOST_EXPONENT)
     if not low <= settings[factor.point] <= high:
         raise CodecError("overflow", (factor.point,))
     return Fraction(10) ** int(number)

@@ -382,7 +382,7 @@ POINT: FactTable = (
         API,
         follows=("scale", "type"),
         label="Widths",
-        text=lambda point, _: "; ".join(wording.width_texts(point)),
+        text=lambda point, _: "; ".join((*wording.width_texts(point), *wording.overflow_texts(point))),
         remark="{}",
     ),
     Fact(

@@ -28,15 +28,15 @@ _MANTISSA = 1 << 24
 class Operand(NamedTuple):
     """A factor of a rule, with what is known of its point.
 
-    `held` are the least and greatest raw number of its type. `exponents` are the raw numbers for which a power of ten
-    is defined; None for other factors. `codes` are its special codes, which are no quantities. A `floating` factor is a
+    `held` are the least and greatest raw number of its type. `within` are the raw numbers with which the rule
+    is computed; None for all. `codes` are its special codes, which are no quantities. A `floating` factor is a
     value, a mantissa of 24 bits times a power of two; any other is raw * slope + intercept, which lies between `ends`.
     """
 
     factor: Factor
     floating: bool
     held: Band
-    exponents: Band | None
+    within: Band | None
     codes: tuple[Band, ...]
     ends: Band
 
@@ -140,7 +140,7 @@ def _operand(factor: Factor, point: Point) -> Operand:
         factor=factor,
         floating=floating,
         held=point.held,
-        exponents=(factor.exponents or point.outer) if factor.ten_to else None,
+        within=(factor.within or point.outer) if factor.ten_to else factor.within,
         codes=tuple([(code.low, code.high) for code in point.specials]),
         ends=(-_MANTISSA, _MANTISSA) if floating else (low, high),
     )

@@ -11,7 +11,7 @@ from functools import cached_property
 class Factor:
     """A run-time factor: (raw * slope + intercept) of a point, or ten to the power of that; `power` is 1 or -1.
 
-    `exponents` are the raw numbers that a point may have as an exponent of ten.
+    `within` are the raw numbers of the point with which the rule is computed, None for all; with others it overflows.
     """
 
     point: str
@@ -19,7 +19,7 @@ class Factor:
     intercept: int
     power: int
     ten_to: bool
-    exponents: tuple[int, int] | None = None
+    within: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -74,9 +74,10 @@ class Bounds:
             self._depth -= 1
         return bound
 
-    def ends_of(self, factor: Factor) -> tuple[int, int]:
-        """Return raw * slope + intercept at the least and at the greatest raw number of the factor's point."""
-        low, high = self.hull(factor.point)
+    def ends_of(self, factor: Factor, *, held: bool = False) -> tuple[int, int]:
+        """Return raw * slope + intercept at both ends of the range of the factor's point, or of what its type holds."""
+        facts = self.scales.symbols.by_item(factor.point)
+        low, high = self.encodings[facts].holds if held else self.hull(factor.point)
         return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
 
     def corners(self, rule: Linear) -> list[Fraction]:
@@ -130,7 +131,16 @@ class Bounds:
             message = f"`{name}` is an exponent and can be {low}..{high}"
             hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
             raise FactError("exponent-range", message, span, hint)
-        return replace(factor, exponents=self._without_codes(factor.point))
+        return replace(factor, within=self._without_codes(factor.point))
+
+    def with_ranges(self, rule: Linear) -> Linear:
+        """Return the rule with the declared range of each point that is an integer factor."""
+        floats = self.scales.floats(rule)
+        factors = [
+            factor if factor in floats else replace(factor, within=self._without_codes(factor.point))
+            for factor in rule.factors
+        ]
+        return replace(rule, factors=tuple(factors))
 
     def _without_codes(self, item: str) -> tuple[int, int]:
         """Return the hull of a point without the special codes at its ends."""

@@ -45,14 +45,16 @@ class Paths(NamedTuple):
     """How code computes a point. `decimals` is the k of its counts, None if no 64-bit integer holds them.
 
     `encodes_values` is True if every raw number comes back from its value in binary64. `most_raw` is the largest size
-    of a raw number for which a scale with factors is exact, if the type holds larger ones. `raw_alone` is True if the
-    scale itself needs more than 64 bits: then nothing is computed.
+    of a raw number for which a scale with factors is exact, if the type holds larger ones. `in_ranges` is True if that
+    holds only while the factors lie in the declared ranges of their points. `raw_alone` is True if the scale itself
+    needs more than 64 bits: then nothing is computed.
     """
 
     decimals: int | None
     encodes_values: bool = True
     most_raw: int | None = None
     raw_alone: bool = False
+    in_ranges: bool = False
 
 
 class _Needs(NamedTuple):
@@ -93,7 +95,16 @@ def paths_of(facts: PointFacts, cases: tuple[ScaleCase, ...] | None, bounds: Bou
         return Paths(None, encodes_values=False, raw_alone=True)
     encodes = all(_survives(case.rule, need, chosen=chosen) for case, need in zip(cases, needs, strict=True))
     decimals = _decimals(facts, cases, bounds, needs)
-    return Paths(decimals, encodes, _most_raw(facts, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
+    most_raw = _most_raw(facts, cases, bounds, _largest_numerator(decimals, encodes=encodes))
+    raw = max(map(abs, bounds.encodings[facts].holds)) if most_raw is None else most_raw
+    held = [_needs(case.rule, raw, bounds, held=True) for case in cases if case.rule.factors]
+    exact = all(
+        need.constant < _WORD
+        and not (encodes and need.numerator > _EXACT)
+        and (decimals is None or _fit([need], decimals))
+        for need in held
+    )
+    return Paths(decimals, encodes, most_raw, in_ranges=not exact)
 
 
 def shows(facts: PointFacts, cases: tuple[ScaleCase, ...], bounds: Bounds, decimals: int, *, counted: bool) -> bool:
@@ -235,15 +246,18 @@ def _least_decimals(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _needs(rule: Linear, raw: int, bounds: Bounds, *, limit: int | None = None) -> _Needs:
-    """Return the largest integers in a rule for all that its factors can hold, or for factors of at most `limit`."""
+def _needs(rule: Linear, raw: int, bounds: Bounds, *, limit: int | None = None, held: bool = False) -> _Needs:
+    """Return the largest integers in a rule for the ranges of its factors, or for factors of at most `limit`.
+
+    With `held`, factors are all that their types hold.
+    """
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
         if factor in floats:
             up, down = (up << _MANTISSA, down) if factor.power == 1 else (up, down << _MANTISSA)
             continue
-        most = max(map(abs, bounds.ends_of(factor)))
+        most = max(map(abs, bounds.ends_of(factor, held=held and not factor.ten_to)))
         most = most if limit is None else min(most, limit)
         if factor.ten_to:
             up, down = up * 10**most, down * 10**most

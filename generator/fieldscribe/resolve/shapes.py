@@ -99,6 +99,8 @@ class Shapes:
             enum = enum_of(scope, facts, closed=True)
         cases = _cases(facts, bounds)
         paths = paths_of(facts, cases, bounds)
+        if cases is not None and paths.in_ranges:
+            cases = tuple([replace(case, rule=bounds.with_ranges(case.rule)) for case in cases])
         shape = Shape(
             type=encoding.type,
             width=encoding.width,

@@ -513,6 +513,55 @@ static inline bool fieldscribe_twice_ratio(
     return fits;
 }
 
+/* A sum of two numbers of 128 bits and 63 bits, each with its sign: its size, and whether it is negative. */
+static inline fieldscribe_u128 fieldscribe_sum(fieldscribe_u128 number, uint64_t add, bool apart, bool *negative)
+{
+    if (!apart) {
+        number.high += (number.low > (UINT64_MAX - add)) ? 1U : 0U;
+        number.low = (number.low > (UINT64_MAX - add)) ? (add - (UINT64_MAX - number.low) - 1U) : (number.low + add);
+    } else if ((number.high == 0U) && (number.low < add)) {
+        number.low = add - number.low;
+        *negative = !*negative;
+    } else {
+        number.high -= (number.low < add) ? 1U : 0U;
+        number.low = (number.low < add) ? (UINT64_MAX - (add - number.low) + 1U) : (number.low - add);
+    }
+    return number;
+}
+
+/*
+ * The count (size * factor + add) / divisor, each part with its sign, to the nearest integer, halves away from zero:
+ * for numerators beyond 64 bits. Factor and addend are below 2^63, the divisor is in 1..2^63.
+ */
+FIELDSCRIBE_STATUS fieldscribe_exact_count(bool negative, uint64_t size, uint64_t factor, bool subtracts, uint64_t add,
+    uint64_t divisor, int64_t *count)
+{
+    const uint64_t most = (uint64_t)INT64_MAX;
+    bool below = negative;
+    fieldscribe_u128 number = fieldscribe_sum(fieldscribe_product(size, factor), add, negative != subtracts, &below);
+    fieldscribe_status status = FIELDSCRIBE_OVERFLOW;
+    uint64_t rest = 0U;
+    uint64_t quotient = 0U;
+    int32_t bit;
+    bool fits = true;
+    for (bit = 0; fits && (bit < 128); ++bit) {
+        const uint64_t next = fieldscribe_quotient_bit(&number, &rest, divisor);
+        fits = quotient <= most;
+        quotient = ((quotient & most) << 1) | next;
+    }
+    quotient += ((quotient < UINT64_MAX) && (rest >= (divisor - rest))) ? 1U : 0U;
+    if (fits && (quotient <= most)) {
+        *count = below ? -(int64_t)quotient : (int64_t)quotient;
+        status = FIELDSCRIBE_OK;
+    } else if (fits && below && (quotient == (most + 1U))) {
+        *count = INT64_MIN;
+        status = FIELDSCRIBE_OK;
+    } else {
+        status = FIELDSCRIBE_OVERFLOW;
+    }
+    return status;
+}
+
 /* number * num / den * 2^shift to the nearest integer, halves away from zero, exact; false when that is no int64_t. */
 static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den, int32_t shift, int64_t *result)
 {
@@ -1271,22 +1320,6 @@ static inline fieldscribe_whole fieldscribe_bits_of_f64(double number)
 static inline double fieldscribe_two_to(int32_t exponent)
 {
     return fieldscribe_f64_of_bits((uint64_t)((uint32_t)(1023 + exponent)) << 52);
-}
-
-/* A sum of two numbers of 128 bits and 63 bits, each with its sign: its size, and whether it is negative. */
-static inline fieldscribe_u128 fieldscribe_sum(fieldscribe_u128 number, uint64_t add, bool apart, bool *negative)
-{
-    if (!apart) {
-        number.high += (number.low > (UINT64_MAX - add)) ? 1U : 0U;
-        number.low = (number.low > (UINT64_MAX - add)) ? (add - (UINT64_MAX - number.low) - 1U) : (number.low + add);
-    } else if ((number.high == 0U) && (number.low < add)) {
-        number.low = add - number.low;
-        *negative = !*negative;
-    } else {
-        number.high -= (number.low < add) ? 1U : 0U;
-        number.low = (number.low < add) ? (UINT64_MAX - (add - number.low) + 1U) : (number.low - add);
-    }
-    return number;
 }
 
 /* The number divided to the nearest double, ties to even; the divisor is below 2^63. */

@@ -128,7 +128,7 @@ pub const fn insert(word: u16, shift: u32, mask: u16, bits: u16) -> u16 {
     }
 }
 
-/// An exponent, the raw number of the point of that name, if it is in `low..=high`, where that may be.
+/// The raw number of the point of that name, an exponent or a factor, if it is in `low..=high`.
 ///
 /// # Errors
 /// [`Error::BrokenFactor`] if it is not.

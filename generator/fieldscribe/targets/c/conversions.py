@@ -83,14 +83,18 @@ class Writer:
         return f"const fieldscribe_whole whole = {whole};", store
 
     def _decode(self, tail: str, kind: str, number: str, *, floating: bool = False, fits: str = "") -> Function:
-        """Return a decode function; it returns a status if decoding can fail, else the number itself."""
+        """Return a decode function; it returns a status if decoding can fail, else the number itself.
+
+        If `fits` is false, the count takes integers of more than 64 bits.
+        """
         raw = f"{self.type} raw"
         if self.special is None and not fits:
             body = f"return {number};"
             return function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body, floating=floating)
         to = "count" if tail == "decode_count" else "value"
         keep = f"fieldscribe_keep_{_KEPT[kind]}({self._unless_code('FIELDSCRIBE_OK')}, {number}, {to})"
-        keep = self._unless_code(f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW") if fits else keep
+        if fits and self.scale is not None:
+            keep = self._unless_code(f"{fits} ? {keep} : {self.scale.exact_count}")
         return function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};", floating=floating)
 
     def _unless_code(self, status: str) -> str:
@@ -197,10 +201,12 @@ class Writer:
         """Return the core for a scale that is a power of ten alone, of few values that all fit; empty for others."""
         point, (case, *others) = self.point, self.point.scale or ()
         rule = self.scope.lowered.rule(case.rule)
-        exponents = rule.operands[0].exponents if len(rule.operands) == 1 else None
-        if others or exponents is None or rule.offset or rule.coded or point.most_raw is not None:
+        if others or len(rule.operands) != 1 or rule.offset or rule.coded or point.most_raw is not None:
             return ""
-        [operand], (low, high) = rule.operands, exponents
+        [operand] = rule.operands
+        if not operand.factor.ten_to or operand.within is None:
+            return ""
+        low, high = operand.within
         start = Fraction(10) ** ((low if operand.over else -high) + (point.decimals or 0)) / rule.ratio
         most = abs(start) * 10 ** (high - low) * max(map(abs, point.held))
         if operand.ends != operand.held or start.denominator != 1 or high - low > _POWERS or most > INT64[1]:

@@ -226,13 +226,18 @@ def _step(rule: str, operand: Operand, scope: HeaderScope, *, of_limit: bool) ->
     number, raw = _number(operand, scope), scope.raw(operand.factor.point)
     if operand.floating:
         return f"fieldscribe_rule_f32({rule}, {raw}, {'true' if operand.over else 'false'})"
-    if operand.exponents is None:
+    if not operand.factor.ten_to:
         how = "over" if operand.over else "scaled" if of_limit else "times"
-        return f"fieldscribe_rule_{how}({rule}, {number})"
-    (low, high), (least, greatest) = operand.exponents, operand.held
-    if low > least or high < greatest:
-        rule = f"fieldscribe_rule_within({rule}, (int64_t){raw}, {bare(low)}, {bare(high)})"
-    return f"fieldscribe_rule_ten_to({rule}, {'-' if operand.over else ''}{number})"
+        return _within(f"fieldscribe_rule_{how}({rule}, {number})", operand, raw)
+    return f"fieldscribe_rule_ten_to({_within(rule, operand, raw)}, {'-' if operand.over else ''}{number})"
+
+
+def _within(rule: str, operand: Operand, raw: str) -> str:
+    """Return the rule, which overflows while the raw number of the operand's point is outside its limits."""
+    (low, high), (least, greatest) = operand.within or operand.held, operand.held
+    if low <= least and high >= greatest:
+        return rule
+    return f"fieldscribe_rule_within({rule}, (int64_t){raw}, {bare(low)}, {bare(high)})"
 
 
 def _codes(rule: Rule, scope: HeaderScope) -> str:

@@ -44,6 +44,17 @@ class Scaled:
         return f"fieldscribe_within_wide(raw, {bare(low)}, {bare(high)})"
 
     @cached_property
+    def exact_count(self) -> str:
+        """The status of the exact count of a raw number that fails `count_fits`; it may fit 64 bits after all."""
+        if self.direct:
+            return "FIELDSCRIBE_OVERFLOW"
+        factor, add, divisor = self._plan.to_count
+        below, size = sign_and_size(self._point)
+        negative = {"false": "true", "raw < 0": "raw >= 0"}[below] if factor < 0 else below
+        numbers = [unsigned(abs(factor)), "true" if add < 0 else "false", unsigned(abs(add)), unsigned(divisor)]
+        return f"fieldscribe_exact_count({negative}, {size}, {', '.join(numbers)}, count)"
+
+    @cached_property
     def raw_of_count(self) -> str:
         """The raw number of a `count` that is inside."""
         return cast(raw_type(self._point), _raw_of_count(self._plan, self.counts))

@@ -14,7 +14,7 @@ from fieldscribe.targets.python.identifiers import PackageScope, attribute
 from fieldscribe.targets.python.layout import Group, Node, docstring, laid_out, wrapped
 from fieldscribe.targets.python.point_expressions import addresses_of, allowed, form, is_limited, number, place
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import codes_text, condition_text, open_text, range_text
+from fieldscribe.wording import codes_text, condition_text, open_text, overflow_texts, range_text
 
 BODY = 8
 """The indentation of an attribute's arguments."""
@@ -163,6 +163,7 @@ def _remarks(point: Point, scope: PackageScope) -> str:
         remarks += f" To write it takes: {', '.join(condition.replace('_', ' ') for condition in point.conditions)}."
     if point.specials:
         remarks += f" {codes_text(point)}."
+    remarks += "".join(f" O{text[1:]}." for text in overflow_texts(point))
     return remarks
 
 

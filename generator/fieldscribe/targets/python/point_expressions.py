@@ -134,8 +134,8 @@ def _factor(operand: Operand, scope: PackageScope, *, of_scale: bool) -> Node:
         arguments.append(f"power={factor.power}")
     if operand.floating:
         arguments.append("f32=True")
-    if operand.exponents is not None:
-        arguments.append("ten_to=({}, {})".format(*operand.exponents))
+    if operand.within is not None:
+        arguments.append("{}=({}, {})".format("ten_to" if factor.ten_to else "within", *operand.within))
     if of_scale and operand.codes:
         arguments.append(Group("codes=(", tuple([f"({low}, {high})" for low, high in operand.codes])))
     return call(scope.runtime("Factor"), arguments)

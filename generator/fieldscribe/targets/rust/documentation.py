@@ -138,4 +138,4 @@ def _resolution(point: Point) -> Iterator[str]:
         yield f"value {rust_code(scale)}"
     if count:
         yield f"one count is {rust_code(count)}"
-    yield from wording.width_texts(point)
+    yield from (*wording.width_texts(point), *map(rust_code, wording.overflow_texts(point)))

@@ -124,7 +124,11 @@ def rule_of(rule: Rule) -> Lines:
     """Return the lines that compute a scale with its factors; special codes of factors are refused first."""
     codes = [code for operand in rule.steps for code in _codes(operand)]
     steps = [f".unless({' || '.join(codes)})"] if codes else []
-    steps += [_step(operand, limit=False) for operand in rule.steps]
+    for operand in rule.steps:
+        steps.append(_step(operand, limit=False))
+        if operand.within is not None and not operand.factor.ten_to:
+            name, (low, high) = operand.factor.point, operand.within
+            steps.append(f".within({rust_string(name)}, {_raw_of(name)}, {integer(low)}, {integer(high)})")
     return (f"{_start(rule)}{steps[0]}", *steps[1:]) if steps else (f"Ok({_start(rule)})",)
 
 
@@ -170,8 +174,8 @@ def _step(operand: Operand, *, limit: bool) -> str:
     raw, times = _raw_of(factor.point), "limited_by" if limit and not factor.ten_to else "times"
     if operand.floating:
         return f".{'over' if operand.over else times}_f32({raw})"
-    if operand.exponents is not None:
-        low, high = operand.exponents
+    if factor.ten_to and operand.within is not None:
+        low, high = operand.within
         raw = f"runtime::arithmetic::exponent({rust_string(factor.point)}, {raw}, {integer(low)}, {integer(high)})?"
     if (factor.slope, factor.intercept) != (1, 0):
         raw = f"runtime::arithmetic::line({raw}, {integer(factor.slope)}, {integer(factor.intercept)})?"

@@ -169,9 +169,12 @@ class Oracle:
         numbers = self._numbers(settings)
         if any(self._is_code(factor.point, settings[factor.point]) for factor in rule.factors):
             return "zero_factor"
-        if any(_number(factor, numbers) == 0 for factor in rule.factors if not factor.ten_to):
-            return "zero_factor"
-        if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
+        for factor in [factor for factor in rule.factors if not factor.ten_to]:
+            if _number(factor, numbers) == 0:
+                return "zero_factor"
+            if factor.within is not None and not self.is_in_range(factor, settings):
+                return "overflow"
+        if any(not self.is_in_range(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
         return _applied(rule, numbers)
 
@@ -190,8 +193,8 @@ class Oracle:
         value = float_of_bits(raw, source.shape.width)
         return Fraction(value) if isfinite(value) else 0
 
-    def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
-        """Return True if the raw number of an exponent lies in the range of its point."""
+    def is_in_range(self, factor: Factor, settings: Settings) -> bool:
+        """Return True if the raw number of a factor lies in the range of its point."""
         source = self.points[factor.point]
         low, high = outer_bounds(source.shape, source.allowed)
         return low <= settings[factor.point] <= high
@@ -226,7 +229,7 @@ class Oracle:
         factors, numbers = bound.rule.factors, self._numbers(settings)
         if any(self._is_unusable(factor, numbers) for factor in factors):
             return "zero_factor"
-        if any(factor.ten_to and not self.exponent_fits(factor, settings) for factor in factors):
+        if any(factor.ten_to and not self.is_in_range(factor, settings) for factor in factors):
             return "overflow"
         number = _applied(bound.rule, numbers).raw_of_count(1, 0)
         return max(bound.least, number) if lower else min(bound.greatest, number)

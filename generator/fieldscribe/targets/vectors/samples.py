@@ -250,10 +250,12 @@ def _choices(oracle: Oracle, encoding: PointEncoding, name: str) -> list[int]:
     for factor in _factors(encoding):
         if factor.point != name:
             continue
-        if factor.ten_to:
+        if factor.ten_to or factor.within is not None:
             raws += [low - 1, high + 1]
-        elif factor.slope and factor.intercept % factor.slope == 0:
-            raws.append(-factor.intercept // factor.slope)
+        if not factor.ten_to:
+            if factor.within is not None and source is not None:
+                raws += [source.shape.least, source.shape.greatest]
+            raws += [-factor.intercept // factor.slope] if factor.slope and factor.intercept % factor.slope == 0 else []
     raws += lifting
     if source is not None and any(
         factor.point == name for limit in limits_of(encoding.allowed) for factor in limit.rule.factors

@@ -141,7 +141,7 @@ class _Vectors:
             more = () if dividing is None or not shape.least <= dividing <= shape.greatest else (dividing,)
             lines.add_written("decode", [*filter(None, map(by.decode, dict.fromkeys((*raws, *more))))])
             if shape.decimals is not None:
-                lines.add_written("decode_count", [*map(by.decode_count, raws)])
+                lines.add_written("decode_count", [*map(by.decode_count, dict.fromkeys((*raws, *self._widest())))])
         if shape.writable:
             edges = samples.edges(limits if self.deep else samples.limits_to_try(limits))
             if self.deep:
@@ -153,6 +153,15 @@ class _Vectors:
             if self.full or not self.deep or self.encoding.allowed.arguments:
                 raws = samples.raws_to_check(shape, limits, deep=self.deep)
                 lines.add_written("check", [f"check\t{raw}\t{admit(shape, raw, limits)}" for raw in raws])
+
+    def _widest(self) -> list[int]:
+        """Return the raw numbers around the first counts of more than 64 bits."""
+        by, shape = self.by, self.encoding.shape
+        if all(-INT64 <= by.count(raw) < INT64 for raw in (shape.least, shape.greatest)):
+            return []
+        last = (by.raw_of_count(count) for count in (INT64 - 1, -INT64))
+        raws = (raw + more for raw in last for more in (-1, 0, 1))
+        return [raw for raw in raws if shape.least <= raw <= shape.greatest]
 
     def _line(self, start: str, raw: int | None) -> str:
         """Return the line of a value or a count: its status, and its raw number if it may be written."""

@@ -86,8 +86,9 @@ def _binary32(pattern: int) -> Fraction:
 class Factor(Record):
     """raw * slope + intercept of another point, to the power of 1 or -1.
 
-    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds. With
-    `f32` the raw number is the pattern of a binary32 number, and that number is taken for it (0 for what is none).
+    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds;
+    `within` says it of other factors, where the scale is exact only there. With `f32` the raw number is the pattern of
+    a binary32 number, and that number is taken for it (0 for what is none).
     `codes` are bands (first, last) of raw numbers that are no quantity.
     """
 
@@ -98,6 +99,7 @@ class Factor(Record):
     ten_to: tuple[int, int] | None = None
     f32: bool = False
     codes: tuple[tuple[int, int], ...] = ()
+    within: tuple[int, int] | None = None
 
     def is_code(self, raws: Raws) -> bool:
         """Return True if the point holds a special code, with which nothing can be computed."""
@@ -108,9 +110,11 @@ class Factor(Record):
         raw = raw_of(self.point, raws)
         return (_binary32(raw) if self.f32 else raw) * self.slope + self.intercept
 
-    def exponent_fits(self, raws: Raws) -> bool:
-        """Return True if the raw number is one for which ten to it is defined."""
-        return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
+    def require_range(self, raws: Raws) -> None:
+        """Raise ResultOverflowError if the raw number is one with which nothing is computed."""
+        limits, raw = self.ten_to or self.within, raw_of(self.point, raws)
+        if limits is not None and not limits[0] <= raw <= limits[1]:
+            raise ResultOverflowError(f"{self.point} is {raw}, outside {limits[0]}..{limits[1]}")
 
 
 class Rule(Record):
@@ -130,14 +134,16 @@ class Rule(Record):
         if not self.factors:
             return num, den
         numbers = [(factor, factor.number(raws)) for factor in self.factors]
-        for factor, number in numbers:
+        for factor, _ in numbers:
             if factor.is_code(raws):
                 raise ZeroFactorError(f"{factor.point} holds a special code, which is no quantity")
-            if number == 0 and factor.ten_to is None and not (zero_allowed and factor.power > 0):
-                raise ZeroFactorError(f"{factor.point} is {'no number or ' if factor.f32 else ''}zero")
         for factor, number in numbers:
-            if not factor.exponent_fits(raws):
-                raise ResultOverflowError(f"10 ** {number} is too far: {factor.point} is outside {factor.ten_to}")
+            if factor.ten_to is None:
+                if number == 0 and not (zero_allowed and factor.power > 0):
+                    raise ZeroFactorError(f"{factor.point} is {'no number or ' if factor.f32 else ''}zero")
+                factor.require_range(raws)
+        for factor, number in numbers:
+            factor.require_range(raws)
             power, over, under = factor.power, number.numerator, number.denominator
             if factor.ten_to is not None:
                 power, over = power * over, 10 ** abs(over)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Scales whose factors are read at run time.
 
-use crate::arithmetic::{div_round_i128, quotient, to_f64};
+use crate::arithmetic::{div_round_i128, exponent, quotient, to_f64};
 use crate::pattern::{Magnitude, Quotient};
 use crate::{Error, Raw};
 
@@ -56,6 +56,21 @@ impl Rule {
         } else {
             Ok(self)
         }
+    }
+
+    /// The rule, if the raw number of the point of that name is in `low..=high`: only there is the rule exact.
+    ///
+    /// # Errors
+    /// [`Error::BrokenFactor`] if it is not.
+    #[inline]
+    pub fn within(
+        self,
+        point: &'static str,
+        raw: impl Raw,
+        low: i64,
+        high: i64,
+    ) -> Result<Self, Error> {
+        exponent(point, raw, low, high).map(|_| self)
     }
 
     /// The rule with one more factor.
