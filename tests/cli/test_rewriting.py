@@ -25,3 +25,11 @@ def test_a_file_that_cannot_be_replaced_leaves_the_others(tmp_path: Path, monkey
     with pytest.raises(StopError, match=r"cannot write .*second\.yaml: No space left on device"):
         rewrite({str(file): ("old\n", "new\n") for file in (first, second)})
     assert (first.read_text(), second.read_text()) == ("old\n", "old\n")
+
+
+def test_a_file_that_was_changed_meanwhile_is_left(tmp_path: Path) -> None:
+    file = tmp_path / "device.yaml"
+    file.write_text("newer\n")
+    with pytest.raises(StopError, match=r"`device\.yaml` was changed while it was read"):
+        rewrite({str(file): ("old\n", "new\n")})
+    assert file.read_text() == "newer\n"
