@@ -38,7 +38,7 @@ WRITTEN = {
     "type: u32": ["u32_abcd", "DWORD", "uint32_be"],
     "special: {FFFFh: name_of_it}": ["[FFFFh]", "FFFFh"],
     "special: {8000h: name_of_it, 7FFFh: name_of_it_2}": ["[8000h, 7FFFh]"],
-    "unit: Hz": ["0.1 Hz"],
+    "unit: Hz": ["0.1 Hz", "1/10 Hz"],
     "access: rw": ["R/W"],
     "type: s16": ["int16", "signed short"],
     "type: s32": ["INT32"],

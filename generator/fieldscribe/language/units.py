@@ -16,7 +16,7 @@ from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Unit
 
 LISTED = "`fieldscribe units` lists what is known"
-_STEPPED = r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)"
+_STEPPED = r"([0-9]{1,9}(?:[.,][0-9]{1,9}|/[0-9]{1,9})?)[ *x]*([^ 0-9*x].*)"
 """A resolution, such as `0.1 Hz`."""
 _NO_UNIT = frozenset({"", "-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
 _SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})

@@ -329,6 +329,7 @@ def _outside(facts: PointFacts, key: str, address: int, last: int, *, single: bo
     elif single:
         message = f"the address {address} lies outside 0..{last}"
         hint = f"`{key}` is the number on the wire; the numbers for people (40001) go under `printed`"
+        hint = f"`{key}` counts from 0; what a reference counts from goes under `numbering`" if address < 0 else hint
     else:
         message = f"the last word of `{facts.name}` lies outside 0..{last}"
         hint = "check the address and the type"

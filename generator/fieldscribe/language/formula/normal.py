@@ -178,7 +178,9 @@ def linear(expression: Expression, variable: str, resolve: Resolve) -> Linear:
     """Return the rule of an expression that is linear in `variable`; other names are factors. Raises FormulaError."""
     term = _term(expression, variable, resolve)
     if not term.variable:
-        raise FormulaError(f"the result does not depend on `{variable}`", _start(expression), f"use `{variable}`")
+        raise FormulaError(
+            f"the result does not depend on `{variable}`", _start(expression), f"use `{variable}`, not times 0"
+        )
     return _linear(term, expression)
 
 
