@@ -148,6 +148,17 @@ fn a_transport_may_stay_on_its_thread() {
     assert_eq!(line.borrow().sent[1], "0106102801f4");
 }
 
+/// Each kind of client reads what a point needs.
+fn needs_are_read() {
+    let line = || Line::new(Framing::Rtu, &["0103020190"]);
+    let needed = with::VoltageSetpoint { voltage_ratio: 400 };
+    assert_eq!(with::VoltageSetpoint::read(&mut Client::new(line(), Framing::Rtu, 1)), Ok(needed));
+    let mut client = AsyncClient::new(Slow(line()), Framing::Rtu, 1);
+    assert_eq!(finish(with::VoltageSetpoint::read_async(&mut client)), Ok(needed));
+    let mut client = LocalClient::new(Shared(Rc::new(RefCell::new(line()))), Framing::Rtu, 1);
+    assert_eq!(finish(with::VoltageSetpoint::read_local(&mut client)), Ok(needed));
+}
+
 /// A gateway speaks TCP to us where the device knows RTU alone.
 fn a_gateway_speaks_another_framing() {
     static RTU: Profile = PROFILE.with_framings(&[Framing::Rtu]);
@@ -226,6 +237,7 @@ fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
     send(client.read::<points::BaseFrequency>());
     send(client.write::<points::BaseFrequency>(50.0));
     send(client.update::<points::DelayClass>(3));
+    send(with::VoltageSetpoint::read_async(client));
 }
 
 fn main() {
@@ -236,6 +248,7 @@ fn main() {
     all_units_get_a_write_and_none_answers();
     waits_without_blocking();
     a_transport_may_stay_on_its_thread();
+    needs_are_read();
     a_gateway_speaks_another_framing();
     points_are_found_by_name_and_code();
     errors_say_all_once_and_name_the_point();

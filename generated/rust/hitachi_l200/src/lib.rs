@@ -57,8 +57,8 @@
 //!     let value = client.read::<p::NetworkFrequencySetpoint>()?;
 //!     println!("it is {value:?}");
 //!     client.write::<p::NetworkFrequencySetpoint>(40.0)?;
-//!     // What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.
-//!     let with = with::DcBrakeFrequency { start_frequency: 1 };
+//!     // What the scale and the limits need: raw numbers of other points.
+//!     let with = with::DcBrakeFrequency::read(client)?;
 //!     client.write_with::<p::DcBrakeFrequency>(1.0, with)?;
 //!     match client.read::<p::UpperFrequencyLimit>()? {
 //!         Reading::Value(value) => println!("it is {value:?}"),

@@ -4,11 +4,18 @@
 
 //! Arguments of points whose scale or limits depend on other points: the raw numbers of those, read at run time.
 
+use fieldscribe_runtime as runtime;
+
 /// Raw numbers that `motor_rated_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MotorRatedFrequency {
     /// The raw number of [`MaximumFrequency`](crate::points::MaximumFrequency).
     pub maximum_frequency: u16,
+}
+
+runtime::read_by_clients! {
+    [] MotorRatedFrequency:
+    maximum_frequency MaximumFrequency
 }
 
 /// Raw numbers that `motor_rated_frequency_set_2` needs.
@@ -18,11 +25,21 @@ pub struct MotorRatedFrequencySet2 {
     pub maximum_frequency_set_2: u16,
 }
 
+runtime::read_by_clients! {
+    [] MotorRatedFrequencySet2:
+    maximum_frequency_set_2 MaximumFrequencySet2
+}
+
 /// Raw numbers that `maximum_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MaximumFrequency {
     /// The raw number of [`MotorRatedFrequency`](crate::points::MotorRatedFrequency).
     pub motor_rated_frequency: u16,
+}
+
+runtime::read_by_clients! {
+    [] MaximumFrequency:
+    motor_rated_frequency MotorRatedFrequency
 }
 
 /// Raw numbers that `maximum_frequency_set_2` needs.
@@ -32,11 +49,21 @@ pub struct MaximumFrequencySet2 {
     pub motor_rated_frequency_set_2: u16,
 }
 
+runtime::read_by_clients! {
+    [] MaximumFrequencySet2:
+    motor_rated_frequency_set_2 MotorRatedFrequencySet2
+}
+
 /// Raw numbers that `dc_brake_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct DcBrakeFrequency {
     /// The raw number of [`StartFrequency`](crate::points::StartFrequency).
     pub start_frequency: u16,
+}
+
+runtime::read_by_clients! {
+    [] DcBrakeFrequency:
+    start_frequency StartFrequency
 }
 
 /// Raw numbers that `upper_frequency_limit` needs.
@@ -48,6 +75,12 @@ pub struct UpperFrequencyLimit {
     pub maximum_frequency: u16,
 }
 
+runtime::read_by_clients! {
+    [] UpperFrequencyLimit:
+    lower_frequency_limit LowerFrequencyLimit
+    maximum_frequency MaximumFrequency
+}
+
 /// Raw numbers that `upper_frequency_limit_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UpperFrequencyLimitSet2 {
@@ -55,6 +88,12 @@ pub struct UpperFrequencyLimitSet2 {
     pub lower_frequency_limit_set_2: u16,
     /// The raw number of [`MaximumFrequencySet2`](crate::points::MaximumFrequencySet2).
     pub maximum_frequency_set_2: u16,
+}
+
+runtime::read_by_clients! {
+    [] UpperFrequencyLimitSet2:
+    lower_frequency_limit_set_2 LowerFrequencyLimitSet2
+    maximum_frequency_set_2 MaximumFrequencySet2
 }
 
 /// Raw numbers that `lower_frequency_limit` needs.
@@ -66,6 +105,12 @@ pub struct LowerFrequencyLimit {
     pub upper_frequency_limit: u16,
 }
 
+runtime::read_by_clients! {
+    [] LowerFrequencyLimit:
+    start_frequency StartFrequency
+    upper_frequency_limit UpperFrequencyLimit
+}
+
 /// Raw numbers that `lower_frequency_limit_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LowerFrequencyLimitSet2 {
@@ -73,4 +118,10 @@ pub struct LowerFrequencyLimitSet2 {
     pub start_frequency: u16,
     /// The raw number of [`UpperFrequencyLimitSet2`](crate::points::UpperFrequencyLimitSet2).
     pub upper_frequency_limit_set_2: u16,
+}
+
+runtime::read_by_clients! {
+    [] LowerFrequencyLimitSet2:
+    start_frequency StartFrequency
+    upper_frequency_limit_set_2 UpperFrequencyLimitSet2
 }

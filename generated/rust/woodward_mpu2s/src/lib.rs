@@ -50,8 +50,8 @@
 //!     let value = client.read::<p::GeneratorFrequencySetpoint>()?;
 //!     println!("it is {value:?}");
 //!     client.write::<p::GeneratorFrequencySetpoint>(43.0)?;
-//!     // What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.
-//!     let with = with::GeneratorVoltageSetpoint100v { generator_voltage_factor: 1 };
+//!     // What the scale and the limits need: raw numbers of other points.
+//!     let with = with::GeneratorVoltageSetpoint100v::read(client)?;
 //!     client.write_with::<p::GeneratorVoltageSetpoint100v>(1.0, with)?;
 //!     Ok(())
 //! }

@@ -4,6 +4,8 @@
 
 //! Arguments of points whose scale or limits depend on other points: the raw numbers of those, read at run time.
 
+use fieldscribe_runtime as runtime;
+
 /// Raw numbers that `generator_active_power` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorActivePower {
@@ -139,11 +141,21 @@ pub struct GeneratorVoltageSetpoint100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorVoltageSetpoint100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_voltage_setpoint_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageSetpoint400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorVoltageSetpoint400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `generator_rated_voltage_100v` needs.
@@ -153,11 +165,21 @@ pub struct GeneratorRatedVoltage100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorRatedVoltage100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_rated_voltage_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorRatedVoltage400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorRatedVoltage400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `generator_overvoltage_1_threshold_100v` needs.
@@ -167,11 +189,21 @@ pub struct GeneratorOvervoltage1Threshold100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorOvervoltage1Threshold100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_overvoltage_1_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage1Threshold400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorOvervoltage1Threshold400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `generator_overvoltage_2_threshold_100v` needs.
@@ -181,11 +213,21 @@ pub struct GeneratorOvervoltage2Threshold100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorOvervoltage2Threshold100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_overvoltage_2_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage2Threshold400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorOvervoltage2Threshold400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `generator_undervoltage_1_threshold_100v` needs.
@@ -195,11 +237,21 @@ pub struct GeneratorUndervoltage1Threshold100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorUndervoltage1Threshold100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_undervoltage_1_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage1Threshold400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorUndervoltage1Threshold400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `generator_undervoltage_2_threshold_100v` needs.
@@ -209,11 +261,21 @@ pub struct GeneratorUndervoltage2Threshold100v {
     pub generator_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorUndervoltage2Threshold100v:
+    generator_voltage_factor GeneratorVoltageFactor
+}
+
 /// Raw numbers that `generator_undervoltage_2_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage2Threshold400v {
     /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] GeneratorUndervoltage2Threshold400v:
+    generator_voltage_factor GeneratorVoltageFactor
 }
 
 /// Raw numbers that `mains_overvoltage_threshold_100v` needs.
@@ -223,11 +285,21 @@ pub struct MainsOvervoltageThreshold100v {
     pub mains_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] MainsOvervoltageThreshold100v:
+    mains_voltage_factor MainsVoltageFactor
+}
+
 /// Raw numbers that `mains_overvoltage_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsOvervoltageThreshold400v {
     /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] MainsOvervoltageThreshold400v:
+    mains_voltage_factor MainsVoltageFactor
 }
 
 /// Raw numbers that `mains_undervoltage_threshold_100v` needs.
@@ -237,11 +309,21 @@ pub struct MainsUndervoltageThreshold100v {
     pub mains_voltage_factor: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] MainsUndervoltageThreshold100v:
+    mains_voltage_factor MainsVoltageFactor
+}
+
 /// Raw numbers that `mains_undervoltage_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsUndervoltageThreshold400v {
     /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] MainsUndervoltageThreshold400v:
+    mains_voltage_factor MainsVoltageFactor
 }
 
 /// Raw numbers that `analog_output_1_value_at_0_percent` needs.
@@ -251,11 +333,21 @@ pub struct AnalogOutput1ValueAt0Percent {
     pub analog_output_1_source: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] AnalogOutput1ValueAt0Percent:
+    analog_output_1_source AnalogOutput1Source
+}
+
 /// Raw numbers that `analog_output_1_value_at_100_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput1ValueAt100Percent {
     /// The raw number of [`AnalogOutput1Source`](crate::points::AnalogOutput1Source).
     pub analog_output_1_source: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] AnalogOutput1ValueAt100Percent:
+    analog_output_1_source AnalogOutput1Source
 }
 
 /// Raw numbers that `analog_output_2_value_at_0_percent` needs.
@@ -265,9 +357,19 @@ pub struct AnalogOutput2ValueAt0Percent {
     pub analog_output_2_source: u16,
 }
 
+runtime::read_by_clients! {
+    [L: super::Listener] AnalogOutput2ValueAt0Percent:
+    analog_output_2_source AnalogOutput2Source
+}
+
 /// Raw numbers that `analog_output_2_value_at_100_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput2ValueAt100Percent {
     /// The raw number of [`AnalogOutput2Source`](crate::points::AnalogOutput2Source).
     pub analog_output_2_source: u16,
+}
+
+runtime::read_by_clients! {
+    [L: super::Listener] AnalogOutput2ValueAt100Percent:
+    analog_output_2_source AnalogOutput2Source
 }

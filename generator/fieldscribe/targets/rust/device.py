@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 
 from fieldscribe import wording
 from fieldscribe.model import Device, Point, Version
@@ -12,7 +13,7 @@ from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.enums import enum_texts, word_texts
 from fieldscribe.targets.rust.families import RustFamily, Snippet, in_rust, space
 from fieldscribe.targets.rust.layout import Item, Lines, binding, filled
-from fieldscribe.targets.rust.literals import float_literal, integer, value_name
+from fieldscribe.targets.rust.literals import float_literal, integer
 from fieldscribe.targets.rust.point_facts import shared_codes
 from fieldscribe.targets.rust.point_macros import point_texts
 from fieldscribe.targets.rust.subjects import CratePoint, CrateScope
@@ -49,7 +50,8 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
     first_word = min(words, key=lambda subject: subject.point.rank).name if words else ""
     structs = tuple(argument_structs(scope, render))
     version = Version.of(device.version)
-    of_family, example = in_rust(device.family), example_of(device, scope)
+    read = {str(struct["name"]) for struct in structs if struct["read"]}
+    of_family, example = in_rust(device.family), example_of(device, scope, read)
     telegram, received = of_family.telegram(scope)
     family_context = of_family.context(device)
     return {
@@ -61,6 +63,7 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "codes": tuple(shared_codes(scope)),
         "first_word": first_word,
         "structs": structs,
+        "client_parameter": "{0}: super::{2}".format(*of_family.client_parameter) if of_family.client_parameter else "",
         "example": example.lines,
         "telegram": telegram,
         "received": received.lines,
@@ -69,8 +72,9 @@ def device_context(device: Device, scope: CrateScope, render: Render) -> dict[st
         "uses_enums": any(enum.name in scope.enums for enum in device.enums),
         "uses_flags": bool(first_word),
         "uses_with": bool(structs),
+        "reads_needs": bool(read),
         "device_type": scope.device_type,
-        "clients": tuple(_clients(device.family, of_family.client_types, scope.device_type)),
+        "clients": tuple(_clients(device.family, of_family.client_parameter, scope.device_type)),
         "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
         "id_literal": rust_string(device.id),
@@ -97,9 +101,10 @@ _CLIENTS = (
 )
 
 
-def _clients(family: str, types: tuple[str, str], device: str) -> Iterator[tuple[str, Lines]]:
-    """Yield the comment and the lines of each type of client of the device; `types` are declared and given."""
-    declared, given = types
+def _clients(family: str, parameter: tuple[str, str, str] | None, device: str) -> Iterator[tuple[str, Lines]]:
+    """Yield the comment and the lines of each type of client of the device."""
+    name, default, _ = parameter or ("", "", "")
+    declared, given = (f"T, {name} = {default}", f"T, {name}") if parameter else ("T", "T")
     for name, kind in _CLIENTS:
         client = f"runtime::{family}::{name}<{given}, {device}>"
         yield f"A device behind a transport {kind}.", binding(0, Item(f"pub type {name}<{declared}>"), client)
@@ -108,14 +113,17 @@ def _clients(family: str, types: tuple[str, str], device: str) -> Iterator[tuple
 _ALWAYS = ("points as p", "Client", "ClientError", "Transport")
 
 
-def example_of(device: Device, scope: CrateScope) -> Snippet:
-    """Return the body of a function that talks to the device; empty if no point is read without others."""
+def example_of(device: Device, scope: CrateScope, read: AbstractSet[str]) -> Snippet:
+    """Return the body of a function that talks to the device; empty if no point is read without others.
+
+    `read` are the structs of raw numbers that clients read.
+    """
     candidates = _candidates(scope)
-    read = _first(candidates, _is_quantity) or _first(candidates, _is_plain)
-    if read is None:
+    plain = _first(candidates, _is_quantity) or _first(candidates, _is_plain)
+    if plain is None:
         return Snippet()
-    first = Snippet((f"let value = client.read::<p::{read.name}>()?;", 'println!("it is {value:?}");'))
-    return first + _writes(candidates) + _special(candidates) + _blocks(device, candidates) + _command(device)
+    first = Snippet((f"let value = client.read::<p::{plain.name}>()?;", 'println!("it is {value:?}");'))
+    return first + _writes(candidates, read) + _special(candidates) + _blocks(device, candidates) + _command(device)
 
 
 def first_program(device: Device, scope: CrateScope, family: RustFamily, link: str) -> Lines:
@@ -179,17 +187,16 @@ def _takes_a_value(subject: CratePoint) -> bool:
     return encodes and point.form == "scaled"
 
 
-def _writes(candidates: list[CratePoint]) -> Snippet:
+def _writes(candidates: list[CratePoint], read: AbstractSet[str]) -> Snippet:
     """Return the lines that write a point that needs no other, and one that does."""
     plain, takers = _first(candidates, _is_set), filter(_takes_a_value, candidates)
-    needy = next((subject for subject in takers if subject.point.arguments and subject.point.readable), None)
+    needy = next((subject for subject in takers if subject.point.readable and subject.name in read), None)
     lines = () if plain is None else (_write(plain),)
     if needy is None:
         return Snippet(lines)
-    fields = ", ".join(f"{value_name(name)}: 1" for name in needy.point.arguments)
     with_others = (
-        "// What the scale and the limits need: raw numbers of other points, as `read_raw` gives them.",
-        f"let with = with::{needy.name} {{ {fields} }};",
+        "// What the scale and the limits need: raw numbers of other points.",
+        f"let with = with::{needy.name}::read(client)?;",
         f"client.write_with::<p::{needy.name}>(1.0, with)?;",
     )
     return Snippet(lines + with_others, frozenset(("with",)))

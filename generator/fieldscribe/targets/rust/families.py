@@ -77,7 +77,8 @@ class RustFamily:
     for the codes of refusals. The first page of a crate imports these `names`; `telegram` is the telegram to which it
     listens, as a type, and the lines that use points of it. The crate passes these `transports` on, features of the
     runtime; its first program talks over the `line` of a device (none: it has none), and imports `line_names` of the
-    runtime. `client_types` are the parameters of its clients before the device, as declared and as given.
+    runtime. `client_parameter` is the name, the default and the trait of a parameter of its clients
+    beside the transport.
     """
 
     context: Callable[[Device], Mapping[str, object]]
@@ -91,7 +92,7 @@ class RustFamily:
     transports: tuple[str, ...] = ()
     line: Callable[[Device], str] = lambda _: ""
     line_names: str = ""
-    client_types: tuple[str, str] = ("T", "T")
+    client_parameter: tuple[str, str, str] | None = None
     telegram: Callable[[CrateScope], tuple[str, Snippet]] = lambda _: ("", Snippet())
 
 

@@ -192,21 +192,23 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
     `part` is the struct of those that the scale needs, if writing needs more. `old_names` is the text of old names.
     """
     needy = [subject for subject in scope.subjects if subject.point.arguments]
-    links = _links(scope) if needy else {}
+    points = _points(scope) if needy else {}
     for subject in needy:
         old_items, part = subject.point.old_items, subject.factors_name
         if part:
             yield {
                 "doc": f"Raw numbers that the scale of `{subject.item}` needs.",
                 "name": part,
-                "fields": _fields(subject.point.scale_arguments, scope, links),
+                "fields": _fields(subject.point.scale_arguments, scope, points),
+                "read": _read(subject.point.scale_arguments, points),
                 "part": "",
                 "old_names": old_names_text(part, [f"{old}_factors" for old in old_items], render),
             }
         yield {
             "doc": f"Raw numbers that `{subject.item}` needs.",
             "name": subject.name,
-            "fields": _fields(subject.point.arguments, scope, links),
+            "fields": _fields(subject.point.arguments, scope, points),
+            "read": _read(subject.point.arguments, points),
             "part": part,
             "part_literal": fields_of(8, "Self", tuple(map(value_name, subject.point.scale_arguments))),
             "old_names": old_names_text(subject.name, old_items, render),
@@ -214,23 +216,32 @@ def argument_structs(scope: CrateScope, render: Render) -> Iterator[dict[str, ob
 
 
 def _fields(
-    names: tuple[str, ...], scope: CrateScope, links: Mapping[str, list[str]]
+    names: tuple[str, ...], scope: CrateScope, points: Mapping[str, list[CratePoint]]
 ) -> tuple[tuple[tuple[str, ...], str, str], ...]:
     return tuple(
-        (tuple(wrapped(_source(name, links))), value_name(name), raw_type(scope.lowered.points[name].shape))
+        (tuple(wrapped(_source(name, points))), value_name(name), raw_type(scope.lowered.points[name].shape))
         for name in names
     )
 
 
-def _source(name: str, links: Mapping[str, list[str]]) -> str:
+def _source(name: str, points: Mapping[str, list[CratePoint]]) -> str:
     """Return the points whose raw number an argument is: several if variants of the device differ."""
-    return f"The raw number of {' or '.join(links.get(name, ())) or f'`{name}`'}."
+    links = [f"[`{subject.name}`](crate::points::{subject.name})" for subject in points.get(name, ())]
+    return f"The raw number of {' or '.join(links) or f'`{name}`'}."
 
 
-def _links(scope: CrateScope) -> dict[str, list[str]]:
-    """Return links to the points of each name and item."""
-    links: dict[str, list[str]] = {}
+def _read(names: tuple[str, ...], points: Mapping[str, list[CratePoint]]) -> tuple[tuple[str, str], ...]:
+    """Return the fields with their points; nothing unless a client reads all of them, each of one point alone."""
+    sources = {name: points.get(name, []) for name in names}
+    if any(len(found) != 1 or not found[0].point.readable or found[0].point.telegram for found in sources.values()):
+        return ()
+    return tuple((value_name(name), found[0].name) for name, found in sources.items())
+
+
+def _points(scope: CrateScope) -> dict[str, list[CratePoint]]:
+    """Return the points of each name and item."""
+    points: dict[str, list[CratePoint]] = {}
     for subject in scope.subjects:
         for name in {subject.item, subject.point.name}:
-            links.setdefault(name, []).append(f"[`{subject.name}`](crate::points::{subject.name})")
-    return links
+            points.setdefault(name, []).append(subject)
+    return points

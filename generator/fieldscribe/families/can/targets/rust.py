@@ -166,6 +166,6 @@ IN_RUST = RustFamily(
     refusals="constant",
     names=("Frame",),
     transports=("std", "embedded-can"),
-    client_types=("T, L = ()", "T, L"),
+    client_parameter=("L", "()", "Listener"),
     telegram=telegram_of,
 )

@@ -369,3 +369,42 @@ macro_rules! point {
         }
     };
 }
+
+/// Functions by which clients read what a point needs of others, for a struct of raw numbers in the module `with`.
+#[macro_export]
+macro_rules! read_by_clients {
+    ([$($parameter:ident: $bound:path)?] $name:ident: $($field:ident $point:ident)+) => {
+        impl $name {
+            $crate::read_by_clients!(
+                @with "Reads the raw numbers by a client that blocks.", read [] []
+                Client Transport [$($parameter: $bound)?] $($field $point)+
+            );
+            $crate::read_by_clients!(
+                @with "As `read`, by a client that does not block.", read_async [async] [.await]
+                AsyncClient AsyncTransport [$($parameter: $bound)?] $($field $point)+
+            );
+            $crate::read_by_clients!(
+                @with "As `read`, by a client of one thread.", read_local [async] [.await]
+                LocalClient LocalTransport [$($parameter: $bound)?] $($field $point)+
+            );
+        }
+    };
+    (@got [] $raw:expr) => { $raw? };
+    (@got [.await] $raw:expr) => { $raw.await? };
+    (
+        @with $about:literal, $read:ident [$($async:ident)?] $wait:tt
+        $client:ident $transport:ident [$($parameter:ident: $bound:path)?] $($field:ident $point:ident)+
+    ) => {
+        #[doc = $about]
+        ///
+        /// # Errors
+        /// Whatever the client's error tells.
+        pub $($async)? fn $read<T: super::$transport $(, $parameter: $bound)?>(
+            client: &mut super::$client<T $(, $parameter)?>,
+        ) -> Result<Self, super::ClientError<T::Error>> {
+            Ok(Self {
+                $($field: $crate::read_by_clients!(@got $wait client.read_raw::<super::points::$point>()),)+
+            })
+        }
+    };
+}
