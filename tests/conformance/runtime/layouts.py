@@ -139,6 +139,7 @@ def check_own_layouts(package: Package) -> None:
     kind = package.device
     groups = (*kind.BLOCKS, *(one.name for one in getattr(kind.PROFILE, "telegrams", ())))
     variants = {axis: values[0] for axis, values in kind.VARIANTS.items()}
+    assert all(kind.BLOCKS.values())
     for group in groups:
         status, layouts = package.outcome(lambda group=group: kind.layouts(group, **variants))
         for layout in layouts if status == "ok" else ():

@@ -46,7 +46,7 @@ def package(device: Device, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 def test_nothing_is_made_up(device: Device, texts: dict[str, str]) -> None:
     """Neither a type nor a range stands where nobody says them; two reasons are told apart."""
     rows = {row["name"]: row for row in csv.DictReader(io.StringIO(texts["docs/made_up.csv"]))}
-    assert (rows["energy"]["words"], rows["open_size"]["words"]) == ("3", "1")
+    assert (rows["energy"]["words"], rows["energy"]["word_order"], rows["open_size"]["words"]) == ("3", "", "1")
     assert rows["energy"]["remarks"] == "type: 48-bit counter, the high word first"
     for name in ("energy", "open_size"):
         assert not any(rows[name][key] for key in ("type", "factor", "offset", "raw_min", "raw_max", "min", "max"))
