@@ -252,7 +252,7 @@ def test_a_description_is_compiled_on_build(tmp_path: Path, monkeypatch: pytest.
     assert part.read_text("utf-8") != good
     assert "Dirty hitachi_l200" in check().stderr
     made = list((tmp_path / "target").rglob("rust/hitachi_l200/src/points.rs"))
-    assert ["BasicFrequency: u16" in place.read_text("utf-8") for place in made] == [True]
+    assert ["BasicFrequency of " in place.read_text("utf-8") for place in made] == [True]
     part.write_text(good.replace("at: 1028h", "at: 1028g"), "utf-8")
     refused = check()
     assert refused.returncode != 0
