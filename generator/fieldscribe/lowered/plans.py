@@ -83,13 +83,13 @@ def plan_of(shape: Shape) -> Plan:
 def _countable(to_raw: Line, raws: tuple[int, int]) -> tuple[int, int] | None:
     """Return the raw numbers whose counts are computed in 64 bits; None if those are all of the type.
 
-    A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: both sides of
-    `abs(raw * divisor - add) <= most` are solved for raw. Where nothing is computed, the smallest number of 64
-    bits needs no room for a sign that is turned round.
+    A count is (raw * divisor - add) / factor, and rounding adds at most half the factor to the numerator: the product
+    leaves room for that and for `add`. Where nothing is computed, the smallest number of 64 bits needs no room for a
+    sign that is turned round.
     """
     p, q, r = to_raw
-    most = INT64[1] - abs(p) // 2
-    low, high = -((most - q) // r), (most + q) // r
+    high = (INT64[1] - abs(p) // 2 - abs(q)) // r
+    low = -high
     all_are = (low <= raws[0] or to_raw.does_nothing) and raws[1] <= high
     return None if all_are else (max(low, raws[0]), min(high, raws[1]))
 
