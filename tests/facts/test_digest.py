@@ -183,6 +183,7 @@ NEW_KEY = """    Fact(
 """One entry of the table: the export, its schema, `diff`, `explain`, pages, sheets and digests follow from it."""
 
 
+@pytest.mark.full
 def test_neither_a_new_key_nor_a_renamed_field_changes_generated_files(tmp_path: Path) -> None:
     """In a copy of the compiler, a key that no point uses is added, and a field of the model is renamed."""
     package = tmp_path / "fieldscribe"

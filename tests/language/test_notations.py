@@ -18,7 +18,7 @@ from support.places import ROOT
 REAL = ROOT / "descriptions"
 AS_WRITTEN = {"page", "serial", "timing", "errata", "values"}
 """What is repeated as it stands in the description."""
-FOLDERS = [*sorted(DEVICES.iterdir()), REAL / "siemens_mm4"]
+FOLDERS = [*sorted(DEVICES.iterdir()), pytest.param(REAL / "siemens_mm4", marks=pytest.mark.full)]
 
 BUS = "{framings: [rtu], units: 1..32, functions: {03h: {name: read, max: 16}, 06h: write, 10h: write_many}}"
 

@@ -30,6 +30,16 @@ ENCODERS = [
 ]
 
 
+def on_each_text(check: Callable[[str], None]) -> Callable[[], None]:
+    """One test of what holds for every hostile text."""
+
+    def test() -> None:
+        for hostile in HOSTILE:
+            check(hostile)
+
+    return test
+
+
 @pytest.mark.parametrize("encode", ENCODERS)
 def test_no_result_holds_control_or_format_characters(encode: Callable[[str], str]) -> None:
     for hostile in HOSTILE:
@@ -44,7 +54,7 @@ def test_a_line_keeps_what_people_can_read() -> None:
     assert text.line("\u00a0x\u2003y") == "x y"
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_c_comment_ends_where_it_should(hostile: str) -> None:
     result = text.c_comment(hostile)
     for comment in (f"/* {result} */", f"/** {result}. */", f" * {result}\n */"):
@@ -55,7 +65,7 @@ def test_a_c_comment_ends_where_it_should(hostile: str) -> None:
     assert not result.endswith("\\")
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_c_string_holds_the_bytes_of_its_text(hostile: str) -> None:
     literal = text.c_string(hostile)
     assert re.fullmatch(r'"(?:[ -!#-\[\]-~]|\\[0-7]{3})*"', literal)
@@ -64,12 +74,12 @@ def test_a_c_string_holds_the_bytes_of_its_text(hostile: str) -> None:
     assert octal.encode("latin-1").decode("utf-8") == text.line(hostile)
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_python_string_is_its_text(hostile: str) -> None:
     assert ast.literal_eval(text.python_string(hostile)) == text.line(hostile)
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_docstring_is_one_string(hostile: str) -> None:
     result = text.python_doc(hostile)
     tree = ast.parse(f'def f() -> None:\n    """{result}"""\n    # {result}\n')
@@ -81,21 +91,21 @@ def test_a_docstring_is_one_string(hostile: str) -> None:
     assert shown == text.line(hostile).replace('"', "'")
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_rust_string_has_no_open_escape(hostile: str) -> None:
     literal = text.rust_string(hostile)
     assert re.fullmatch(r'"(?:[^"\\\r\n]|\\["\\]|\\u\{[0-9a-f]+\})*"', literal)
     assert re.sub(r'\\(["\\])', r"\1", literal[1:-1]) == text.line(hostile)
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_rust_code_is_one_span(hostile: str) -> None:
     result = text.rust_code(hostile)
     assert re.fullmatch(r"`[^`\r\n]*`", result)
     assert result[1:-1] == text.line(hostile).replace("`", "'")
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_markdown_cell_shows_its_text(hostile: str) -> None:
     parser = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
     html = parser.render(f"| a | b |\n| --- | --- |\n| x{text.markdown(hostile)}y | z |\n")
@@ -149,7 +159,7 @@ def test_a_csv_cell_as_spreadsheets_read_it(plain: str) -> None:
     assert text.csv_cell(plain) == PLAIN_CELLS[plain]
 
 
-@pytest.mark.parametrize("hostile", HOSTILE)
+@on_each_text
 def test_a_csv_cell_is_one_cell_and_no_formula(hostile: str) -> None:
     row = f"first,{text.csv_cell(hostile)},last"
     (cells,) = csv.reader(io.StringIO(row))

@@ -256,6 +256,7 @@ def test_examples_of_the_runtime_run(workspace: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.full
 def test_rustfmt_changes_nothing(workspace: Path) -> None:
     tool("rustfmt")
     assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)

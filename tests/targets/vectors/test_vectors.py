@@ -6,7 +6,6 @@ import struct
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 import pytest
@@ -302,18 +301,16 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         yield "fewer bits", changed(subject, bits=(high - 1, low))
 
 
-CHANGES = [
-    pytest.param(subject.item, other, id=f"{subject.item}: {what}")
-    for subject in SAMPLE.points
-    if subject.generated
-    for what, other in one_fact_at_a_time(subject)
-]
+@pytest.mark.parametrize("item", [subject.item for subject in SAMPLE.points if subject.generated])
+def test_a_changed_fact_is_caught(item: str) -> None:
+    right = [vector for vector in vectors_of(item, SAMPLE) if vector.get("point") == item]
 
+    def is_caught(other: Point) -> bool:
+        changed_vectors = vectors_of(item, sample_with(item, lambda _: other))
+        return any(vector not in changed_vectors for vector in right)
 
-@pytest.mark.parametrize(("item", "other"), CHANGES)
-def test_a_changed_fact_is_caught(item: str, other: Point) -> None:
-    changed_vectors = vectors_of(item, sample_with(item, lambda _: other))
-    assert [vector for vector in own_vectors(item) if vector not in changed_vectors]
+    subject = next(point for point in SAMPLE.points if point.item == item)
+    assert [what for what, other in one_fact_at_a_time(subject) if not is_caught(other)] == []
 
 
 def vectors_of(item: str, device: Device) -> list[Vector]:
@@ -321,9 +318,3 @@ def vectors_of(item: str, device: Device) -> list[Vector]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(modbus_vectors, "frames", lambda *_: None)
         return vectors(select(device, [item]))
-
-
-@cache
-def own_vectors(item: str) -> list[Vector]:
-    """The vectors of a point of the sample as it is."""
-    return [vector for vector in vectors_of(item, SAMPLE) if vector.get("point") == item]
