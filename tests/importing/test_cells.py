@@ -156,50 +156,30 @@ def test_text_of_cells() -> None:
     assert [cells.phrase(cell) for cell in ("—", "--", "-5", " a\nb ")] == ["", "", "-5", "a b"]
 
 
-@pytest.mark.parametrize(
-    ("heading", "role"),
-    [
-        ("Fkt.-Nr", "code"),
-        ("Parameter no.", "code"),
-        ("Reg. (hex)", "address"),
-        ("Modbus address", "address"),
-        ("Coil-Nr. (dez)", "address"),
-        ("Start Register", "address"),
-        ("Adresse", "address"),
-        ("PNU", "address"),
-        ("Funktion", "name"),
-        ("Bezeichnung", "name"),
-        ("R/W", "access"),
-        ("Zugriff", "access"),
-        ("Wertebereich", "range"),
-        ("Min-Max", "range"),
-        ("Min.", "least"),
-        ("Maximalwert", "greatest"),
-        ("Unit", "unit"),
-        ("Maßeinheit", "unit"),
-        ("Factory setting", "default"),
-        ("Werkseinstellung", "default"),
-        ("Res.", "step"),
-        ("Auflösung", "step"),
-        ("Data type", "type"),
-        ("Daten-\ntyp", "type"),
-        ("Length", "length"),
-        ("Anzahl Register", "length"),
-        ("Bit", "bits"),
-        ("Register type", "space"),
-        ("FC", "space"),
-        ("Beschreibung", "description"),
-        ("Remarks", "description"),
-        ("Berechnungsformel:", "formula"),
-        ("Nr.", None),
-        ("Grundwert", None),
-        ("Colour", None),
-        ("", None),
-        ("A sentence that is much too long to be the head of a column of a table", None),
-    ],
-)
-def test_usual_headings(heading: str, role: str | None) -> None:
-    assert role_of(heading) == role
+HEADINGS: dict[str | None, list[str]] = {
+    "code": ["Fkt.-Nr", "Parameter no."],
+    "address": ["Reg. (hex)", "Modbus address", "Coil-Nr. (dez)", "Start Register", "Adresse", "PNU"],
+    "name": ["Funktion", "Bezeichnung"],
+    "access": ["R/W", "Zugriff"],
+    "range": ["Wertebereich", "Min-Max"],
+    "least": ["Min."],
+    "greatest": ["Maximalwert"],
+    "unit": ["Unit", "Maßeinheit"],
+    "default": ["Factory setting", "Werkseinstellung"],
+    "step": ["Res.", "Auflösung"],
+    "type": ["Data type", "Daten-\ntyp"],
+    "length": ["Length", "Anzahl Register"],
+    "bits": ["Bit"],
+    "space": ["Register type", "FC"],
+    "description": ["Beschreibung", "Remarks"],
+    "formula": ["Berechnungsformel:"],
+    None: ["Nr.", "Grundwert", "Colour", "", "A sentence that is much too long to be the head of a column of a table"],
+}
+
+
+@pytest.mark.parametrize("role", HEADINGS)
+def test_usual_headings(role: str | None) -> None:
+    assert {heading: role_of(heading) for heading in HEADINGS[role]} == dict.fromkeys(HEADINGS[role], role)
 
 
 def test_names_are_short_and_unique() -> None:
