@@ -61,11 +61,8 @@ def test_messages_of_a_makers_protocol(device: Device) -> None:
     assert {"ok", "wrong_check", "wrong_constant", "wrong_length", "wrong_id", "wrong_unit"} <= judged
 
 
-@pytest.mark.parametrize(
-    "device",
-    [made("kitchen_uss"), pytest.param(shipped("siemens_mm4"), marks=pytest.mark.full)],
-    ids=lambda one: str(one.id),
-)
+@pytest.mark.full
+@pytest.mark.parametrize("device", [made("kitchen_uss"), shipped("siemens_mm4")], ids=lambda one: one.id)
 def test_answers_of_uss(device: Device) -> None:
     """Refusals are answers; a telegram of another unit, parameter or task, or with a wrong byte, is a fault."""
     judged = set()

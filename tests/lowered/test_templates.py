@@ -86,11 +86,9 @@ LANGUAGES = (c, python, rust)
 FILLED = (point_templates, attributes, python_enums, conformance, point_macros, rust_enums)
 """The modules that fill templates."""
 
+SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
 DEVICES: dict[str, Callable[[], Device]] = {
-    **{
-        name: partial(shipped, name)
-        for name in ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woodward_mpu2s")
-    },
+    **{name: partial(shipped, name) for name in SHIPPED},
     **{
         name: partial(made, name)
         for name in ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss", "odd_names")
@@ -122,7 +120,9 @@ def unshared(device: Device, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
         return texts(device)
 
 
-@pytest.mark.parametrize("name", DEVICES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.full if name in SHIPPED else ()) for name in DEVICES]
+)
 def test_sharing_templates_changes_no_text(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     device = DEVICES[name]()
     assert texts(device) == unshared(device, monkeypatch)

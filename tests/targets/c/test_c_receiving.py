@@ -130,6 +130,7 @@ def test_headers_of_two_descriptions_do_not_compile_together(family: str, tmp_pa
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="steps through instructions of x86")
+@pytest.mark.full(seconds=2)
 @pytest.mark.parametrize("level", ["-O0", "-O2"])
 def test_words_of_a_telegram_are_of_one_moment_in_interrupts(level: str, tmp_path: Path) -> None:
     source = ROOT / "tests/targets/c/programs/can_interrupts.c"
