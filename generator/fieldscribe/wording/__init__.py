@@ -198,7 +198,8 @@ def width_texts(point: Point) -> tuple[str, ...]:
 def overflow_texts(point: Point) -> tuple[str, ...]:
     """Return with which numbers a scaled point overflows that its type, or that of a factor, holds."""
     texts = [f"overflows beyond raw {point.most_raw} in size"] if point.most_raw is not None else []
-    factors = [factor for case in point.scale or () for factor in case.rule.factors]
+    cases = point.scale if point.scale_arguments else None
+    factors = [factor for case in cases or () for factor in case.rule.factors]
     ranges = {factor.point: factor.within for factor in factors if factor.within is not None and not factor.ten_to}
     texts += [f"overflows while {name} is outside {low}..{high}" for name, (low, high) in ranges.items()]
     return tuple(texts) if point.generated else ()
