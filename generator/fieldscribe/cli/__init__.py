@@ -94,6 +94,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"fieldscribe: {error.strerror or type(error).__name__}{place}", file=sys.stderr)
         if error.errno == ENAMETOOLONG:
             print("  hint: give a shorter name, or a shorter path", file=sys.stderr)
+        if error.filename is None:
+            _discard_output()
         return USAGE
     except Exception as error:
         from fieldscribe.diagnostics import show_traceback
@@ -206,7 +208,7 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
 
 
 def _discard_output() -> None:
-    """Send the rest of the output nowhere, also at interpreter exit: the reader closed the pipe."""
+    """Send the rest of the output nowhere, also at interpreter exit: the pipe is closed, or the disk is full."""
     try:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, ValueError):

@@ -19,6 +19,7 @@ from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import PointDoc, left_out
 from fieldscribe.targets.rust.families import in_rust
 from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import CratePoint, scope_of
 from support.described import kitchen_sink, shipped
 from support.made_once import made_once
@@ -329,13 +330,14 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
 WITHOUT_COUNTS = ("float", "text", "digits")
 CLIENTS = {
     "modbus": """use fieldscribe_runtime::client::Transport;
-use @DEVICE@::{Block, Client, Command};
+use fieldscribe_runtime::modbus::Command;
+use @DEVICE@::{Block, Client};
 pub struct Line;
 impl Transport for Line {
     type Error = ();
     fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
 }
-pub fn command(client: &mut Client<Line>, command: &Command) -> bool { client.command(command).is_ok() }
+pub fn command(client: &mut Client<Line>, command: &Command<@DEVICE@::@TYPE@>) -> bool { client.command(command).is_ok() }
 pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
     "can": """use @DEVICE@::{Client, Frame, Receiver, Transport};
 pub struct Line;
@@ -359,7 +361,11 @@ def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
     model = MODELS[device]()
     names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
-    lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "").replace("@DEVICE@", device)]
+    lines = [
+        "#![no_std]",
+        f"use {device}::{{{names}}};",
+        CLIENTS.get(model.family, "").replace("@DEVICE@", device).replace("@TYPE@", type_name(device)),
+    ]
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
