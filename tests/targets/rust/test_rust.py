@@ -337,7 +337,8 @@ impl Transport for Line {
     type Error = ();
     fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
 }
-pub fn command(client: &mut Client<Line>, command: &Command<@DEVICE@::@TYPE@>) -> bool { client.command(command).is_ok() }
+use @DEVICE@::@TYPE@ as Device;
+pub fn command(client: &mut Client<Line>, command: &Command<Device>) -> bool { client.command(command).is_ok() }
 pub fn block(client: &mut Client<Line>, block: &Block) -> bool { client.read_block(block).is_ok() }""",
     "can": """use @DEVICE@::{Client, Frame, Receiver, Transport};
 pub struct Line;
@@ -361,11 +362,8 @@ def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
     model = MODELS[device]()
     names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
-    lines = [
-        "#![no_std]",
-        f"use {device}::{{{names}}};",
-        CLIENTS.get(model.family, "").replace("@DEVICE@", device).replace("@TYPE@", type_name(device)),
-    ]
+    client = CLIENTS.get(model.family, "").replace("@DEVICE@", device).replace("@TYPE@", type_name(device))
+    lines = ["#![no_std]", f"use {device}::{{{names}}};", client]
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
