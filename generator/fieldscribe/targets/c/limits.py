@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from math import prod
+from operator import attrgetter
 
 from fieldscribe.arithmetic.words import INT64, ends_without
 from fieldscribe.lowered import Operand, Rule
@@ -147,7 +148,15 @@ def rule_view(point: Point, scope: HeaderScope) -> RuleView:
     content = f"({', '.join(parameters)}) {body}"
     name = scope.named_after_first(point.item, "rule", content)
     text = function("static inline fieldscribe_rule", name, parameters, body).text
-    return RuleView(name, text if name == f"{scope.prefix}_{point.item}_rule" else "")
+    return RuleView(name, text)
+
+
+def name_shared(points: Iterable[Point], scope: HeaderScope) -> None:
+    """Name tables of ranges and rules after the point with the lowest address, wherever it is described."""
+    for point in sorted(points, key=attrgetter("rank")):
+        ranges_table(point, scope)
+        if point.form == "scaled" and point.scale_arguments:
+            rule_view(point, scope)
 
 
 def _rule_of(point: Point, scope: HeaderScope) -> str:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from fieldscribe.model import Device, Point
 from fieldscribe.targets.c.declarations import PointComment, range_words
-from fieldscribe.targets.c.limits import has_ranges_table
+from fieldscribe.targets.c.limits import has_ranges_table, name_shared
 from fieldscribe.targets.c.literals import bare, hexadecimal, signed
 from fieldscribe.targets.c.point_views import point_view
 from fieldscribe.targets.c.scales import Scaled
@@ -54,9 +54,10 @@ def texts_of(points: Iterable[GeneratedPoint], lay_out: Callable[[PointView], st
 
 def generated_points(device: Device, scope: HeaderScope, *, names_only: bool = False) -> list[GeneratedPoint]:
     """Return the points of a device that have code; with `names_only` just with what their names follow from."""
+    points = [point for point in device.points if point.generated]
+    name_shared(points, scope)
     views = _PointViews(scope)
-    make = views.named if names_only else views.generated
-    return [make(point) for point in device.points if point.generated]
+    return list(map(views.named if names_only else views.generated, points))
 
 
 class _PointViews:

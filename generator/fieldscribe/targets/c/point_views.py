@@ -15,7 +15,7 @@ from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.scales import Scaled
 from fieldscribe.targets.c.scope import HeaderScope
 from fieldscribe.targets.c.special_codes import FUNCTIONS, special_view
-from fieldscribe.targets.c.views import EnumView, PointFields, PointView
+from fieldscribe.targets.c.views import EnumView, PointFields, PointView, RuleView
 from fieldscribe.targets.c.word_functions import (
     bits_functions,
     digits_functions,
@@ -48,7 +48,7 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
         tables=tuple(_tables(point, name, scope)),
         struct=struct,
         members=tuple((raw_type(scope.points[member]), f"{member}_raw") for member in members),
-        rule=rule_view(point, scope) if shape == "ruled" else None,
+        rule=_first_rule_view(point, scope) if shape == "ruled" else None,
         shape=shape,
         raw_type=raw_type(point),
         special=special_view(point, fields, scope, brings=brings_codes),
@@ -59,6 +59,11 @@ def point_view(point: Point, fields: PointFields, scope: HeaderScope, scale: Sca
 def names_of(enum: Enum, point: Point, fields: PointFields) -> tuple[str, str]:
     """Return the name of a point's enum, also in capitals; an enum of its own has the point's name."""
     return (fields.item, fields.macro) if enum.name == point.item else (enum.name, upper(enum.name))
+
+
+def _first_rule_view(point: Point, scope: HeaderScope) -> RuleView:
+    rule = rule_view(point, scope)
+    return rule if scope.is_first(point.item, rule.name) else rule._replace(text="")
 
 
 def shape_of(point: Point) -> str:
@@ -111,7 +116,7 @@ def _tables(point: Point, name: str, scope: HeaderScope) -> Iterator[tuple[str, 
     if point.text is not None:
         rows = filled(map(hexadecimal, point.place.addresses), ", ", "    ")
         yield f"uint16_t {name}_addresses[{point.words}]", tuple(rows)
-    elif (table := ranges_table(point, scope)) == f"{name}_ranges":
+    elif (table := ranges_table(point, scope)) and scope.is_first(point.item, table):
         rows = filled((f"{{{bare(low)}, {bare(high)}}}" for low, high in point.allowed.fixed), ", ", "    ")
         yield f"fieldscribe_range {table}[]", tuple(rows)
 

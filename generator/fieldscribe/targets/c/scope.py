@@ -35,7 +35,7 @@ class HeaderScope:
         return self.lowered.points
 
     def named_after_first(self, point: str, sort: str, content: str) -> str:
-        """Return the name of something shared: that of the first point that has this content, with `sort` behind it."""
+        """Return the name of something shared: that of the first point asked about with this content, then `sort`."""
         return f"{self.prefix}_{self.shared.setdefault(content, point)}_{sort}"
 
     def is_first(self, point: str, name: str) -> bool:
