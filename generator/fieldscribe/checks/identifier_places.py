@@ -94,7 +94,11 @@ def _enums(analysis: Analysis) -> Iterator[_LocatedEnum]:
         if (enum.name, id(entries)) in seen:
             continue
         seen.add((enum.name, id(entries)))
-        thing = _shared_enum(analysis, enum.name) if by_name else Thing(f"the enum of `{facts.name}`", facts.span(key))
+        thing = (
+            _shared_enum(analysis, enum_as_written)
+            if by_name
+            else Thing(f"the enum of `{facts.name}`", facts.span(key))
+        )
         yield _LocatedEnum(enum.name, enum.was, thing, entries)
 
 
