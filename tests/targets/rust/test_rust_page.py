@@ -202,11 +202,18 @@ def test_first_pages_run_with_all_features(project: Path) -> None:
 
 
 @pytest.mark.full(seconds=8)
-def test_cargo_packages_the_crates(project: Path) -> None:
+def test_cargo_packages_the_crates(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Together, since no registry has the runtime; the only thing missing is where the sources are."""
     version = re.search(r"cargo 1\.(\d+)", succeed([tool("cargo"), "--version"]))
     if version is None or int(version[1]) < 90:
         pytest.skip("cargo before 1.90 packages one crate at a time, with what it needs in a registry")
+    # Cargo unpacks the runtime into its home and would find there what an earlier run packaged.
+    usual, home = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo")), tmp_path / "cargo"
+    (home / "registry").mkdir(parents=True)
+    for name in ("config.toml", "registry/index", "registry/cache"):
+        if (usual / name).exists():
+            (home / name).symlink_to(usual / name)
+    monkeypatch.setenv("CARGO_HOME", str(home))
     members = [word for name in ("fieldscribe_runtime", *DEVICES) for word in ("--package", name)]
     done = run([tool("cargo"), "package", "--offline", "--allow-dirty", *members], cwd=project)
     assert done.returncode == 0, done.stderr
