@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
 from fieldscribe.checks.distinct_names import PointKinds
+from fieldscribe.lowered import lower
 from fieldscribe.model import Device
 from fieldscribe.targets import knows, target
 from support.described import compile_in, group, head, made, shipped, together
@@ -16,19 +17,22 @@ SHIPPED = ("hitachi_l200", "jumo_controller", "nord_sk5xxe", "siemens_mm4", "woo
 MADE = ("kitchen_can", "kitchen_codes", "kitchen_sink", "kitchen_uss")
 
 
-class _TooCoarse(PointKinds):
-    """Takes all points of a type for one kind: too coarse, as a counterexample."""
-
-    kind = property(lambda _: lambda point: point.shape.type)
+def keys_of(device: Device) -> Mapping[int, Hashable]:
+    return lower(device).template_keys
 
 
-def strangers(device: Device, kinds: PointKinds, language: str) -> Iterator[str]:
+def too_coarse(device: Device) -> Mapping[int, Hashable]:
+    """All points of a type are taken for one kind, as a counterexample."""
+    return {id(point): point.shape.type for point in device.points}
+
+
+def strangers(device: Device, keys: Mapping[int, Hashable], language: str) -> Iterator[str]:
     """Yield the identifiers of points that the first point of their kind lacks, with its own name put in."""
-    identifiers = target(language).identifiers
+    identifiers, kinds = target(language).identifiers, PointKinds(device, keys)
     sample = {(space, name) for space, _, names, _ in identifiers(kinds.sample) for name in map(plain, names)}
     known = kinds.names
     first: dict[object, str] = {}
-    stands_for = {point.item: first.setdefault(kinds.kind(point), point.item) for point in device.points}
+    stands_for = {point.item: first.setdefault(keys[id(point)], point.item) for point in device.points}
     for space, owner, names, _ in identifiers(device):
         whole = owner
         while whole.of is not None:
@@ -54,18 +58,18 @@ def devices() -> list[Device]:
 def test_points_of_a_kind_have_the_same_names(language: str) -> None:
     for device in devices():
         if knows(language, device):
-            assert list(strangers(device, PointKinds(device), language)) == []
+            assert list(strangers(device, keys_of(device), language)) == []
 
 
 def test_a_kind_that_is_too_coarse_is_noticed() -> None:
-    assert any(list(strangers(device, _TooCoarse(device), "c")) for device in devices())
+    assert any(list(strangers(device, too_coarse(device), "c")) for device in devices())
 
 
 def test_large_devices_are_proven() -> None:
     """But for the names in C that are longer than all compilers compare."""
-    hitachi, woodward = shipped("hitachi_l200"), shipped("woodward_mpu2s")
-    assert all(PointKinds(hitachi).are_distinct(target(language).identifiers) for language in LANGUAGES)
-    assert [PointKinds(woodward).are_distinct(target(language).identifiers) for language in LANGUAGES] == [0, 1, 1]
+    for name, proven in (("hitachi_l200", [1, 1, 1]), ("woodward_mpu2s", [0, 1, 1])):
+        kinds = PointKinds(shipped(name), keys_of(shipped(name)))
+        assert [kinds.are_distinct(target(language).identifiers) for language in LANGUAGES] == proven
 
 
 @pytest.mark.parametrize(("second", "clash"), [("x_y", True), ("x_w", False), ("xy", False)])

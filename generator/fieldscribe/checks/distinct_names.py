@@ -10,31 +10,31 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from fieldscribe.lowered.template_keys import TemplateKeys
-from fieldscribe.model import Device, Point
+from fieldscribe.model import Device
 from fieldscribe.targets.identifiers import Names, Owner, clashes, resemblances
 
 
 class PointKinds:
     """The points of a device by kind: those of a kind have the same text in generated code but for their names.
 
-    `names` are the plain names of all points of a kind with several points, each with that of the first point of its
-    kind. `sample` is the device with the first point of each kind and with all other points.
+    The keys of points, by their ids, tell their kinds. `names` are the plain names of all points of a kind with several
+    points, each with that of the first point of its kind. `sample` is the device with the first point of each kind and
+    with all other points.
     """
 
-    def __init__(self, device: Device) -> None:
+    def __init__(self, device: Device, keys: Mapping[int, Hashable]) -> None:
         needed = _needed(device)
         kinds = {
-            item: self.kind(point)
+            item: keys[id(point)]
             for point in device.points
             if (item := point.item) not in needed and point.name not in needed
         }
         sizes = Counter(kinds.values())
-        first: dict[object, str] = {}
+        first: dict[Hashable, str] = {}
         self.names: dict[str, str] = {}
         self._longest: dict[str, int] = {}
         several = [item for item, kind in kinds.items() if sizes[kind] > 1]
@@ -45,11 +45,6 @@ class PointKinds:
         self._are_unique = len(self.names) == len(several)
         left_out = {item for item in several if self.names[_plain(item)] != _plain(item)}
         self.sample = _sample(device, left_out)
-
-    @cached_property
-    def kind(self) -> Callable[[Point], object]:
-        """The function that returns the kind of a point."""
-        return TemplateKeys().of
 
     def are_distinct(self, identifiers: Callable[[Device], Iterable[Names]]) -> bool:
         """Return True if all identifiers of a target are proven to differ, in the characters that it compares."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.checks.distinct_names import PointKinds
 from fieldscribe.checks.identifier_places import IdentifierPlaces, Named, Thing, given_names, thing_of
+from fieldscribe.lowered import lower
 from fieldscribe.resolve.analysis import Analysis
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def _compare_targets(analysis: Analysis, reported: set[frozenset[Thing]]) -> Non
     from fieldscribe.targets.identifiers import clashes, resemblances
 
     owners, device = IdentifierPlaces(analysis), analysis.code_device
-    kinds = PointKinds(device)
+    kinds = PointKinds(device, lower(device).template_keys)
     for language in [target(name) for name in TARGETS if knows(name, device)]:
         if language.NAMES_CONTAIN_POINT and kinds.are_distinct(language.identifiers):
             continue

@@ -15,7 +15,7 @@ from typing import Any
 
 from fieldscribe.facts.devices import device_table
 from fieldscribe.facts.points import POINT
-from fieldscribe.facts.table import Context, Fact, stated
+from fieldscribe.facts.table import Context, Fact, FactTable, stated
 from fieldscribe.model import Device, Point
 
 
@@ -26,27 +26,40 @@ def with_digest(device: Device, plain: Device) -> tuple[Device, Device]:
 
 
 def facts_digest(device: Device) -> str:
-    """Return the digest of all facts of a device, also those for people, but not of its version."""
-    return _digest(device, Context(device), ("points", "version"))
+    """Return the digest of all facts of a device, also those for people, but not of its version.
+
+    The device has its digest for code: of the points only what that leaves out is added.
+    """
+    for_people = tuple(fact for fact in POINT if _has_texts(fact))
+    return _digest(device, Context(device), ("points", "version"), for_people, device.digest)
 
 
-def _digest(device: Device, context: Context, left_out: tuple[str, ...]) -> str:
+def _has_texts(fact: Fact) -> bool:
+    """Return True if code does not see a fact of a point, or not all of it; of terms it never sees all."""
+    return fact.for_people or fact.holder == "terms" or any(map(_has_texts, fact.table or ()))
+
+
+def _digest(
+    device: Device, context: Context, left_out: tuple[str, ...], of_points: FactTable = POINT, start: str = ""
+) -> str:
     table = tuple(fact for fact in device_table(device.family) if fact.key not in left_out)
-    checksum = sha256(_canonical(stated(table, device, context)))
-    for text in _points(device, context):
+    checksum = sha256(start.encode() + _canonical(stated(table, device, context)))
+    for text in _points(device, context, of_points):
         checksum.update(text)
     return checksum.hexdigest()
 
 
-def _points(device: Device, context: Context) -> Iterator[bytes]:
+def _points(device: Device, context: Context, facts: FactTable) -> Iterator[bytes]:
     """The facts of the points: those that points share point by point, the others fact by fact."""
     for shared, holder in _HOLDERS.items():
-        table = tuple(fact for fact in POINT if fact.holder == shared)
+        table = tuple(fact for fact in facts if fact.holder == shared)
+        if not table:
+            continue
         keys = list(map(holder, device.points))
         points = dict(zip(keys, device.points, strict=True))
         texts = {key: _canonical(stated(table, point, context)) for key, point in points.items()}
         yield b"".join(map(texts.__getitem__, keys))
-    for fact in sorted(POINT, key=attrgetter("key")):
+    for fact in sorted(facts, key=attrgetter("key")):
         if not (fact.holder or fact.derived or (fact.for_people and context.for_code)):
             values = _values(fact, device, context)
             if any(value is not None and value != fact.usual for value in values):

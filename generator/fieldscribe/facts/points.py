@@ -148,6 +148,7 @@ POINT: FactTable = (
         "The record it belongs to.",
         TEXT_OR_NULL,
         DOCS,
+        for_people=True,
         label="Record",
         remark="record {}",
         column="the record that it belongs to",

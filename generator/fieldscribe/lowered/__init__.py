@@ -92,18 +92,19 @@ class Lowered:
 
     @cached_property
     def template_keys(self) -> Mapping[int, int]:
-        """The template key of each generated point, by the point's id."""
+        """The template key of each point, by the point's id."""
         key_of = TemplateKeys().of
-        return {id(point): key_of(point) for point in self.device.points if point.generated}
+        return {id(point): key_of(point) for point in self.device.points}
 
 
 _kept: list[Lowered] = []
-"""The device that was lowered last: the targets of a run ask for the same device one after the other."""
+"""The device that was lowered last: checks and targets of a run ask for the same device one after the other."""
 
 
 def lower(device: Device) -> Lowered:
-    """Return the lowered model of a device, made once for all targets that ask for the same one in a row."""
-    if not _kept or _kept[0].device is not device:
+    """Return the lowered model of a device, made once for all that ask for the same points and errata in a row."""
+    kept = _kept[0].device if _kept else None
+    if kept is None or kept.points is not device.points or kept.errata is not device.errata:
         _kept[:] = [Lowered(device)]
     return _kept[0]
 
