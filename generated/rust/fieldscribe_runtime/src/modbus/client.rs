@@ -4,6 +4,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::reply::wrong_length;
 use super::{
     About, Block, BuildError, Command, Framing, Profile, Reply, ReplyError, Request, LONGEST,
 };
@@ -119,6 +120,8 @@ struct Unit {
     transaction: u16,
     sent: [u8; LONGEST],
     received: [u8; LONGEST],
+    /// How many bytes the last reply had.
+    length: usize,
 }
 
 impl Unit {
@@ -130,6 +133,7 @@ impl Unit {
             transaction: 0,
             sent: [0; LONGEST],
             received: [0; LONGEST],
+            length: 0,
         }
     }
 
@@ -144,6 +148,7 @@ impl Unit {
 
     /// The frame to send and the space for its reply: none if the request goes to all units.
     fn frames(&mut self, request: &Request<'_>) -> Result<(&[u8], &mut [u8]), BuildError> {
+        self.length = 0;
         let length = request.build(self.profile, &mut self.sent)?;
         let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
         if self.profile.is_broadcast(request.unit()) {
@@ -153,18 +158,32 @@ impl Unit {
         }
     }
 
-    fn reply<D>(
-        &self,
+    /// What the bytes that came say; nothing if the request went to all units.
+    fn reply<D, E>(
+        &mut self,
         request: &Request<'_>,
         length: usize,
-    ) -> Result<Option<Reply<'_, D>>, ReplyError> {
+    ) -> Result<Option<Reply<'_, D>>, ClientError<E>> {
         if self.profile.is_broadcast(request.unit()) {
             return Ok(None);
         }
-        let received = self.received.get(..length).ok_or(ReplyError::LongFrame)?;
-        let reply = request.parse(received);
-        let named = reply.map_err(|error| self.profile.named(error));
-        named.map(|reply| Some(reply.of_device()))
+        self.length = length.min(LONGEST);
+        let parsed = if length > LONGEST {
+            Err(wrong_length(length, LONGEST))
+        } else {
+            request.parse_of(self.received())
+        };
+        match parsed {
+            Ok(reply) => Ok(Some(reply)),
+            Err(error) => Err(ClientError::Reply(
+                self.profile.named(error),
+                Some(request.about()),
+            )),
+        }
+    }
+
+    fn received(&self) -> &[u8] {
+        self.received.get(..self.length).unwrap_or_default()
     }
 }
 
@@ -211,6 +230,11 @@ macro_rules! client {
                 &mut self.transport
             }
 
+            /// The bytes of the last reply, also of one that was none; none if the line failed.
+            pub fn received(&self) -> &[u8] {
+                self.unit.received()
+            }
+
             /// The transport back.
             pub fn into_transport(self) -> T {
                 self.transport
@@ -232,8 +256,7 @@ macro_rules! client {
                 let (sent, space) = frames.map_err(|error| ClientError::Build(error, about))?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
                 let length = answer.map_err(|error| ClientError::Transport(error, about))?;
-                let reply = self.unit.reply(&request, length);
-                reply.map_err(|error| ClientError::Reply(error, about))
+                self.unit.reply(&request, length)
             }
 
             /// A point's raw number.
@@ -262,7 +285,7 @@ macro_rules! client {
             $($async)? fn answered(&mut self, request: Request<'_>) -> Result<Reply<'_, D>, ClientError<T::Error>> {
                 let about = Some(request.about());
                 let reply = self.exchange(request)$($wait)*?;
-                reply.ok_or(ClientError::Reply(ReplyError::ShortFrame, about))
+                reply.ok_or(ClientError::Build(BuildError::NotForAll, about))
             }
 
             read_methods! {

@@ -106,16 +106,31 @@ impl core::error::Error for BuildError {}
 pub enum ReplyError {
     /// The request's own function is none of Modbus.
     BadFunction,
-    /// Bytes are missing.
-    ShortFrame,
+    /// Bytes are missing: of the frame, or of the shortest one where its length did not come.
+    ShortFrame {
+        /// How many bytes the frame has.
+        expected: u16,
+        /// How many came.
+        received: u16,
+    },
     /// There are more bytes than the frame has.
-    LongFrame,
+    LongFrame {
+        /// How many bytes the frame has.
+        expected: u16,
+        /// How many came.
+        received: u16,
+    },
     /// The checksum is wrong.
     BadCrc,
     /// The protocol number of the TCP head is not 0.
     BadProtocol,
     /// The reply belongs to another transaction.
-    WrongTransaction,
+    WrongTransaction {
+        /// The transaction of the request.
+        expected: u16,
+        /// The transaction of the reply.
+        received: u16,
+    },
     /// Another unit replied.
     WrongUnit {
         /// The unit of the request.
@@ -159,11 +174,11 @@ impl ReplyError {
     pub const fn name(self) -> &'static str {
         match self {
             Self::BadFunction => "bad_function",
-            Self::ShortFrame => "short_frame",
-            Self::LongFrame => "long_frame",
+            Self::ShortFrame { .. } => "short_frame",
+            Self::LongFrame { .. } => "long_frame",
             Self::BadCrc => "bad_crc",
             Self::BadProtocol => "bad_protocol",
-            Self::WrongTransaction => "wrong_transaction",
+            Self::WrongTransaction { .. } => "wrong_transaction",
             Self::WrongUnit { .. } => "wrong_unit",
             Self::WrongFunction { .. } => "wrong_function",
             Self::Exception { .. } => "exception",
@@ -177,11 +192,17 @@ impl fmt::Display for ReplyError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::BadFunction => formatter.write_str("the function is none of Modbus"),
-            Self::ShortFrame => formatter.write_str("the frame is too short"),
-            Self::LongFrame => formatter.write_str("the frame is too long"),
+            Self::ShortFrame { expected, received } | Self::LongFrame { expected, received } => {
+                write!(formatter, "{received} bytes came instead of {expected}")
+            }
             Self::BadCrc => formatter.write_str("the checksum is wrong"),
             Self::BadProtocol => formatter.write_str("the protocol number is not 0"),
-            Self::WrongTransaction => formatter.write_str("the reply is to another transaction"),
+            Self::WrongTransaction { expected, received } => {
+                write!(
+                    formatter,
+                    "the reply is to transaction {received} instead of {expected}"
+                )
+            }
             Self::WrongUnit { expected, received } => {
                 write!(formatter, "unit {received} replied instead of {expected}")
             }

@@ -25,17 +25,6 @@ pub struct Reply<'a, D = AnyDevice> {
 }
 
 impl<'a, D> Reply<'a, D> {
-    /// The same reply, which another device gave.
-    pub(super) fn of_device<E>(self) -> Reply<'a, E> {
-        Reply {
-            function: self.function,
-            address: self.address,
-            count: self.count,
-            items: self.items,
-            device: PhantomData,
-        }
-    }
-
     /// How many items the reply brings; none for a write of several items.
     #[must_use]
     pub const fn count(&self) -> u16 {
@@ -117,70 +106,83 @@ impl Request<'_> {
     /// # Errors
     /// Why the bytes are no such reply, or the exception that the device answers with.
     pub fn parse<'b>(&self, bytes: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
+        self.parse_of(bytes)
+    }
+
+    /// As `parse`, of a device.
+    #[inline(never)]
+    pub(super) fn parse_of<'b, D>(&self, bytes: &'b [u8]) -> Result<Reply<'b, D>, ReplyError> {
         if longest_count(self.function).is_none() {
             return Err(ReplyError::BadFunction);
         }
-        let pdu = match self.framing {
-            Framing::Rtu => self.unwrap_rtu(bytes)?,
-            Framing::Tcp => self.unwrap_tcp(bytes)?,
+        // How many bytes are around the data.
+        let (before, after) = match self.framing {
+            Framing::Rtu => (2, 2),
+            Framing::Tcp => (8, 0),
         };
-        let (&function, data) = pdu.split_first().ok_or(ReplyError::ShortFrame)?;
+        let around = before + after;
+        let head = bytes.get(before - 2..).unwrap_or_default();
+        let &[unit, function, first, ..] = head else {
+            return Err(wrong_length(bytes.len(), around + 1));
+        };
+        self.check_frame(bytes, function, first)?;
+        if unit != self.unit {
+            let (expected, received) = (self.unit, unit);
+            return Err(ReplyError::WrongUnit { expected, received });
+        }
         if function & 0x7F != self.function {
             let (expected, received) = (self.function, function & 0x7F);
             return Err(ReplyError::WrongFunction { expected, received });
         }
+        let data = bytes
+            .get(before..bytes.len().saturating_sub(after))
+            .unwrap_or_default();
         if function != self.function {
-            return Err(match data {
-                [] => ReplyError::ShortFrame,
-                &[code] => ReplyError::Exception { code, name: None },
-                _ => ReplyError::LongFrame,
+            return Err(match *data {
+                [code] => ReplyError::Exception { code, name: None },
+                _ => wrong_length(bytes.len(), around + 1),
             });
         }
         if is_read(function) {
-            self.parse_read(data)
-        } else {
-            self.parse_echo(data)
+            return self.parse_read(data);
         }
-    }
-
-    fn unwrap_rtu<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], ReplyError> {
-        let &[unit, function, count, _, _, ..] = bytes else {
-            return Err(ReplyError::ShortFrame);
+        let &[a1, a0, v1, v0] = data else {
+            return Err(wrong_length(bytes.len(), around + 4));
         };
-        if function & 0x7F == self.function {
-            check_length(bytes.len(), rtu_length(function, count))?;
-        }
-        if crc(bytes) != 0 {
-            return Err(ReplyError::BadCrc);
-        }
-        self.check_unit(unit)?;
-        Ok(bytes.get(1..bytes.len() - 2).unwrap_or_default())
+        let (address, value) = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
+        self.parse_echo((address, value))
     }
 
-    fn unwrap_tcp<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], ReplyError> {
-        let &[t1, t0, p1, p0, l1, l0, unit, _, _, ..] = bytes else {
-            return Err(ReplyError::ShortFrame);
+    /// Whether the bytes are a frame that came unharmed.
+    fn check_frame(&self, bytes: &[u8], function: u8, first: u8) -> Result<(), ReplyError> {
+        let length = match (self.framing, bytes) {
+            (Framing::Tcp, &[_, _, p1, p0, l1, l0, ..]) => {
+                if [p1, p0] != [0, 0] {
+                    return Err(ReplyError::BadProtocol);
+                }
+                usize::from(u16::from_be_bytes([l1, l0])) + 6
+            }
+            _ if function & 0x7F == self.function => rtu_length(function, first),
+            _ => bytes.len(),
         };
-        if [p1, p0] != [0, 0] {
-            return Err(ReplyError::BadProtocol);
+        if bytes.len() != length {
+            return Err(wrong_length(bytes.len(), length));
         }
-        check_length(bytes.len(), usize::from(u16::from_be_bytes([l1, l0])) + 6)?;
-        if u16::from_be_bytes([t1, t0]) != self.transaction {
-            return Err(ReplyError::WrongTransaction);
+        match (self.framing, bytes) {
+            (Framing::Rtu, _) if crc(bytes) != 0 => Err(ReplyError::BadCrc),
+            (Framing::Tcp, &[high, low, ..]) => {
+                let (expected, received) = (self.transaction, u16::from_be_bytes([high, low]));
+                if expected == received {
+                    Ok(())
+                } else {
+                    Err(ReplyError::WrongTransaction { expected, received })
+                }
+            }
+            _ => Ok(()),
         }
-        self.check_unit(unit)?;
-        Ok(bytes.get(7..).unwrap_or_default())
     }
 
-    const fn check_unit(&self, received: u8) -> Result<(), ReplyError> {
-        if received == self.unit {
-            return Ok(());
-        }
-        let expected = self.unit;
-        Err(ReplyError::WrongUnit { expected, received })
-    }
-
-    fn parse_read<'b>(&self, data: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
+    fn parse_read<'b, D>(&self, data: &'b [u8]) -> Result<Reply<'b, D>, ReplyError> {
         let wide = self.function > 2;
         let asked = if wide {
             self.count.saturating_mul(2)
@@ -203,18 +205,13 @@ impl Request<'_> {
         Ok(self.reply(items, self.count))
     }
 
-    fn parse_echo(&self, data: &[u8]) -> Result<Reply<'static>, ReplyError> {
-        check_length(data.len(), 4)?;
-        let &[a1, a0, v1, v0] = data else {
-            return Err(ReplyError::ShortFrame);
-        };
+    fn parse_echo<D>(&self, received: (u16, u16)) -> Result<Reply<'static, D>, ReplyError> {
         let several = matches!(self.function, 15 | 16);
         let sent = if several {
             self.count
         } else {
             self.echo_value()
         };
-        let received = (u16::from_be_bytes([a1, a0]), u16::from_be_bytes([v1, v0]));
         let expected = (self.address, sent);
         if received != expected {
             return Err(ReplyError::EchoMismatch { expected, received });
@@ -227,7 +224,7 @@ impl Request<'_> {
         Ok(self.reply(Items::Echo(value), u16::from(!several)))
     }
 
-    const fn reply<'b>(&self, items: Items<'b>, count: u16) -> Reply<'b> {
+    const fn reply<'b, D>(&self, items: Items<'b>, count: u16) -> Reply<'b, D> {
         Reply {
             function: self.function,
             address: self.address,
@@ -278,12 +275,13 @@ fn rtu_length(function: u8, count: u8) -> usize {
     }
 }
 
-const fn check_length(length: usize, expected: usize) -> Result<(), ReplyError> {
-    if length < expected {
-        Err(ReplyError::ShortFrame)
-    } else if length > expected {
-        Err(ReplyError::LongFrame)
+/// What is said of a frame of that length.
+#[cold]
+pub(super) fn wrong_length(length: usize, expected: usize) -> ReplyError {
+    let [received, expected] = [length, expected].map(|one| u16::try_from(one).unwrap_or(u16::MAX));
+    if received < expected {
+        ReplyError::ShortFrame { expected, received }
     } else {
-        Ok(())
+        ReplyError::LongFrame { expected, received }
     }
 }

@@ -157,20 +157,24 @@ impl<'a> Request<'a> {
         self.check(profile)?;
         let mut frame = Writer { buffer, length: 0 };
         if self.framing == Framing::Tcp {
-            let length = self.pdu_length(profile.pad_coil_bytes_even);
             frame.word(self.transaction);
             frame.word(0);
-            frame.word(length.saturating_add(1));
+            frame.word(0); // the length, which stands below
         }
-        frame.byte(self.unit);
-        frame.byte(self.function);
+        frame.word(u16::from_be_bytes([self.unit, self.function]));
         frame.word(self.address);
         self.build_data(profile, &mut frame);
         if self.framing == Framing::Rtu {
             let crc = crc(frame.written()?);
             frame.word(crc.swap_bytes());
         }
-        Ok(frame.written()?.len())
+        let length = frame.written()?.len();
+        if self.framing == Framing::Tcp {
+            let counted = u16::try_from(length.saturating_sub(6)).unwrap_or(u16::MAX);
+            frame.length = 4;
+            frame.word(counted);
+        }
+        Ok(length)
     }
 
     fn check(&self, profile: &Profile) -> Result<(), BuildError> {
@@ -224,14 +228,6 @@ impl<'a> Request<'a> {
                 }
             }
             _ => {}
-        }
-    }
-
-    fn pdu_length(&self, pad_coil_bytes_even: bool) -> u16 {
-        match self.function {
-            15 => u16::from(coil_bytes(self.count, pad_coil_bytes_even)).saturating_add(6),
-            16 => self.count.saturating_mul(2).saturating_add(6),
-            _ => 5,
         }
     }
 
@@ -305,6 +301,7 @@ impl Writer<'_> {
         self.length = self.length.saturating_add(1);
     }
 
+    #[inline(never)]
     fn word(&mut self, word: u16) {
         let [high, low] = word.to_be_bytes();
         self.byte(high);

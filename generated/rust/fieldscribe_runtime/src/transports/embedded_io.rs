@@ -59,16 +59,16 @@ impl<P, W: FnMut(u32) -> bool> Line<P, W> {
 }
 
 impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Line<P, W> {
-    /// Waits until bytes have come.
-    fn until_ready(&mut self) -> Result<(), LineError<P::Error>> {
+    /// Waits until bytes have come; whether they did.
+    fn is_ready(&mut self) -> Result<bool, P::Error> {
         let mut waited = 0_u32;
         while !self.port.read_ready()? {
             if !(self.wait)(waited) {
-                return Err(LineError::TimedOut);
+                return Ok(false);
             }
             waited = waited.saturating_add(1);
         }
-        Ok(())
+        Ok(true)
     }
 }
 
@@ -86,7 +86,12 @@ impl<P: Read + ReadReady + Write, W: FnMut(u32) -> bool> Transport for Line<P, W
         self.port.flush()?;
         let mut answer = Answer::new(self.protocol, request, reply);
         while let Some(space) = answer.space() {
-            self.until_ready()?;
+            if !self.is_ready()? {
+                if answer.length() == 0 {
+                    return Err(LineError::TimedOut);
+                }
+                break; // the reply is cut
+            }
             match self.port.read(space)? {
                 0 => return Err(LineError::Closed),
                 count => answer.took(count),

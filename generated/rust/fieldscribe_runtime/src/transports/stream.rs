@@ -73,11 +73,17 @@ impl<S: Read + Write> Transport for StreamLine<S> {
         self.stream.flush()?;
         let mut answer = Answer::new(self.protocol, request, reply);
         while let Some(space) = answer.space() {
-            match self.stream.read(space) {
-                Ok(0) => return Err(ErrorKind::TimedOut.into()),
+            let read = match self.stream.read(space) {
+                Ok(0) => Err(ErrorKind::TimedOut.into()),
+                other => other,
+            };
+            match read {
                 Ok(count) => answer.took(count),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
+                Err(error) if !is_silence(error.kind()) || answer.length() == 0 => {
+                    return Err(error)
+                }
+                Err(_) => break, // the reply is cut
             }
         }
         self.is_stale = !answer.is_clean();

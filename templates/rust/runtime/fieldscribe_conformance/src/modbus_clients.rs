@@ -119,12 +119,8 @@ fn errors() {
                 "bad_function",
                 "the function is none of Modbus",
             ),
-            (
-                ReplyError::ShortFrame,
-                "short_frame",
-                "the frame is too short",
-            ),
-            (ReplyError::LongFrame, "long_frame", "the frame is too long"),
+            (too_short(7, 3), "short_frame", "3 bytes came instead of 7"),
+            (too_long(7, 9), "long_frame", "9 bytes came instead of 7"),
             (ReplyError::BadCrc, "bad_crc", "the checksum is wrong"),
             (
                 ReplyError::BadProtocol,
@@ -132,9 +128,9 @@ fn errors() {
                 "the protocol number is not 0",
             ),
             (
-                ReplyError::WrongTransaction,
+                other_transaction(8),
                 "wrong_transaction",
-                "the reply is to another transaction",
+                "the reply is to transaction 8 instead of 7",
             ),
             (
                 ReplyError::WrongUnit {
@@ -433,6 +429,19 @@ const fn counted(expected: u16, received: u16) -> ReplyError {
     ReplyError::BadByteCount { expected, received }
 }
 
+const fn too_short(expected: u16, received: u16) -> ReplyError {
+    ReplyError::ShortFrame { expected, received }
+}
+
+const fn too_long(expected: u16, received: u16) -> ReplyError {
+    ReplyError::LongFrame { expected, received }
+}
+
+const fn other_transaction(received: u16) -> ReplyError {
+    let expected = 7;
+    ReplyError::WrongTransaction { expected, received }
+}
+
 /// What was written and what the reply repeats: addresses, and values or counts.
 const fn repeated(expected: (u16, u16), received: (u16, u16)) -> ReplyError {
     ReplyError::EchoMismatch { expected, received }
@@ -488,10 +497,11 @@ fn replies() {
             rtu("051400000000"),
             ReplyError::BadFunction,
         ),
-        (read, vec![5, 3, 6, 0], ReplyError::ShortFrame),
-        (read, rtu("0503060001000200"), ReplyError::ShortFrame),
-        (read, rtu("05030600010002000304"), ReplyError::LongFrame),
-        (read, rtu("0503040001000200"), ReplyError::LongFrame),
+        (read, vec![5, 3], too_short(5, 2)),
+        (read, vec![5, 3, 6, 0], too_short(11, 4)),
+        (read, rtu("0503060001000200"), too_short(11, 10)),
+        (read, rtu("05030600010002000304"), too_long(11, 12)),
+        (read, rtu("0503040001000200"), too_long(9, 10)),
         (read, rtu("05030400010002"), counted(6, 4)),
         (
             read,
@@ -508,7 +518,7 @@ fn replies() {
             },
         ),
         (read, rtu("058302"), refused(2)),
-        (read, rtu("05830200"), ReplyError::LongFrame),
+        (read, rtu("05830200"), too_long(5, 6)),
         (bits, rtu("05010101"), counted(2, 1)),
         (long, rtu("051000200003"), repeated((0x20, 2), (0x20, 3))),
         (long, rtu("051000210002"), repeated((0x20, 2), (0x21, 2))),
@@ -517,26 +527,23 @@ fn replies() {
             rtu("050500400000"),
             repeated((0x40, 0xFF00), (0x40, 0)),
         ),
-        (relay, rtu("0505004000"), ReplyError::ShortFrame),
-        (relay, rtu("05050040ff0000"), ReplyError::LongFrame),
+        (relay, rtu("0505004000"), too_short(8, 7)),
+        (relay, rtu("05050040ff0000"), too_long(8, 9)),
     ] {
         assert_eq!(request.parse(&bytes).map(|_| ()), Err(error));
     }
     for (bytes, error) in [
-        ("0007000000030503", ReplyError::ShortFrame),
+        ("0007000000030503", too_short(9, 8)),
         ("000700010009050306000100020003", ReplyError::BadProtocol),
         ("000701000009050306000100020003", ReplyError::BadProtocol),
-        ("00070000000a050306000100020003", ReplyError::ShortFrame),
-        ("000700000008050306000100020003", ReplyError::LongFrame),
-        (
-            "000800000009050306000100020003",
-            ReplyError::WrongTransaction,
-        ),
+        ("00070000000a050306000100020003", too_short(16, 15)),
+        ("000700000008050306000100020003", too_long(14, 15)),
+        ("000800000009050306000100020003", other_transaction(8)),
         ("000700000009060306000100020003", answered_by(6)),
         ("000700000003050306", counted(6, 0)),
         ("0007000000040503060a", counted(6, 1)),
         ("000700000003058304", refused(4)),
-        ("00070000000405830400", ReplyError::LongFrame),
+        ("00070000000405830400", too_long(9, 10)),
     ] {
         assert_eq!(
             read.tcp(7).parse(&super::bytes(bytes)).map(|_| ()),
@@ -687,7 +694,7 @@ macro_rules! conversations {
             let lost = |point| Err(ClientError::Transport(Lost, Some(About::Point(point))));
             assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost("Long"));
             let long = Err(ClientError::Reply(
-                ReplyError::LongFrame,
+                too_long(260, 261),
                 Some(About::Point("Word")),
             ));
             assert_eq!($wait(client.write_with::<Word>(7, ())), long);

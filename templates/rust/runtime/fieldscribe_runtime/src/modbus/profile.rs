@@ -92,14 +92,11 @@ impl Profile {
 
     /// The same error, with the name that the device has for an exception code.
     #[must_use]
-    pub fn named(&self, error: ReplyError) -> ReplyError {
-        match error {
-            ReplyError::Exception { code, .. } => ReplyError::Exception {
-                code,
-                name: (self.name)(code),
-            },
-            other => other,
+    pub fn named(&self, mut error: ReplyError) -> ReplyError {
+        if let ReplyError::Exception { code, name } = &mut error {
+            *name = (self.name)(*code);
         }
+        error
     }
 
     /// The same device, of which 0Fh pads its bytes to an even count.

@@ -50,31 +50,29 @@ pub enum Protocol {
     Uss,
 }
 
-impl Protocol {
-    /// How many bytes a reply has and how many of them tell that; the length is none if they do not.
-    fn length(self, request: &[u8], head: &[u8]) -> (Option<usize>, usize) {
-        match self {
-            Self::Modbus => {
-                let framing = framing_of(request);
-                let needed = if framing == Framing::Rtu { 3 } else { 6 };
-                (reply_length(framing, head), needed)
-            }
-            Self::Uss => {
-                let length = head.get(1).map(|length| usize::from(*length) + 2);
-                (length, 2)
-            }
+/// How the frames of an exchange are told apart: the framing of Modbus; none for USS.
+type Frames = Option<Framing>;
+
+/// How many bytes a reply has and how many of them tell that; the length is none if they do not.
+fn length(frames: Frames, head: &[u8]) -> (Option<usize>, usize) {
+    match frames {
+        Some(framing) => {
+            let needed = if framing == Framing::Rtu { 3 } else { 6 };
+            (reply_length(framing, head), needed)
+        }
+        None => {
+            let length = head.get(1).map(|length| usize::from(*length) + 2);
+            (length, 2)
         }
     }
+}
 
-    /// Whether a complete reply belongs to the request and came unharmed.
-    fn belongs(self, request: &[u8], reply: &[u8]) -> bool {
-        match self {
-            Self::Modbus if framing_of(request) == Framing::Tcp => {
-                request.get(..4) == reply.get(..4)
-            }
-            Self::Modbus => request.first() == reply.first() && crc(reply) == 0,
-            Self::Uss => request.get(2) == reply.get(2) && check_byte(reply) == 0,
-        }
+/// Whether a complete reply belongs to the request and came unharmed.
+fn belongs(frames: Frames, request: &[u8], reply: &[u8]) -> bool {
+    match frames {
+        Some(Framing::Tcp) => request.get(..4) == reply.get(..4),
+        Some(Framing::Rtu) => request.first() == reply.first() && crc(reply) == 0,
+        None => request.get(2) == reply.get(2) && check_byte(reply) == 0,
     }
 }
 
@@ -104,7 +102,7 @@ impl Protocol {
 /// ```
 #[derive(Debug)]
 pub struct Answer<'a> {
-    protocol: Protocol,
+    frames: Frames,
     request: &'a [u8],
     reply: &'a mut [u8],
     length: usize,
@@ -114,7 +112,7 @@ impl<'a> Answer<'a> {
     /// The answer to a request, for which there is this space: none if the request goes to all units.
     pub fn new(protocol: Protocol, request: &'a [u8], reply: &'a mut [u8]) -> Self {
         Self {
-            protocol,
+            frames: (protocol == Protocol::Modbus).then(|| framing_of(request)),
             request,
             reply,
             length: 0,
@@ -147,12 +145,12 @@ impl<'a> Answer<'a> {
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.reply.is_empty()
-            || (self.length == self.end() && self.protocol.belongs(self.request, self.came()))
+            || (self.length == self.end() && belongs(self.frames, self.request, self.came()))
     }
 
     /// Where the reply ends, or where the bytes end that will tell.
     fn end(&self) -> usize {
-        let (length, needed) = self.protocol.length(self.request, self.came());
+        let (length, needed) = length(self.frames, self.came());
         match length {
             Some(length) => length,
             None if self.length < needed => needed,
@@ -166,9 +164,8 @@ impl<'a> Answer<'a> {
 
     /// Whether this is a reply over TCP to another transaction.
     fn is_late(&self) -> bool {
-        self.protocol == Protocol::Modbus
-            && framing_of(self.request) == Framing::Tcp
+        self.frames == Some(Framing::Tcp)
             && matches!(self.came(), [_, _, 0, 0, _, _, ..])
-            && !self.protocol.belongs(self.request, self.came())
+            && self.request.get(..2) != self.came().get(..2)
     }
 }

@@ -87,21 +87,31 @@ impl<A: ToSocketAddrs> Transport for TcpLine<A> {
         stream.write_all(request)?;
         let mut answer = Answer::new(self.protocol, request, reply);
         while let Some(space) = answer.space() {
-            let left = self.timeout.checked_sub(started.elapsed());
-            let left = left.filter(|left| !left.is_zero());
-            stream.set_read_timeout(Some(left.ok_or(ErrorKind::TimedOut)?))?;
-            match stream.read(space) {
-                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
+            let left = self.timeout.saturating_sub(started.elapsed());
+            match read_within(&mut stream, left, space) {
                 Ok(count) => answer.took(count),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) if is_silence(error.kind()) => return Err(ErrorKind::TimedOut.into()),
-                Err(error) => return Err(error),
+                Err(error) if answer.length() == 0 => return Err(error),
+                Err(_) => break, // the reply is cut
             }
         }
         if answer.is_clean() {
             self.stream = Some(stream);
         }
         Ok(answer.length())
+    }
+}
+
+/// Reads some bytes, of which there is at least one.
+fn read_within(stream: &mut TcpStream, left: Duration, space: &mut [u8]) -> Result<usize> {
+    if left.is_zero() {
+        return Err(ErrorKind::TimedOut.into());
+    }
+    stream.set_read_timeout(Some(left))?;
+    match stream.read(space) {
+        Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+        Err(error) if is_silence(error.kind()) => Err(ErrorKind::TimedOut.into()),
+        other => other,
     }
 }
 
