@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from line_bench import print_lines
 from python_bench import print_python
 from stream_bench import CANTOOLS, FIELDSCRIBE, KEEPS_BYTECODE, print_streams
 from synthetic import write_dbc, write_device
@@ -165,6 +166,7 @@ def main() -> None:
         bench.run(arguments.runs)
         print(*bench.table(), sep="\n", flush=True)
     print_python(3 * arguments.runs)
+    print_lines(3 * arguments.runs)
     print_streams(STREAMED)
 
 

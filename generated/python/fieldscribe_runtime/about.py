@@ -14,25 +14,32 @@ if TYPE_CHECKING:
     from .commands import Command
     from .facts import Place
     from .points import Point
+    from .traffic import Traffic
 
 _LISTED = 4
 """So many points of one request are listed in an error."""
 
 
-@contextmanager
-def about(*asked: Point | Command) -> Iterator[None]:
-    """Add to errors raised meanwhile what was requested: the points of one request, or a command."""
-    try:
-        yield
-    except FieldscribeError as error:
-        more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
-        error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
-        raise
+class About:
+    """Add to errors raised meanwhile what was requested: the points of one request, or a command. Logs name it, too."""
+
+    def __init__(self, traffic: Traffic, *asked: Point | Command) -> None:
+        self._asked = traffic.about = asked
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, _: object, error: BaseException | None, traceback: object) -> None:
+        if isinstance(error, FieldscribeError):
+            asked = self._asked
+            more = f" and {len(asked) - _LISTED} more" if len(asked) > _LISTED else ""
+            error.point = error.point or ", ".join([one.label for one in asked[:_LISTED]]) + more
 
 
 @contextmanager
-def about_place(place: Place) -> Iterator[None]:
-    """Add the place to errors of the line raised meanwhile, unless they have one."""
+def about_place(traffic: Traffic, place: Place) -> Iterator[None]:
+    """Add the place to errors of the line raised meanwhile, unless they have one. Logs name it, too."""
+    traffic.about = (place,)
     try:
         yield
     except EchoError:
@@ -43,10 +50,10 @@ def about_place(place: Place) -> Iterator[None]:
 
 
 @contextmanager
-def needing(point: Point, other: Point) -> Iterator[None]:
+def needing(traffic: Traffic, point: Point, other: Point) -> Iterator[None]:
     """Add to errors raised while another point is read which point was requested, and that it needs the other."""
     try:
-        with about(other):
+        with About(traffic, other):
             yield
     except FieldscribeError as error:
         error.point, error.needs = point.label, error.needs or error.point

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, overload
 
-from .about import about
+from .about import About
 from .arguments import check_integer, shown
 from .errors import AccessError
 from .guided import Guided
@@ -60,8 +60,12 @@ class Command(Guided):
         return self._given_steps(device, number if self.value is None else self.value)
 
     def _given_steps(self, device: Session, number: int) -> Steps[None]:
-        with about(self):
-            yield from device._put_steps(self.at, (number,))
+        retries, device.retries = device.retries, 0  # what a device did already must not be done twice
+        try:
+            with About(device.traffic, self):
+                yield from device._put_steps(self.at, (number,))
+        finally:
+            device.retries = retries
 
 
 class CommandHandle:

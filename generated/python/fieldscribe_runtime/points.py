@@ -59,6 +59,14 @@ def _lacks(point: Point, name: str) -> str:
 _SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
 
 
+_FOR_PEOPLE = (
+    *("read", "write", "read_raw", "write_raw", "decode", "encode", "decode_count", "encode_count", "check", "text"),
+    *("title", "label", "unit", "minimum", "maximum", "raw_limits", "decimals", "names", "name_of", "special", "facts"),
+    *("scale_needs", "limit_needs", "from_words", "to_words"),
+)
+"""What `dir()` lists, for completion; the rest serves devices and layouts."""
+
+
 class Point(Guided):
     """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
 
@@ -86,6 +94,39 @@ class Point(Guided):
             """Say how a point is read and written, where it is asked for what it cannot do."""
             raise AttributeError(_lacks(self, name), name=name, obj=self)
 
+    def __dir__(self) -> list[str]:
+        """Return what people use of a point."""
+        return [name for name in _FOR_PEOPLE if name in self.__dict__ or hasattr(type(self), name)]
+
+    @property
+    def title(self) -> str:
+        """The name as words: `Base frequency set 2`."""
+        return self.facts.item.replace("_", " ").capitalize()
+
+    @property
+    def unit(self) -> str:
+        """The unit of its values; empty where they have none."""
+        return self.facts.unit
+
+    @property
+    def minimum(self) -> float | None:
+        """The least value that is ever allowed, in the unit; None where there is none, or other points decide."""
+        bounds = self._bounds
+        return bounds[0] if bounds else None
+
+    @property
+    def maximum(self) -> float | None:
+        """The greatest value that is ever allowed, as `minimum` is the least."""
+        bounds = self._bounds
+        return bounds[1] if bounds else None
+
+    @property
+    def _bounds(self) -> tuple[float, float] | None:
+        try:
+            return self._form.bounds(*self.raw_limits)
+        except CodecError:
+            return None
+
     def __getstate__(self) -> dict[str, Any]:
         """Return what makes the point, without the functions that are specialised for it: a copy makes its own."""
         return {name: value for name, value in self.__dict__.items() if name not in _SPECIALISED}
@@ -100,7 +141,7 @@ class Point(Guided):
         """How many bits the raw number has."""
         return self.wire.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
 
-    @property
+    @cached_property
     def size(self) -> int:
         """How many words (or single bits) the point takes."""
         return 1 if self.facts.bits is not None else max(1, self.wire.bits // 16)

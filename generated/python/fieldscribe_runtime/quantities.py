@@ -136,6 +136,13 @@ class Scaled(Form[float, float]):
             raise ResultOverflowError(f"raw {raw} is beyond {self.most}, up to which the scale is exact")
         return found
 
+    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
+        """Return the values, where no other point decides them."""
+        if self.needs:
+            return None
+        ends = self.decode(low, NO_RAWS), self.decode(high, NO_RAWS)
+        return min(ends), max(ends)
+
     def converted_count(self, count: int, raws: Raws) -> int:
         """As `converted`, by integers alone."""
         return self._rule(raws).encode_count(whole(count), self._counted(), raws)
@@ -194,6 +201,10 @@ class Floating(Form[float, float]):
         number, word = self._structs
         pattern: int = word.unpack(number.pack(nearest))[0]
         return pattern
+
+    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
+        """Return the outer limits, which are in the unit."""
+        return (min(self.units)[0], max(self.units)[1]) if self.units else None
 
     def _nearest(self, value: float) -> float:
         """Return the number of the type nearest to a value; infinity beyond the largest."""

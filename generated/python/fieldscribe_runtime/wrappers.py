@@ -66,6 +66,10 @@ class _Around(Form[R, W]):
         """As in the form."""
         return self.form.limits(width)
 
+    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
+        """As in the form."""
+        return self.form.bounds(low, high)
+
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
         """As in the form."""
         return self.form.shown(raw, raws, display)

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: 0BSD
 """Hitachi L200: its points."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from fieldscribe_runtime import (
     BIT,
@@ -32,6 +32,17 @@ from fieldscribe_runtime import (
 
 from . import enums
 
+Group = Literal[
+    "coils",
+    "status",
+    "monitor_d",
+    "basic_f",
+    "standard_a",
+    "fine_tuning_b",
+    "control_c",
+    "motor_h",
+]
+
 
 class Points(PointTable):
     """All points of Hitachi L200; on this class they are pure codecs.
@@ -58,6 +69,7 @@ class Points(PointTable):
             0x22: "not_available",
         },
     )
+    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
     BLOCKS: ClassVar = {
         "coils": (Block("coil", 0x01, 0x0000, 11), Block("coil", 0x01, 0x000D, 18)),
         "status": (

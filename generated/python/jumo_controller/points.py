@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: 0BSD
 """JUMO Controller with MOD-Bus: its points."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from fieldscribe_runtime import (
     F32,
@@ -24,6 +24,8 @@ from fieldscribe_runtime import (
 
 from . import enums
 
+Group = Literal["process_data", "examples", "command_words"]
+
 
 class Points(PointTable):
     """All points of JUMO Controller with MOD-Bus; on this class they are pure codecs."""
@@ -39,6 +41,7 @@ class Points(PointTable):
             0x08: "write_refused",
         },
     )
+    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
     BLOCKS: ClassVar = {
         "process_data": (
             Block("holding", 0x03, 0x001F, 3),

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: 0BSD
 """NORD SK 5xxE: its points."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from fieldscribe_runtime import (
     U16,
@@ -20,6 +20,8 @@ from fieldscribe_runtime import (
 )
 
 from . import enums
+
+Group = Literal["process_data"]
 
 
 class Points(PointTable):
@@ -72,6 +74,7 @@ class Points(PointTable):
         broadcast=None,
         framings=("rtu",),
     )
+    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
     BLOCKS: ClassVar = {
         "process_data": (
             Block("holding", 0x03, 0x0C80, 6),

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: 0BSD
 """Siemens MICROMASTER 4: its points."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from fieldscribe_runtime import (
     F32,
@@ -34,6 +34,8 @@ from fieldscribe_runtime.uss import (
 )
 
 from . import enums
+
+Group = Literal["parameters", "answer"]
 
 
 class Points(PointTable):
@@ -105,6 +107,7 @@ class Points(PointTable):
         telegrams=(Telegram("task", "request", 8), Telegram("answer", "response", 8)),
         variant_pzd={("model", "mm410"): (0, 4), ("model", "mm420"): (0, 4)},
     )
+    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
     VARIANTS: ClassVar = {
         "model": ("mm410", "mm420", "mm430", "mm440"),
         "interface": ("rs485", "rs232"),

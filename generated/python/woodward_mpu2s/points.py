@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: 0BSD
 """Woodward MPU2-S: its points."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from fieldscribe_runtime import (
     BIT,
@@ -38,6 +38,23 @@ from fieldscribe_runtime.can import (
 )
 
 from . import enums
+
+Group = Literal[
+    "visualisation_data",
+    "parameters_access",
+    "parameters_general",
+    "parameters_controllers",
+    "parameters_breaker",
+    "parameters_synchronisation",
+    "parameters_monitoring_generator",
+    "parameters_monitoring_mains",
+    "parameters_monitoring_power",
+    "parameters_inputs",
+    "parameters_texts",
+    "parameters_analog",
+    "parameters_relays",
+    "parameters_operation",
+]
 
 
 class Points(PointTable):
@@ -146,6 +163,7 @@ class Points(PointTable):
         ),
         telegrams=(Telegram("visualisation", "cyclic", 69, "visualisation"),),
     )
+    GROUPS: ClassVar[tuple[Group, ...]] = get_args(Group)
     VARIANTS: ClassVar = {"voltage": ("100V", "400V")}
     DOCUMENTED: ClassVar = {
         "reserved_word_11": Documented("reserved by the maker"),

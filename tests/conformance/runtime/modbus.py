@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -133,7 +134,7 @@ def check_failures(package: Package) -> None:
         assert str(silence) == f"{device.c.label}: unit 1 did not reply to function 03h: nothing came"
         assert silence.__cause__ is memory.fails
         memory.fails = package.runtime.FrameError("bad_crc", "wrong")
-        assert str(refusal(device.c.read)) == "wrong"
+        assert str(refusal(device.c.read)) == f"{device.c.label}: wrong"
         memory.fails = None
         assert now(device.c.read()) == 4
         refused = refusal(device.read_at, "holding", 0, 5)
@@ -182,7 +183,7 @@ def check_transactions(package: Package) -> None:
     device = kind(Line(), 5)
     assert (device.a.read(), device.a.read()) == (7, 7)
     assert sent == [bytes.fromhex("000100000006050300000001"), bytes.fromhex("000200000006050300000001")]
-    device._transaction = 0xFFFF
+    device._transactions = itertools.count(0x10000)
     assert (device.a.read(), sent[2][:2]) == (7, b"\0\0")
 
 

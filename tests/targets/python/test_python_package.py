@@ -148,6 +148,9 @@ def use(transport: Transport) -> None:
     drive.running.write(True)  # E: attr-defined
     SampleDrive.running.encode(True)  # E: attr-defined
     drive.base_frequency.write("50")  # E: arg-type
+    drive.read_many(["A020", drive.base_frequency])
+    drive.read_many(name for group in drive.GROUPS for name in drive.read_many(group))
+    drive.read_many("mian")  # E: call-overload
     drive.base_frequency = 5  # E: assignment
     SampleDrive(transport, unit=5, voltage_class="100V")  # E: arg-type
     wrong: float = drive.temperature.read()  # E: assignment

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import logging
 import re
 import threading
 from collections.abc import Iterator
@@ -36,7 +38,7 @@ def speak(bus: can.BusABC, stop: threading.Event) -> None:
 
 @pytest.mark.full(seconds=5)
 @pytest.mark.usefixtures("packages")
-def test_the_programs_run(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_programs_run(capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
     blocks = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
     far, stop = can.Bus("can0", interface="virtual"), threading.Event()
     speaker = threading.Thread(target=speak, args=(far, stop), daemon=True)
@@ -55,16 +57,24 @@ def test_the_programs_run(capsys: pytest.CaptureFixture[str]) -> None:
     stop.set()
     speaker.join(2)
     far.shutdown()
-    first, many, rest, raw, failing, watch, client, gateway, _, uss_block, bus = printed
+    logging.getLogger("fieldscribe").setLevel(logging.NOTSET)
+    first, many, rest, table, raw, facts, failing, traffic, watch, client, gateway, _, uss_block, bus = printed
     assert first == ["0.1 Hz"]
     assert watch == client == gateway == ["0.1"]
     assert [line[0] for line in many] == ["{", "{"]
     assert rest[0] == "output_frequency = 0.1"
+    assert table[:2] == ["name,code,value,unit", "output_frequency,d001,0.1,Hz"]
+    assert json.loads(table[-1])["output_frequency"] == 0.1
+    assert facts == ["Base frequency 0.0 400.0 Hz []", "Upper frequency limit 0.0 400.0 Hz ['inactive']"]
+    assert caplog.messages[0] == "unit 1 -> 01 03 10 28 00 01 00 C2 (A020 base_frequency)"
+    assert caplog.messages[1].startswith("unit 1 <- 01 03 02 01 F4 B8 53 after ")
+    assert traffic[0].startswith("<Traffic 1 requests, 1 replies; ")
+    assert traffic[1] == "1 {} True"
     assert raw == ["500 50.0", "(500,)", "True", "<RunSource.MODBUS: 3>"]
     assert uss_block == ["45.0"]
     assert list(mm4.eeprom) == [(1082, 0)]
-    assert failing[1].startswith("out_of_range")
-    assert failing[2].startswith("2 ")
+    assert failing[0].startswith("out_of_range")
+    assert failing[1].startswith("2 ")
     assert "battery_voltage" in "".join(bus)
 
 

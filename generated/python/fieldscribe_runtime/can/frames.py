@@ -24,6 +24,10 @@ class Frame(Record):
     id: int
     data: bytes
 
+    def hex(self, separator: str) -> str:
+        """Return the identifier and the bytes as text."""
+        return f"{self.id:X}: {self.data.hex(separator)}"
+
 
 class Role(NamedTuple):
     """What one byte of a message carries.

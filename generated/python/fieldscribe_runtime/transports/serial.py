@@ -25,6 +25,7 @@ from ..receiving import Broadcast
 from ..uss.frames import USS
 from . import checks
 from .line import Line
+from .tcp import Connection
 
 try:
     import serial
@@ -45,7 +46,38 @@ _SILENCE = 3.5
 _PORT = "a device such as '/dev/ttyUSB0' or 'COM3', or a URL such as 'socket://192.168.0.20:4001'"
 _OF_NETWORK = re.compile("socket://|rfc2217://")
 _WITH_PORT = re.compile(r":\d+(?=[/?]|$)")
+_SOCKET = re.compile(r"socket://\[?([^/?\]]+)\]?:(\d+)/?")
+_CONNECT = 5.0
+"""Seconds for a connection to open."""
 _FASTEST = 10_000_000
+
+
+class _Port:
+    """A port of pyserial, with the methods of a `Connection`."""
+
+    def __init__(self, url: str, settings: dict[str, Any]) -> None:
+        self._serial: Any = serial.serial_for_url(url, **settings)
+
+    def drop_old(self) -> None:
+        """Drop what has come already."""
+        self._serial.reset_input_buffer()
+
+    def send(self, request: bytes) -> None:
+        """Send a frame; raises OSError."""
+        self._serial.write(request)
+        self._serial.flush()
+
+    def read(self, most: int, until: float) -> bytes:
+        """Return what has come, up to so many bytes; none when none comes in time."""
+        while time.monotonic() < until:
+            received: bytes = self._serial.read(most)
+            if received:
+                return received
+        return b""
+
+    def close(self) -> None:
+        """Close the port."""
+        self._serial.close()
 
 
 class SerialLine(Line):
@@ -86,18 +118,17 @@ class SerialLine(Line):
         self._rests_until = 0.0
         self._late: tuple[int, float] | None = None
         """The unit whose reply may still come, and until when."""
-        self._serial: Any = None
+        self._open: _Port | Connection | None = None
 
     def __str__(self) -> str:
         return f"{self.port} at {self._settings['baudrate']} baud, {self._mode}"
 
     def _send(self, request: bytes) -> None:
-        if self._serial is None:
-            self._serial = self._opened()
+        if self._open is None:
+            self._open = self._opened()
         self._rest(request)
-        self._serial.reset_input_buffer()
-        self._serial.write(request)
-        self._serial.flush()
+        self._open.drop_old()
+        self._open.send(request)
         if self.echo and self._echoed(len(request)) != request:
             raise TimeoutError("what was sent was not heard: another speaks, or the adapter gives no echo")
 
@@ -107,7 +138,8 @@ class SerialLine(Line):
         if self._late is not None and self._late[0] == self._framing.address(request):
             free = max(free, self._late[1])
             self._late = None
-        time.sleep(max(0.0, free - time.monotonic()))
+        if (left := free - time.monotonic()) > 0:
+            time.sleep(left)
 
     def _echoed(self, size: int) -> bytes:
         until, echoed = time.monotonic() + self.timeout, b""
@@ -115,18 +147,17 @@ class SerialLine(Line):
             echoed += more
         return echoed
 
-    def _opened(self) -> Any:
+    def _opened(self) -> _Port | Connection:
+        if (to := _SOCKET.fullmatch(self.port)) is not None:
+            return Connection(to[1], int(to[2]), _CONNECT)
         try:
-            return serial.serial_for_url(self.port, **self._settings)
+            return _Port(self.port, self._settings)
         except (ValueError, TypeError) as error:  # a URL that pyserial does not know, or a half one
             raise RequestError("bad_transport", f"{error}; a port is {_PORT}") from error
 
     def _read(self, most: int, until: float) -> bytes:
-        while time.monotonic() < until:
-            received: bytes = self._serial.read(most)
-            if received:
-                return received
-        return b""
+        assert self._open is not None
+        return self._open.read(most, until)
 
     def _after_broadcast(self) -> bytes:
         self._rests_until = time.monotonic() + self.turnaround
@@ -140,9 +171,9 @@ class SerialLine(Line):
 
     def close(self) -> None:
         """Close the port; the next exchange opens it again."""
-        if self._serial is not None:
-            self._serial.close()
-            self._serial = None
+        if self._open is not None:
+            self._open.close()
+            self._open = None
 
 
 class UssLine(SerialLine):

@@ -13,9 +13,9 @@ not taken for the next one.
 from __future__ import annotations
 
 import asyncio
+import select
 import socket
 import time
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ..errors import LineError
@@ -26,6 +26,7 @@ from . import checks
 from .line import Line, framing_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from typing import Self
 
 MODBUS_PORT = 502
@@ -36,8 +37,17 @@ _PIECE = 4096
 _CLOSED = "the other side closed the connection"
 
 
-class _Connection:
-    """Where a line leads, and the socket while it is open."""
+def _poll(made: socket.socket) -> Callable[[float], object]:
+    """Return what waits for bytes of a socket: a result that is true says that they came."""
+    if not hasattr(select, "poll"):  # Windows
+        return lambda milliseconds: select.select([made], [], [], milliseconds / 1000)[0]
+    poll = select.poll()
+    poll.register(made, select.POLLIN)
+    return poll.poll
+
+
+class Connection:
+    """Where a line leads, and the socket while it is open. It has `timeout` seconds to open."""
 
     def __init__(self, host: str, port: int, timeout: float) -> None:
         takes = "a name or an address such as '192.168.0.20'"
@@ -47,25 +57,46 @@ class _Connection:
         self.port = checks.number("the port", port, (1, 65535))
         self.timeout = checks.seconds(timeout)
         self.socket: socket.socket | None = None
+        self._has_bytes: Callable[[float], object] = bool
+        """Waits until there is something to receive, if only the end, or for so many milliseconds."""
 
     def __str__(self) -> str:
         return f"{self.host}:{self.port}"
 
     def drop_old(self) -> None:
-        """Drop what has come already; a connection that the other side has closed is opened anew."""
+        """Drop what has come already; a connection that the other side has closed or floods is closed."""
+        left = _OLD
+        while self.socket is not None and self._has_bytes(0):
+            left -= 1
+            try:
+                is_open = self.socket.recv(_PIECE) != b""
+            except ConnectionError:
+                is_open = False
+            if not is_open or left <= 0:
+                self.close()
+
+    def send(self, request: bytes) -> None:
+        """Send a frame, over a new connection if there is none; raises OSError."""
         if self.socket is None:
-            return
-        self.socket.setblocking(False)
-        with suppress(BlockingIOError):
-            with suppress(ConnectionError):
-                for _ in range(_OLD):
-                    if not self.socket.recv(_PIECE):
-                        break
-            self.close()  # the other side has closed it, or floods it
+            self.opened(socket.create_connection((self.host, self.port), self.timeout))
+        assert self.socket is not None
+        self.socket.sendall(request)
+
+    def read(self, most: int, until: float) -> bytes:
+        """Return what has come, up to so many bytes; none when none comes in time. Raises OSError."""
+        assert self.socket is not None
+        left = until - time.monotonic()
+        if left <= 0 or not self._has_bytes(left * 1000):
+            return b""
+        if not (received := self.socket.recv(most)):
+            raise ConnectionError(_CLOSED)
+        return received
 
     def opened(self, made: socket.socket) -> socket.socket:
         """Keep a socket that is connected."""
+        made.setblocking(False)
         made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._has_bytes = _poll(made)
         self.socket = made
         return made
 
@@ -84,34 +115,18 @@ class TcpLine(Line):
 
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
         super().__init__(framing, checks.seconds(timeout))
-        self._connection = _Connection(host, port, timeout)
+        self._connection = Connection(host, port, timeout)
 
     def __str__(self) -> str:
         return str(self._connection)
 
     def _send(self, request: bytes) -> None:
-        connection = self._connection
-        connection.drop_old()
-        if connection.socket is None:
-            connection.opened(socket.create_connection((connection.host, connection.port), connection.timeout))
-        assert connection.socket is not None
-        connection.socket.settimeout(connection.timeout)
-        connection.socket.sendall(request)
+        self._connection.drop_old()
+        self._connection.send(request)
 
     def _read(self, most: int, until: float) -> bytes:
         del most  # what comes behind a reply is dropped before the next request
-        assert self._connection.socket is not None
-        left = until - time.monotonic()
-        if left <= 0:
-            return b""
-        self._connection.socket.settimeout(left)
-        try:
-            received = self._connection.socket.recv(_PIECE)
-        except TimeoutError:
-            return b""
-        if not received:
-            raise ConnectionError(_CLOSED)
-        return received
+        return self._connection.read(_PIECE, until)
 
     def _failed(self, request: bytes) -> None:
         del request
@@ -128,7 +143,7 @@ class AsyncTcpLine:
     def __init__(self, host: str, port: int = MODBUS_PORT, *, framing: str = TCP, timeout: float = 1.0) -> None:
         self.framing = framing
         self._framing = framing_of(framing)
-        self._connection = _Connection(host, port, timeout)
+        self._connection = Connection(host, port, timeout)
         self._turns = Turns("the line")
 
     def __repr__(self) -> str:

@@ -22,7 +22,8 @@ _RESERVED = frozenset(
 
 DEVICE_MEMBERS = frozenset(
     {"broadcast", "drop_process_data", "forget", "layouts", "fresh_for", "link", "patience", "point"}
-    | {"read_at", "read_many", "repeats", "take", "transport", "unit", "variants", "write_at"}
+    | {"read_at", "read_many", "repeats", "retries", "rows", "take", "traffic", "transport", "unit", "variants"}
+    | {"write_at"}
 )
 """Public members of the runtime's devices, which no point may hide; a test compares them with the runtime."""
 

@@ -47,12 +47,16 @@ def points_context(device: Device, names: Identifiers, render: Render) -> dict[s
         groups[next(iter(same.values())).group].append(attributes.by_variant(same))
     commands = "".join([attributes.text(command) for command in _commands(device, scope)])
     documented = tuple(_documented(point, scope) for point in device.points if not point.terms.generated)
+    readable = dict.fromkeys(
+        [python_string(point.group) for point in device.points if point.generated and point.readable]
+    )
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return {
         "imports": _imports(scope.used - {"enums"}, family),
         "open_points": list(_open_points(device)),
         "uses_enums": "enums" in scope.used,
         "profile": laid_out(profile, 4),
+        "group_names": "" if not readable else laid_out(assigned("Group", Group("Literal[", tuple(readable), "]")), 0),
         "blocks": "" if blocks is None else laid_out(blocks, 4),
         "variants": laid_out(assigned("VARIANTS: ClassVar", _variants(device)), 4) if device.variants else "",
         "documented": laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",

@@ -8,17 +8,37 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .errors import FieldscribeError, LineError
+from .errors import FieldscribeError
 from .session import Session, Steps, Value
 from .turns import Turns
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from typing import Literal
+    from collections.abc import Iterable, Iterator, Mapping
+    from typing import Literal, Protocol
 
     from .descriptors import PointAttribute
     from .handles import AsyncHandle, AsyncReadWriteHandle, Handle, ReadWriteHandle
     from .points import Point
+
+    G = TypeVar("G", bound=str)
+    G_co = TypeVar("G_co", bound=str, covariant=True)
+
+    class Grouped(Protocol[G_co]):
+        """A device with the names of its groups as a Literal."""
+
+        @property
+        def GROUPS(self) -> tuple[G_co, ...]:
+            """The names."""
+
+    class Several(Protocol):
+        """A list, tuple or set of points and their names; a text is none, so that checkers find misspelt groups."""
+
+        def __iter__(self) -> Iterator[str | Point]:
+            """Return the points."""
+
+        def __contains__(self, one: object, /) -> bool:
+            """Return True if one is among them; a text says so only of texts."""
+
 
 T = TypeVar("T")
 
@@ -63,7 +83,7 @@ class AnyDevice(Session):
                 while True:
                     try:
                         reply = self._carry(request)
-                    except (TimeoutError, LineError) as error:
+                    except (TimeoutError, FieldscribeError) as error:
                         request = steps.throw(error)
                     else:
                         request = steps.send(reply)
@@ -75,20 +95,21 @@ class AnyDevice(Session):
 
     @overload
     def read_many(
-        self, what: str | Iterable[str | Point], *, errors: Literal["raise"] = "raise"
+        self: Grouped[G], what: G | Several | Iterator[str | Point], *, errors: Literal["raise"] = "raise"
     ) -> dict[str, Value]: ...
 
     @overload
     def read_many(
-        self, what: str | Iterable[str | Point], *, errors: Literal["return"]
+        self: Grouped[G], what: G | Several | Iterator[str | Point], *, errors: Literal["return"]
     ) -> dict[str, Value | FieldscribeError]: ...
 
-    def read_many(self, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
+    def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
         With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
         """
-        return self._run(self._read_many_steps(what, errors))
+        values: dict[str, Any] = self._run(self._read_many_steps(what, errors))
+        return values
 
 
 class AnyAsyncDevice(Session):
@@ -131,7 +152,7 @@ class AnyAsyncDevice(Session):
                 while True:
                     try:
                         reply = await self._carry(request)
-                    except (TimeoutError, LineError) as error:
+                    except (TimeoutError, FieldscribeError) as error:
                         request = steps.throw(error)
                     else:
                         request = steps.send(reply)
@@ -143,17 +164,18 @@ class AnyAsyncDevice(Session):
 
     @overload
     async def read_many(
-        self, what: str | Iterable[str | Point], *, errors: Literal["raise"] = "raise"
+        self: Grouped[G], what: G | Several | Iterator[str | Point], *, errors: Literal["raise"] = "raise"
     ) -> dict[str, Value]: ...
 
     @overload
     async def read_many(
-        self, what: str | Iterable[str | Point], *, errors: Literal["return"]
+        self: Grouped[G], what: G | Several | Iterator[str | Point], *, errors: Literal["return"]
     ) -> dict[str, Value | FieldscribeError]: ...
 
-    async def read_many(self, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
+    async def read_many(self: Any, what: str | Iterable[str | Point], *, errors: str = "raise") -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name.
 
         With errors="return" a point that cannot be read has its error as value, and only a lost line raises.
         """
-        return await self._run(self._read_many_steps(what, errors))
+        values: dict[str, Any] = await self._run(self._read_many_steps(what, errors))
+        return values

@@ -117,6 +117,10 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         """Return the least and the greatest number of `width` bits that the form knows, if nothing else bounds them."""
         return self.wire.limits(width)
 
+    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
+        """Return the least and the greatest quantity for raw numbers of a range; None where there are none."""
+        return None
+
     def shown(self, raw: int, raws: Raws, display: int | None = None) -> str:
         """Return the raw number as people read it, in the unit; a quantity with `display` decimals, if given."""
         return str(raw) if display is None else decimal_text(raw, 1, display)
@@ -169,6 +173,10 @@ class Integer(Form[int, int]):
     def converted(self, value: int, raws: Raws) -> int | None:
         """Return the value itself."""
         return integral(value)
+
+    def bounds(self, low: int, high: int) -> tuple[float, float] | None:
+        """Return the raw numbers."""
+        return low, high
 
 
 class Bit(Form[bool, bool]):

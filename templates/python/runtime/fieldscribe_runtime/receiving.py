@@ -57,10 +57,12 @@ class Receiver:
         Raises FrameError (long_frame) when there are more bytes than any frame has and no frame among them.
         """
         framing = self._framing
-        self.received += data
+        self.received = self.received + data if self.received else data
         while True:
             length = len(self.received)
             size = framing.size_of(self.received)
+            if size == length and framing.address(self.received) == self._address:
+                return self.received
             if size is None or length < size:
                 if length >= framing.longest:
                     raise FrameError("long_frame", f"{self._quoted()}, more than any frame has; {_HINT}")

@@ -8,16 +8,17 @@ travel is the family's part: a subclass with `_get_steps` and `_store_steps`.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .about import about, needing, of_group
+from .about import About, needing, of_group
 from .arguments import check_name, shown
 from .errors import AccessError, EchoError, FieldscribeError, RequestError
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
 from .table import NamedPoints, check_variants
+from .traffic import Traffic
 
 if TYPE_CHECKING:
     from .facts import Place
@@ -37,10 +38,14 @@ class Session(NamedPoints, ABC):
     """The state of one device on a bus: its unit number, its variants, and what is remembered of it."""
 
     unit: int
+    traffic: Traffic
+    retries: int = 0
+    """So often a request is sent again after the line lost it or its reply; a command is sent once."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         check_variants(self.VARIANTS, variants)
         self.unit = unit
+        self.traffic = Traffic(unit)
         self.variants = variants
         self._kept: dict[str, int] = {}
 
@@ -56,6 +61,18 @@ class Session(NamedPoints, ABC):
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, in ascending order of address."""
 
+    def _retried_steps(self, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
+        """Carry out one request, again while the line loses it and `retries` are left."""
+        left = self.retries
+        while True:
+            try:
+                return (yield from ask(*arguments))
+            except FieldscribeError as error:
+                self.traffic.failed(error)
+                if left <= 0 or not error.lost:
+                    raise
+            left -= 1
+
     def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
         del group
@@ -64,7 +81,7 @@ class Session(NamedPoints, ABC):
         for point in points:
             at = point.facts.at
             if at not in words:
-                with about(point):
+                with About(self.traffic, point):
                     words[at] = yield from self._get_steps(at)
             raws[point.facts.item] = self._taken(point, words[at])
         return raws
@@ -81,12 +98,12 @@ class Session(NamedPoints, ABC):
 
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        with about(point):
+        with About(self.traffic, point):
             return self._taken(point, (yield from self._get_steps(point.facts.at)))
 
     def _taken(self, point: Point, words: Sequence[int]) -> int:
         """Return the raw number in words that came; it is remembered if the description says when it changes."""
-        raw = point.from_words(words)
+        raw = point.joined(words) if len(words) == point.size else point.from_words(words)
         if point.facts.changes in _KEPT or point.facts.changes_with:
             self._kept[point.facts.item] = raw
         return raw
@@ -108,13 +125,13 @@ class Session(NamedPoints, ABC):
             elif item in self._kept and (not writes or other.facts.changes == _NEVER):
                 raws[name] = self._kept[item]
             else:
-                with needing(point, other):
+                with needing(self.traffic, point, other):
                     raws[name] = yield from self._read_raw_steps(other)
         return raws
 
     def _read_steps(self, point: Decoding[T]) -> Steps[T]:
         """Read a point's value."""
-        raws = yield from self._raws_steps(point, point.scale_needs)
+        raws = (yield from self._raws_steps(point, point.scale_needs)) if point.scale_needs else NO_RAWS
         raw = yield from self._read_raw_steps(point)
         return point.decode(raw, raws)
 
@@ -135,7 +152,7 @@ class Session(NamedPoints, ABC):
     def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
         """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
-        with about(point):
+        with About(self.traffic, point):
             if point.facts.bits is not None:
                 words = (point.insert((yield from self._shared_word_steps(point)), raw),)
             try:

@@ -79,6 +79,10 @@ class Codes:
         except KeyError as error:
             raise AttributeError(error.args[0]) from None
 
+    def __dir__(self) -> list[str]:
+        """Return the names of the codes."""
+        return [*self._spans]
+
     def _no_such(self, name: object) -> str:
         known = f", only {', '.join(self)}" if self.__dict__.get("_spans") else ""
         return f"there is no special code {name if isinstance(name, str) else shown(name)}{known}"

@@ -51,6 +51,8 @@ class PointTable:
     """A device's points, with what its bus needs to know."""
 
     POINTS: ClassVar[Mapping[str, PointAttribute[Any, Any]]] = {}
+    GROUPS: ClassVar[tuple[str, ...]] = ()
+    """The groups that `read_many` reads."""
     BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
     """Planned reads by group, where the family plans."""
     VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
@@ -94,6 +96,11 @@ class NamedPoints(PointTable):
     """The points of a device whose variants are known as far as its maker was told."""
 
     variants: Mapping[str, str | None]
+
+    def rows(self, values: Mapping[str, object]) -> list[dict[str, Any]]:
+        """Return values by name, as `read_many` gives them, as rows for a data frame or `csv.DictWriter`."""
+        facts = [(self._resolved(name).facts, value) for name, value in values.items()]
+        return [{"name": one.name, "code": one.code, "value": value, "unit": one.unit} for one, value in facts]
 
     def _resolved(self, what: Any) -> PointAttribute[Any, Any]:
         """Return a point by name, old name or code, that of this device's variant; raises AccessError."""

@@ -87,7 +87,7 @@ class CanSession(Session):
         answer = self.PROFILE.answer(request)
         words: tuple[int, ...] = ()
         for address in sorted(place.addresses):
-            words = (*words, (yield from self._ask_steps(request, answer, address, 0)))
+            words = (*words, (yield from self._retried_steps(self._ask_steps, request, answer, address, 0)))
         return words
 
     def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
@@ -105,7 +105,7 @@ class CanSession(Session):
         request = self.PROFILE.request(writes=True)
         answer = self.PROFILE.answer(request)
         for address, word in zip(sorted(place.addresses), values, strict=True):
-            raw = yield from self._ask_steps(request, answer, address, word)
+            raw = yield from self._retried_steps(self._ask_steps, request, answer, address, word)
             if answer is not None and answer.carries("raw") and raw != word:
                 text = f"{word} was written to {address}, and the device answered {raw}"
                 raise EchoError(text, (word,), (raw,))
@@ -114,6 +114,7 @@ class CanSession(Session):
         """One request, and the raw number of its answer; all other frames are offered to the receivers."""
         frame = build(request, self.PROFILE, self.unit, address, raw)
         yield from self._clear_steps()
+        sent = self.traffic.sent(frame)
         yield frame
         if answer is None:
             return raw
@@ -129,6 +130,7 @@ class CanSession(Session):
             else:
                 if found == address or not answer.carries("address"):
                     self._unanswered = False
+                    self.traffic.came(frame, sent)
                     return word
             self.take(frame)
 
@@ -168,7 +170,7 @@ class CanSession(Session):
     def _read_at_steps(self, space: str, address: int, count: int) -> Steps[tuple[int, ...]]:
         """Read by address; raises RequestError for what is no place."""
         place = self._place(space, address, count)
-        with about_place(place):
+        with about_place(self.traffic, place):
             return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
@@ -176,7 +178,7 @@ class CanSession(Session):
         check_values(values)
         place = self._place(space, address, len(values))
         check_words("bad_value", "values", values)
-        with about_place(place):
+        with about_place(self.traffic, place):
             yield from self._put_steps(place, values)
 
     def _place(self, space: str, address: int, count: int) -> Place:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import struct
 from typing import TYPE_CHECKING
 
 from ..arguments import check_bytes, check_integer, check_number, shown
@@ -25,6 +26,8 @@ WRITES = SINGLE_WRITES | BLOCK_WRITES
 ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 
 RTU, TCP = "rtu", "tcp"
+_HEAD = struct.Struct(">HHHBB")
+"""Of TCP: transaction, protocol and size, then unit and function."""
 PDU = "pdu"
 """Unit and request as they are, for transports that frame them as they like."""
 
@@ -249,14 +252,15 @@ def _open_rtu(request: Request, reply: bytes) -> bytes:
 def _open_tcp(request: Request, reply: bytes, transaction: int) -> bytes:
     if len(reply) < 9:
         raise FrameError("short_frame", f"{len(reply)} bytes are too few for a reply")
-    if reply[2:4] != b"\0\0":
+    number, protocol, size, unit, function = _HEAD.unpack_from(reply)
+    if protocol != 0:
         raise FrameError("bad_protocol", "the protocol number is not 0")
-    _check_size(len(reply), 6 + int.from_bytes(reply[4:6], "big"))
-    if int.from_bytes(reply[:2], "big") != transaction:
+    _check_size(len(reply), 6 + size)
+    if number != transaction:
         raise FrameError("wrong_transaction", "the reply belongs to another request")
-    _check_address(request, reply[6], reply[7])
-    if reply[7] & 0x80 or request.function not in READS:
-        _check_size(len(reply) - 7, 2 if reply[7] & 0x80 else 5)
+    _check_address(request, unit, function)
+    if function & 0x80 or request.function not in READS:
+        _check_size(size - 1, 2 if function & 0x80 else 5)
     return reply[7:]
 
 
@@ -282,7 +286,7 @@ def _answer(request: Request, pdu: bytes) -> tuple[int, ...]:
             raise FrameError("bad_byte_count", f"the reply has {pdu[1]} data bytes where {size} belong")
         if bits:
             return tuple(data[place >> 3] >> (place & 7) & 1 for place in range(request.count))
-        return tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, size, 2))
+        return struct.unpack(f">{request.count}H", data)
     if not request.values or pdu != _head(request):
         raise FrameError("echo_mismatch", "the reply does not repeat the request")
     return request.values if request.function in ECHOES else ()

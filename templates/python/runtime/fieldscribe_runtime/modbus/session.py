@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import suppress
+from itertools import count
 from typing import ClassVar, TypeVar
 
-from ..about import about, about_place
-from ..arguments import check_name, check_place, check_values
+from ..about import About, about_place
+from ..arguments import check_bytes, check_name, check_place, check_values
 from ..bits import BitLayout
 from ..errors import AccessError, RequestError, no_reply
 from ..facts import Place
@@ -19,6 +20,7 @@ from ..session import Session
 from ..table import check_unit, check_variants, exists
 from .frames import (
     BIT_READS,
+    TCP,
     WRITE_COIL,
     WRITE_COILS,
     WRITE_REGISTER,
@@ -42,6 +44,9 @@ _WRITES = {
 }
 
 
+_REMEMBERED = 256
+
+
 class ModbusSession(Session):
     """The state of one Modbus device."""
 
@@ -53,26 +58,45 @@ class ModbusSession(Session):
             check_unit(unit, self.PROFILE.units)
         super().__init__(unit, variants)
         self._framing = framing
-        self._transaction = 0
+        self._transactions = count(1)
+        self._reads: dict[tuple[int, int, int], tuple[Request, bytes]] = {}
+        """Requests that read, as they were built."""
         self._readable: frozenset[tuple[str, int]] | None = None
 
     def _ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
         """One request and its reply."""
-        self._transaction = self._transaction + 1 & 0xFFFF
-        request = Request(self.unit, function, address, count, values)
-        frame = build(request, self.PROFILE, self._framing, self._transaction)
+        key = function, address, count
+        if values or (known := self._reads.get(key)) is None:
+            request = Request(self.unit, function, address, count, values)
+            known = request, build(request, self.PROFILE, self._framing)
+            if not values and len(self._reads) < _REMEMBERED:
+                self._reads[key] = known
         if self.unit == self.PROFILE.broadcast:
             with suppress(TimeoutError):
-                yield Broadcast(frame)
+                self.traffic.sent(known[1])
+                yield Broadcast(known[1])
             return ()
+        return (yield from self._retried_steps(self._exchange_steps, *known))
+
+    def _exchange_steps(self, request: Request, frame: bytes) -> Steps[tuple[int, ...]]:
+        """Send a frame; return what the reply brings."""
+        transaction = 0
+        if self._framing == TCP:
+            transaction = next(self._transactions) & 0xFFFF
+            frame = transaction.to_bytes(2, "big") + frame[2:]
+        sent = self.traffic.sent(frame)
         try:
             reply = yield frame
         except TimeoutError as error:
-            raise no_reply(f"unit {self.unit} did not reply to function {function:02X}h", error) from error
-        return parse(request, reply, self.PROFILE, self._framing, self._transaction)
+            raise no_reply(f"unit {self.unit} did not reply to function {request.function:02X}h", error) from error
+        check_bytes(reply)
+        self.traffic.came(reply, sent)
+        return parse(request, reply, self.PROFILE, self._framing, transaction)
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read the words or bits of a place, in ascending order of address."""
+        if len(place.addresses) == 1:
+            return (yield from self._ask(read_function(place), place.addresses[0], 1))
         words = yield from self._ask(read_function(place), place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
 
@@ -80,7 +104,7 @@ class ModbusSession(Session):
         """Read by address; raises RequestError for what is no place."""
         check_place(space, address, count)
         place = Place(space, (address,))
-        with about_place(place):
+        with about_place(self.traffic, place):
             return (yield from self._ask(read_function(place), address, count))
 
     def _write_at_steps(self, space: str, address: int, values: tuple[int, ...]) -> Steps[None]:
@@ -88,7 +112,7 @@ class ModbusSession(Session):
         check_values(values)
         check_place(space, address, len(values))
         place = Place(space, tuple(range(address, address + len(values))))
-        with about_place(place):
+        with about_place(self.traffic, place):
             yield from self._put_steps(place, values)
 
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
@@ -109,7 +133,7 @@ class ModbusSession(Session):
         raws: dict[str, int] = {}
         for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
             inside = [point for point in points if block.covers(point.facts.at)]
-            with about(*inside):
+            with About(self.traffic, *inside):
                 words = yield from self._ask(block.function, block.address, block.count)
             for point in inside:
                 own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]

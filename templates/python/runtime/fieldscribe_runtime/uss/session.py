@@ -8,8 +8,9 @@ from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..about import about, about_place
+from ..about import About, about_place
 from ..arguments import (
+    check_bytes,
     check_integer,
     check_name,
     check_number,
@@ -107,10 +108,10 @@ class UssSession(Session):
         raws: dict[str, int] = {}
         heard = [point for point in points if point.facts.at.telegram and not self._is_sent(point.facts.at)]
         if heard:
-            with about(*heard):
+            with About(self.traffic, *heard):
                 reply = yield from self._exchange_steps(Request(self.unit), self._sent)
             for point in heard:
-                with about(point):
+                with About(self.traffic, point):
                     raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
         rest = [point for point in points if point not in heard]
         return {**raws, **(yield from super()._gather_steps(rest, group))}
@@ -136,7 +137,7 @@ class UssSession(Session):
         request = Request(self.unit, words=self._words(sent))
         check_request(request, self.PROFILE, self.link)  # what raises here was not sent: the old words still hold
         self._sent = {}  # until the device has answered, whatever ends the wait
-        yield from self._exchange_steps(request, sent)
+        yield from self._telegram_steps(request, sent)
         self._sent = sent
 
     def _change_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
@@ -167,19 +168,28 @@ class UssSession(Session):
                 raise RequestError("bad_value", text)
         self._sent = {}
         with suppress(TimeoutError):
+            self.traffic.about = ()
+            self.traffic.sent(request)
             yield Broadcast(request)
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
+        """One task as `_telegram_steps` carries it out, again while it is lost: it changes no process data."""
+        return (yield from self._retried_steps(self._telegram_steps, request, sent))
+
+    def _telegram_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task with process data, and the reply; a task is repeated until the device answers it."""
         request = request.replaced(words=self._words(sent))
         frame = build(request, self.PROFILE, self.link)
         left = self.repeats
         while True:
+            moment = self.traffic.sent(frame)
             try:
                 reply = yield frame
             except TimeoutError as error:
                 about = f" to task {request.task} for {request.parameter}" if request.task != NO_TASK else ""
                 raise no_reply(f"unit {self.unit} did not reply{about}", error) from error
+            check_bytes(reply)
+            self.traffic.came(reply, moment)
             try:
                 return parse(request, reply, self.PROFILE, self.link)
             except FrameError as error:
@@ -196,7 +206,7 @@ class UssSession(Session):
     def _read_at_steps(self, space: str, address: int, index: int | None) -> Steps[tuple[int, ...]]:
         """Read by number; raises RequestError for what is no place."""
         place = self._place(space, address, 1, index)
-        with about_place(place):
+        with about_place(self.traffic, place):
             return (yield from self._get_steps(place))
 
     def _write_at_steps(self, space: str, address: int, words: tuple[int, ...], index: int | None) -> Steps[None]:
@@ -204,7 +214,7 @@ class UssSession(Session):
         check_values(words)
         place = self._place(space, address, len(words), index)
         check_words("bad_value", "values", words)
-        with about_place(place):
+        with about_place(self.traffic, place):
             yield from self._put_steps(place, words)
 
     def _place(self, space: str, address: int, count: int, index: int | None) -> Place:

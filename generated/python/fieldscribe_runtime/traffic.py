@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: 0BSD
+"""What went over the line for one unit: counted, and written to the log `fieldscribe` if that takes debug messages."""
+
+from __future__ import annotations
+
+import sys
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Protocol
+
+    from .errors import FieldscribeError
+
+    class Labelled(Protocol):
+        """A point, a command or a place."""
+
+        @property
+        def label(self) -> str:
+            """The name for messages."""
+
+    class Frame(Protocol):
+        """Bytes, or a frame of CAN."""
+
+        def hex(self, separator: str, /) -> str:
+            """Return the bytes as text."""
+
+
+_DEBUG = 10
+"""The level of debug messages."""
+
+
+class Traffic:
+    """Counts the requests of one unit, also those that are sent again, and its replies; times are in seconds.
+
+    `errors` counts failed requests by the status of their error. `longest` and `mean` are how long replies took, from
+    the request on; on a line that devices share that includes the wait for the line.
+    """
+
+    def __init__(self, unit: int) -> None:
+        self._unit = unit
+        self._logger: Any = None
+        self._is_logged = False
+        self.about: Iterable[Labelled] = ()
+        self.clear()
+
+    def clear(self) -> None:
+        """Count from zero."""
+        self.requests = self.replies = 0
+        self.errors: dict[str, int] = {}
+        self.total = self.longest = 0.0
+
+    @property
+    def mean(self) -> float:
+        """How long a reply takes on average."""
+        return self.total / self.replies if self.replies else 0.0
+
+    def __repr__(self) -> str:
+        errors = "".join(f", {number} {status}" for status, number in self.errors.items())
+        times = f"{self.mean * 1000:.1f} ms each, {self.longest * 1000:.1f} ms at most"
+        return f"<{type(self).__name__} {self.requests} requests, {self.replies} replies{errors}; {times}>"
+
+    def sent(self, frame: Frame) -> float:
+        """Count a request; return when it is sent."""
+        self.requests += 1
+        if self._logger is None and "logging" in sys.modules:  # a program that logs has imported it: nobody else does
+            self._logger = sys.modules["logging"].getLogger("fieldscribe")
+        self._is_logged = self._logger is not None and self._logger.isEnabledFor(_DEBUG)
+        if self._is_logged:
+            names = ", ".join([one.label for one in self.about])
+            self._logger.debug("unit %d -> %s (%s)", self._unit, frame.hex(" ").upper(), names)
+        return monotonic()
+
+    def came(self, frame: Frame, sent: float) -> None:
+        """Count a reply to a request that was sent then."""
+        took = monotonic() - sent
+        self.replies += 1
+        self.total += took
+        self.longest = max(self.longest, took)
+        if self._is_logged:
+            self._logger.debug("unit %d <- %s after %.1f ms", self._unit, frame.hex(" ").upper(), took * 1000)
+
+    def failed(self, error: FieldscribeError) -> None:
+        """Count a failure."""
+        self.errors[error.status] = self.errors.get(error.status, 0) + 1
+        if self._is_logged:
+            self._logger.debug("unit %d: %s: %s", self._unit, error.status, error)
