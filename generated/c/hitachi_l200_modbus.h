@@ -192,6 +192,806 @@ static const fieldscribe_modbus_reading hitachi_l200_motor_h_blocks[] = {
     {3U, 0x1542U, 1U}, /* H206 */
 };
 
+/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+
+typedef struct hitachi_l200_coils_group {
+    bool run_command_raw;
+    bool direction_command_raw;
+    bool external_trip_raw;
+    bool trip_reset_raw;
+    bool digital_input_1_raw;
+    bool digital_input_2_raw;
+    bool digital_input_3_raw;
+    bool digital_input_4_raw;
+    bool digital_input_5_raw;
+    bool running_raw;
+    bool direction_status_raw;
+    bool ready_raw;
+    bool alarm_raw;
+    bool pid_deviation_raw;
+    bool overload_raw;
+    bool frequency_arrival_in_acceleration_raw;
+    bool frequency_arrival_at_constant_speed_raw;
+    bool run_mode_raw;
+    bool data_write_raw;
+    bool crc_error_raw;
+    bool overrun_error_raw;
+    bool framing_error_raw;
+    bool parity_error_raw;
+    bool checksum_error_raw;
+} hitachi_l200_coils_group;
+
+static inline void hitachi_l200_coils_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_coils_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->run_command_raw = words[0] != 0U;
+        group->direction_command_raw = words[1] != 0U;
+        group->external_trip_raw = words[2] != 0U;
+        group->trip_reset_raw = words[3] != 0U;
+        group->digital_input_1_raw = words[6] != 0U;
+        group->digital_input_2_raw = words[7] != 0U;
+        group->digital_input_3_raw = words[8] != 0U;
+        group->digital_input_4_raw = words[9] != 0U;
+        group->digital_input_5_raw = words[10] != 0U;
+        break;
+    case 1U:
+        group->running_raw = words[0] != 0U;
+        group->direction_status_raw = words[1] != 0U;
+        group->ready_raw = words[2] != 0U;
+        group->alarm_raw = words[6] != 0U;
+        group->pid_deviation_raw = words[7] != 0U;
+        group->overload_raw = words[8] != 0U;
+        group->frequency_arrival_in_acceleration_raw = words[9] != 0U;
+        group->frequency_arrival_at_constant_speed_raw = words[10] != 0U;
+        group->run_mode_raw = words[11] != 0U;
+        group->data_write_raw = words[12] != 0U;
+        group->crc_error_raw = words[13] != 0U;
+        group->overrun_error_raw = words[14] != 0U;
+        group->framing_error_raw = words[15] != 0U;
+        group->parity_error_raw = words[16] != 0U;
+        group->checksum_error_raw = words[17] != 0U;
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_status_group {
+    int32_t network_frequency_setpoint_count; /* 0.1 Hz */
+    uint16_t inverter_status_raw;
+    int32_t network_process_value_count; /* 0.1 % */
+} hitachi_l200_status_group;
+
+static inline void hitachi_l200_status_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_status_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->network_frequency_setpoint_count = hitachi_l200_network_frequency_setpoint_decode_count(words[0]);
+        group->inverter_status_raw = words[1];
+        break;
+    case 1U:
+        group->network_process_value_count = hitachi_l200_network_process_value_decode_count(words[0]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_monitor_d_group {
+    uint16_t trip_count_raw;
+    uint16_t trip_1_error_raw;
+    int32_t trip_1_output_frequency_count; /* 0.1 Hz */
+    int32_t trip_1_motor_current_count; /* 0.1 % */
+    int32_t trip_1_dc_bus_voltage_count; /* 0.1 V */
+    uint32_t trip_1_run_time_raw; /* h */
+    uint32_t trip_1_power_on_time_raw; /* h */
+    uint16_t trip_2_error_raw;
+    int32_t trip_2_output_frequency_count; /* 0.1 Hz */
+    int32_t trip_2_motor_current_count; /* 0.1 % */
+    int32_t trip_2_dc_bus_voltage_count; /* 0.1 V */
+    uint32_t trip_2_run_time_raw; /* h */
+    uint32_t trip_2_power_on_time_raw; /* h */
+    uint16_t trip_3_error_raw;
+    int32_t trip_3_output_frequency_count; /* 0.1 Hz */
+    int32_t trip_3_motor_current_count; /* 0.1 % */
+    int32_t trip_3_dc_bus_voltage_count; /* 0.1 V */
+    uint32_t trip_3_run_time_raw; /* h */
+    uint32_t trip_3_power_on_time_raw; /* h */
+    int32_t output_frequency_count; /* 0.1 Hz */
+    int32_t motor_current_count; /* 0.1 % */
+    uint16_t rotation_direction_raw;
+    int64_t scaled_process_value_count; /* 0.01 % */
+    uint16_t digital_inputs_raw;
+    uint16_t digital_outputs_raw;
+    int32_t output_voltage_count; /* 0.01 % */
+    uint32_t run_time_raw; /* h */
+    uint32_t power_on_time_raw; /* h */
+} hitachi_l200_monitor_d_group;
+
+static inline void hitachi_l200_monitor_d_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_monitor_d_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->trip_count_raw = words[0];
+        group->trip_1_error_raw = words[1];
+        break;
+    case 1U:
+        group->trip_1_output_frequency_count = hitachi_l200_trip_1_output_frequency_decode_count(words[0]);
+        break;
+    case 2U:
+        group->trip_1_motor_current_count = hitachi_l200_trip_1_motor_current_decode_count(words[0]);
+        group->trip_1_dc_bus_voltage_count = hitachi_l200_trip_1_dc_bus_voltage_decode_count(words[1]);
+        group->trip_1_run_time_raw = hitachi_l200_trip_1_run_time_from_words(&words[2]);
+        break;
+    case 3U:
+        group->trip_1_power_on_time_raw = hitachi_l200_trip_1_power_on_time_from_words(&words[0]);
+        group->trip_2_error_raw = words[2];
+        break;
+    case 4U:
+        group->trip_2_output_frequency_count = hitachi_l200_trip_2_output_frequency_decode_count(words[0]);
+        break;
+    case 5U:
+        group->trip_2_motor_current_count = hitachi_l200_trip_2_motor_current_decode_count(words[0]);
+        group->trip_2_dc_bus_voltage_count = hitachi_l200_trip_2_dc_bus_voltage_decode_count(words[1]);
+        group->trip_2_run_time_raw = hitachi_l200_trip_2_run_time_from_words(&words[2]);
+        break;
+    case 6U:
+        group->trip_2_power_on_time_raw = hitachi_l200_trip_2_power_on_time_from_words(&words[0]);
+        group->trip_3_error_raw = words[2];
+        break;
+    case 7U:
+        group->trip_3_output_frequency_count = hitachi_l200_trip_3_output_frequency_decode_count(words[0]);
+        break;
+    case 8U:
+        group->trip_3_motor_current_count = hitachi_l200_trip_3_motor_current_decode_count(words[0]);
+        group->trip_3_dc_bus_voltage_count = hitachi_l200_trip_3_dc_bus_voltage_decode_count(words[1]);
+        group->trip_3_run_time_raw = hitachi_l200_trip_3_run_time_from_words(&words[2]);
+        break;
+    case 9U:
+        group->trip_3_power_on_time_raw = hitachi_l200_trip_3_power_on_time_from_words(&words[0]);
+        break;
+    case 10U:
+        group->output_frequency_count = hitachi_l200_output_frequency_decode_count(words[0]);
+        group->motor_current_count = hitachi_l200_motor_current_decode_count(words[1]);
+        group->rotation_direction_raw = words[2];
+        break;
+    case 11U:
+        group->scaled_process_value_count = hitachi_l200_scaled_process_value_decode_count(
+        hitachi_l200_scaled_process_value_from_words(&words[0]));
+        group->digital_inputs_raw = words[2];
+        group->digital_outputs_raw = words[3];
+        break;
+    case 12U:
+        group->output_voltage_count = hitachi_l200_output_voltage_decode_count(words[0]);
+        break;
+    case 13U:
+        group->run_time_raw = hitachi_l200_run_time_from_words(&words[0]);
+        group->power_on_time_raw = hitachi_l200_power_on_time_from_words(&words[2]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_basic_f_group {
+    int64_t acceleration_time_count; /* 0.01 s */
+    int64_t deceleration_time_count; /* 0.01 s */
+    uint16_t motor_direction_raw;
+    int64_t acceleration_time_set_2_count; /* 0.01 s */
+    int64_t deceleration_time_set_2_count; /* 0.01 s */
+} hitachi_l200_basic_f_group;
+
+static inline void hitachi_l200_basic_f_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_basic_f_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->acceleration_time_count = hitachi_l200_acceleration_time_decode_count(
+        hitachi_l200_acceleration_time_from_words(&words[0]));
+        group->deceleration_time_count = hitachi_l200_deceleration_time_decode_count(
+        hitachi_l200_deceleration_time_from_words(&words[2]));
+        break;
+    case 1U:
+        group->motor_direction_raw = words[0];
+        break;
+    case 2U:
+        group->acceleration_time_set_2_count = hitachi_l200_acceleration_time_set_2_decode_count(
+        hitachi_l200_acceleration_time_set_2_from_words(&words[0]));
+        group->deceleration_time_set_2_count = hitachi_l200_deceleration_time_set_2_decode_count(
+        hitachi_l200_deceleration_time_set_2_from_words(&words[2]));
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_standard_a_group {
+    uint16_t frequency_source_raw;
+    uint16_t run_source_raw;
+    uint16_t motor_rated_frequency_raw; /* Hz */
+    uint16_t maximum_frequency_raw; /* Hz */
+    uint16_t at_terminal_selection_raw;
+    int32_t input_o_minimum_frequency_count; /* 0.1 Hz */
+    int32_t input_o_maximum_frequency_count; /* 0.1 Hz */
+    uint16_t input_o_minimum_setpoint_raw; /* % */
+    uint16_t input_o_maximum_setpoint_raw; /* % */
+    uint16_t input_o_start_condition_raw;
+    uint16_t analog_input_filter_raw;
+    int32_t base_frequency_count; /* 0.1 Hz */
+    int32_t fixed_frequency_1_count; /* 0.1 Hz */
+    int32_t fixed_frequency_2_count; /* 0.1 Hz */
+    int32_t fixed_frequency_3_count; /* 0.1 Hz */
+    int32_t fixed_frequency_4_count; /* 0.1 Hz */
+    int32_t fixed_frequency_5_count; /* 0.1 Hz */
+    int32_t fixed_frequency_6_count; /* 0.1 Hz */
+    int32_t fixed_frequency_7_count; /* 0.1 Hz */
+    int32_t fixed_frequency_8_count; /* 0.1 Hz */
+    int32_t fixed_frequency_9_count; /* 0.1 Hz */
+    int32_t fixed_frequency_10_count; /* 0.1 Hz */
+    int32_t fixed_frequency_11_count; /* 0.1 Hz */
+    int32_t fixed_frequency_12_count; /* 0.1 Hz */
+    int32_t fixed_frequency_13_count; /* 0.1 Hz */
+    int32_t fixed_frequency_14_count; /* 0.1 Hz */
+    int32_t fixed_frequency_15_count; /* 0.1 Hz */
+    int32_t jog_frequency_count; /* 0.01 Hz */
+    uint16_t jog_stop_mode_raw;
+    uint16_t boost_mode_raw;
+    int32_t manual_boost_count; /* 0.1 % */
+    int32_t manual_boost_frequency_count; /* 0.1 % */
+    uint16_t vf_characteristic_raw;
+    uint16_t output_voltage_setting_raw; /* % */
+    uint16_t dc_brake_enable_raw;
+    int32_t dc_brake_frequency_count; /* 0.1 Hz */
+    int32_t dc_brake_delay_count; /* 0.1 s */
+    uint16_t dc_brake_torque_raw; /* % */
+    int32_t dc_brake_time_count; /* 0.1 s */
+    uint16_t dc_brake_trigger_raw;
+    uint16_t upper_frequency_limit_raw; /* decodes to Hz */
+    uint16_t lower_frequency_limit_raw; /* decodes to Hz */
+    int32_t jump_frequency_1_count; /* 0.1 Hz */
+    int32_t jump_frequency_1_width_count; /* 0.1 Hz */
+    int32_t jump_frequency_2_count; /* 0.1 Hz */
+    int32_t jump_frequency_2_width_count; /* 0.1 Hz */
+    int32_t jump_frequency_3_count; /* 0.1 Hz */
+    int32_t jump_frequency_3_width_count; /* 0.1 Hz */
+    uint16_t pid_enable_raw;
+    int32_t pid_proportional_gain_count; /* 0.1 */
+    int32_t pid_integral_time_count; /* 0.1 s */
+    int32_t pid_derivative_time_count; /* 0.1 s */
+    int32_t pid_display_factor_count; /* 0.01 */
+    uint16_t pid_process_value_source_raw;
+    uint16_t pid_inversion_raw;
+    int32_t pid_output_limit_count; /* 0.1 % */
+    uint16_t avr_mode_raw;
+    uint16_t motor_voltage_raw;
+    int64_t acceleration_time_2_count; /* 0.01 s */
+    int64_t deceleration_time_2_count; /* 0.01 s */
+    uint16_t ramp_2_selection_raw;
+    int32_t acceleration_change_frequency_count; /* 0.1 Hz */
+    int32_t deceleration_change_frequency_count; /* 0.1 Hz */
+    uint16_t acceleration_curve_raw;
+    uint16_t deceleration_curve_raw;
+    int32_t input_oi_minimum_frequency_count; /* 0.1 Hz */
+    int32_t input_oi_maximum_frequency_count; /* 0.1 Hz */
+    uint16_t input_oi_minimum_setpoint_raw; /* % */
+    uint16_t input_oi_maximum_setpoint_raw; /* % */
+    uint16_t input_oi_start_condition_raw;
+    uint16_t calculation_input_a_raw;
+    uint16_t calculation_input_b_raw;
+    uint16_t calculation_operator_raw;
+    int32_t frequency_offset_count; /* 0.1 Hz */
+    uint16_t frequency_offset_sign_raw;
+    int32_t potentiometer_minimum_frequency_count; /* 0.1 Hz */
+    int32_t potentiometer_maximum_frequency_count; /* 0.1 Hz */
+    uint16_t potentiometer_minimum_setpoint_raw; /* % */
+    uint16_t potentiometer_maximum_setpoint_raw; /* % */
+    uint16_t potentiometer_start_condition_raw;
+    uint16_t frequency_source_set_2_raw;
+    uint16_t run_source_set_2_raw;
+    uint16_t motor_rated_frequency_set_2_raw; /* Hz */
+    uint16_t maximum_frequency_set_2_raw; /* Hz */
+    int32_t base_frequency_set_2_count; /* 0.1 Hz */
+    uint16_t boost_mode_set_2_raw;
+    int32_t manual_boost_set_2_count; /* 0.1 % */
+    int32_t manual_boost_frequency_set_2_count; /* 0.1 % */
+    uint16_t vf_characteristic_set_2_raw;
+    uint16_t output_voltage_setting_set_2_raw; /* % */
+    uint16_t upper_frequency_limit_set_2_raw; /* decodes to Hz */
+    uint16_t lower_frequency_limit_set_2_raw; /* decodes to Hz */
+    int64_t deceleration_time_2_set_2_count; /* 0.01 s */
+    uint16_t ramp_2_selection_set_2_raw;
+    int32_t acceleration_change_frequency_set_2_count; /* 0.1 Hz */
+    int32_t deceleration_change_frequency_set_2_count; /* 0.1 Hz */
+} hitachi_l200_standard_a_group;
+
+static inline void hitachi_l200_standard_a_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_standard_a_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->frequency_source_raw = words[0];
+        group->run_source_raw = words[1];
+        group->motor_rated_frequency_raw = words[2];
+        group->maximum_frequency_raw = words[3];
+        break;
+    case 1U:
+        group->at_terminal_selection_raw = words[0];
+        break;
+    case 2U:
+        group->input_o_minimum_frequency_count = hitachi_l200_input_o_minimum_frequency_decode_count(words[0]);
+        break;
+    case 3U:
+        group->input_o_maximum_frequency_count = hitachi_l200_input_o_maximum_frequency_decode_count(words[0]);
+        group->input_o_minimum_setpoint_raw = words[1];
+        group->input_o_maximum_setpoint_raw = words[2];
+        group->input_o_start_condition_raw = words[3];
+        break;
+    case 4U:
+        group->analog_input_filter_raw = words[0];
+        break;
+    case 5U:
+        group->base_frequency_count = hitachi_l200_base_frequency_decode_count(words[0]);
+        break;
+    case 6U:
+        group->fixed_frequency_1_count = hitachi_l200_fixed_frequency_1_decode_count(words[0]);
+        break;
+    case 7U:
+        group->fixed_frequency_2_count = hitachi_l200_fixed_frequency_2_decode_count(words[0]);
+        break;
+    case 8U:
+        group->fixed_frequency_3_count = hitachi_l200_fixed_frequency_3_decode_count(words[0]);
+        break;
+    case 9U:
+        group->fixed_frequency_4_count = hitachi_l200_fixed_frequency_4_decode_count(words[0]);
+        break;
+    case 10U:
+        group->fixed_frequency_5_count = hitachi_l200_fixed_frequency_5_decode_count(words[0]);
+        break;
+    case 11U:
+        group->fixed_frequency_6_count = hitachi_l200_fixed_frequency_6_decode_count(words[0]);
+        break;
+    case 12U:
+        group->fixed_frequency_7_count = hitachi_l200_fixed_frequency_7_decode_count(words[0]);
+        break;
+    case 13U:
+        group->fixed_frequency_8_count = hitachi_l200_fixed_frequency_8_decode_count(words[0]);
+        break;
+    case 14U:
+        group->fixed_frequency_9_count = hitachi_l200_fixed_frequency_9_decode_count(words[0]);
+        break;
+    case 15U:
+        group->fixed_frequency_10_count = hitachi_l200_fixed_frequency_10_decode_count(words[0]);
+        break;
+    case 16U:
+        group->fixed_frequency_11_count = hitachi_l200_fixed_frequency_11_decode_count(words[0]);
+        break;
+    case 17U:
+        group->fixed_frequency_12_count = hitachi_l200_fixed_frequency_12_decode_count(words[0]);
+        break;
+    case 18U:
+        group->fixed_frequency_13_count = hitachi_l200_fixed_frequency_13_decode_count(words[0]);
+        break;
+    case 19U:
+        group->fixed_frequency_14_count = hitachi_l200_fixed_frequency_14_decode_count(words[0]);
+        break;
+    case 20U:
+        group->fixed_frequency_15_count = hitachi_l200_fixed_frequency_15_decode_count(words[0]);
+        group->jog_frequency_count = hitachi_l200_jog_frequency_decode_count(words[1]);
+        group->jog_stop_mode_raw = words[2];
+        group->boost_mode_raw = words[3];
+        break;
+    case 21U:
+        group->manual_boost_count = hitachi_l200_manual_boost_decode_count(words[0]);
+        group->manual_boost_frequency_count = hitachi_l200_manual_boost_frequency_decode_count(words[1]);
+        group->vf_characteristic_raw = words[2];
+        group->output_voltage_setting_raw = words[3];
+        break;
+    case 22U:
+        group->dc_brake_enable_raw = words[0];
+        group->dc_brake_frequency_count = hitachi_l200_dc_brake_frequency_decode_count(words[1]);
+        group->dc_brake_delay_count = hitachi_l200_dc_brake_delay_decode_count(words[2]);
+        group->dc_brake_torque_raw = words[3];
+        break;
+    case 23U:
+        group->dc_brake_time_count = hitachi_l200_dc_brake_time_decode_count(words[0]);
+        group->dc_brake_trigger_raw = words[1];
+        break;
+    case 24U:
+        group->upper_frequency_limit_raw = words[0];
+        group->lower_frequency_limit_raw = words[1];
+        break;
+    case 25U:
+        group->jump_frequency_1_count = hitachi_l200_jump_frequency_1_decode_count(words[0]);
+        group->jump_frequency_1_width_count = hitachi_l200_jump_frequency_1_width_decode_count(words[1]);
+        break;
+    case 26U:
+        group->jump_frequency_2_count = hitachi_l200_jump_frequency_2_decode_count(words[0]);
+        group->jump_frequency_2_width_count = hitachi_l200_jump_frequency_2_width_decode_count(words[1]);
+        break;
+    case 27U:
+        group->jump_frequency_3_count = hitachi_l200_jump_frequency_3_decode_count(words[0]);
+        group->jump_frequency_3_width_count = hitachi_l200_jump_frequency_3_width_decode_count(words[1]);
+        break;
+    case 28U:
+        group->pid_enable_raw = words[0];
+        group->pid_proportional_gain_count = hitachi_l200_pid_proportional_gain_decode_count(words[1]);
+        group->pid_integral_time_count = hitachi_l200_pid_integral_time_decode_count(words[2]);
+        group->pid_derivative_time_count = hitachi_l200_pid_derivative_time_decode_count(words[3]);
+        break;
+    case 29U:
+        group->pid_display_factor_count = hitachi_l200_pid_display_factor_decode_count(words[0]);
+        group->pid_process_value_source_raw = words[1];
+        group->pid_inversion_raw = words[2];
+        group->pid_output_limit_count = hitachi_l200_pid_output_limit_decode_count(words[3]);
+        break;
+    case 30U:
+        group->avr_mode_raw = words[0];
+        group->motor_voltage_raw = words[1];
+        break;
+    case 31U:
+        group->acceleration_time_2_count = hitachi_l200_acceleration_time_2_decode_count(
+        hitachi_l200_acceleration_time_2_from_words(&words[0]));
+        group->deceleration_time_2_count = hitachi_l200_deceleration_time_2_decode_count(
+        hitachi_l200_deceleration_time_2_from_words(&words[2]));
+        break;
+    case 32U:
+        group->ramp_2_selection_raw = words[0];
+        break;
+    case 33U:
+        group->acceleration_change_frequency_count = hitachi_l200_acceleration_change_frequency_decode_count(words[0]);
+        break;
+    case 34U:
+        group->deceleration_change_frequency_count = hitachi_l200_deceleration_change_frequency_decode_count(words[0]);
+        group->acceleration_curve_raw = words[1];
+        group->deceleration_curve_raw = words[2];
+        break;
+    case 35U:
+        group->input_oi_minimum_frequency_count = hitachi_l200_input_oi_minimum_frequency_decode_count(words[0]);
+        break;
+    case 36U:
+        group->input_oi_maximum_frequency_count = hitachi_l200_input_oi_maximum_frequency_decode_count(words[0]);
+        group->input_oi_minimum_setpoint_raw = words[1];
+        group->input_oi_maximum_setpoint_raw = words[2];
+        group->input_oi_start_condition_raw = words[3];
+        break;
+    case 37U:
+        group->calculation_input_a_raw = words[0];
+        group->calculation_input_b_raw = words[1];
+        group->calculation_operator_raw = words[2];
+        group->frequency_offset_count = hitachi_l200_frequency_offset_decode_count(words[3]);
+        break;
+    case 38U:
+        group->frequency_offset_sign_raw = words[0];
+        break;
+    case 39U:
+        group->potentiometer_minimum_frequency_count = hitachi_l200_potentiometer_minimum_frequency_decode_count(
+        words[0]);
+        break;
+    case 40U:
+        group->potentiometer_maximum_frequency_count = hitachi_l200_potentiometer_maximum_frequency_decode_count(
+        words[0]);
+        group->potentiometer_minimum_setpoint_raw = words[1];
+        group->potentiometer_maximum_setpoint_raw = words[2];
+        group->potentiometer_start_condition_raw = words[3];
+        break;
+    case 41U:
+        group->frequency_source_set_2_raw = words[0];
+        group->run_source_set_2_raw = words[1];
+        group->motor_rated_frequency_set_2_raw = words[2];
+        group->maximum_frequency_set_2_raw = words[3];
+        break;
+    case 42U:
+        group->base_frequency_set_2_count = hitachi_l200_base_frequency_set_2_decode_count(words[0]);
+        group->boost_mode_set_2_raw = words[1];
+        group->manual_boost_set_2_count = hitachi_l200_manual_boost_set_2_decode_count(words[2]);
+        group->manual_boost_frequency_set_2_count = hitachi_l200_manual_boost_frequency_set_2_decode_count(words[3]);
+        break;
+    case 43U:
+        group->vf_characteristic_set_2_raw = words[0];
+        group->output_voltage_setting_set_2_raw = words[1];
+        break;
+    case 44U:
+        group->upper_frequency_limit_set_2_raw = words[0];
+        group->lower_frequency_limit_set_2_raw = words[1];
+        break;
+    case 45U:
+        group->deceleration_time_2_set_2_count = hitachi_l200_deceleration_time_2_set_2_decode_count(
+        hitachi_l200_deceleration_time_2_set_2_from_words(&words[0]));
+        group->ramp_2_selection_set_2_raw = words[2];
+        break;
+    case 46U:
+        group->acceleration_change_frequency_set_2_count =
+            hitachi_l200_acceleration_change_frequency_set_2_decode_count(
+        words[0]);
+        break;
+    case 47U:
+        group->deceleration_change_frequency_set_2_count =
+            hitachi_l200_deceleration_change_frequency_set_2_decode_count(
+        words[0]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_fine_tuning_b_group {
+    uint16_t restart_mode_raw;
+    int32_t allowed_power_failure_time_count; /* 0.1 s */
+    int32_t restart_delay_count; /* 0.1 s */
+    uint16_t power_failure_trip_at_standstill_raw;
+    uint16_t power_failure_restarts_raw;
+    int32_t motor_protection_level_count; /* 0.01 % */
+    uint16_t motor_protection_characteristic_raw;
+    uint16_t current_limit_mode_raw;
+    int32_t current_limit_level_count; /* 0.01 % */
+    int32_t current_limit_time_count; /* 0.1 s */
+    uint16_t current_limit_source_raw;
+    uint16_t parameter_lock_raw;
+    uint16_t analog_output_gain_raw;
+    int32_t start_frequency_count; /* 0.1 Hz */
+    int32_t carrier_frequency_count; /* 0.1 kHz */
+    uint16_t initialization_mode_raw;
+    int32_t frequency_display_factor_count; /* 0.1 */
+    uint16_t stop_key_lock_raw;
+    uint16_t coast_restart_mode_raw;
+    uint16_t network_display_raw;
+    uint16_t stop_mode_raw;
+    uint16_t overvoltage_deceleration_enable_raw;
+    uint16_t overvoltage_deceleration_level_200v_raw; /* V */
+    uint16_t overvoltage_deceleration_level_400v_raw; /* V */
+    int32_t motor_protection_level_set_2_count; /* 0.01 % */
+    uint16_t motor_protection_characteristic_set_2_raw;
+    uint16_t current_limit_mode_set_2_raw;
+    int32_t current_limit_level_set_2_count; /* 0.01 % */
+    int32_t current_limit_time_set_2_count; /* 0.1 s */
+    uint16_t current_limit_source_set_2_raw;
+} hitachi_l200_fine_tuning_b_group;
+
+static inline void hitachi_l200_fine_tuning_b_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_fine_tuning_b_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->restart_mode_raw = words[0];
+        group->allowed_power_failure_time_count = hitachi_l200_allowed_power_failure_time_decode_count(words[1]);
+        group->restart_delay_count = hitachi_l200_restart_delay_decode_count(words[2]);
+        group->power_failure_trip_at_standstill_raw = words[3];
+        break;
+    case 1U:
+        group->power_failure_restarts_raw = words[0];
+        break;
+    case 2U:
+        group->motor_protection_level_count = hitachi_l200_motor_protection_level_decode_count(words[0]);
+        group->motor_protection_characteristic_raw = words[1];
+        break;
+    case 3U:
+        group->current_limit_mode_raw = words[0];
+        group->current_limit_level_count = hitachi_l200_current_limit_level_decode_count(words[1]);
+        group->current_limit_time_count = hitachi_l200_current_limit_time_decode_count(words[2]);
+        break;
+    case 4U:
+        group->current_limit_source_raw = words[0];
+        group->parameter_lock_raw = words[1];
+        break;
+    case 5U:
+        group->analog_output_gain_raw = words[0];
+        break;
+    case 6U:
+        group->start_frequency_count = hitachi_l200_start_frequency_decode_count(words[0]);
+        group->carrier_frequency_count = hitachi_l200_carrier_frequency_decode_count(words[1]);
+        group->initialization_mode_raw = words[2];
+        break;
+    case 7U:
+        group->frequency_display_factor_count = hitachi_l200_frequency_display_factor_decode_count(words[0]);
+        group->stop_key_lock_raw = words[1];
+        group->coast_restart_mode_raw = words[2];
+        group->network_display_raw = words[3];
+        break;
+    case 8U:
+        group->stop_mode_raw = words[0];
+        break;
+    case 9U:
+        group->overvoltage_deceleration_enable_raw = words[0];
+        group->overvoltage_deceleration_level_200v_raw = words[1];
+        group->overvoltage_deceleration_level_400v_raw = words[1];
+        break;
+    case 10U:
+        group->motor_protection_level_set_2_count = hitachi_l200_motor_protection_level_set_2_decode_count(words[0]);
+        group->motor_protection_characteristic_set_2_raw = words[1];
+        group->current_limit_mode_set_2_raw = words[2];
+        group->current_limit_level_set_2_count = hitachi_l200_current_limit_level_set_2_decode_count(words[3]);
+        break;
+    case 11U:
+        group->current_limit_time_set_2_count = hitachi_l200_current_limit_time_set_2_decode_count(words[0]);
+        group->current_limit_source_set_2_raw = words[1];
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_control_c_group {
+    uint16_t digital_input_1_function_raw;
+    uint16_t digital_input_2_function_raw;
+    uint16_t digital_input_3_function_raw;
+    uint16_t digital_input_4_function_raw;
+    uint16_t digital_input_5_function_raw;
+    uint16_t digital_input_1_contact_raw;
+    uint16_t digital_input_2_contact_raw;
+    uint16_t digital_input_3_contact_raw;
+    uint16_t digital_input_4_contact_raw;
+    uint16_t digital_input_5_contact_raw;
+    uint16_t digital_output_11_function_raw;
+    uint16_t digital_output_12_function_raw;
+    uint16_t relay_output_function_raw;
+    uint16_t analog_output_source_raw;
+    uint16_t digital_output_11_contact_raw;
+    uint16_t digital_output_12_contact_raw;
+    uint16_t relay_output_contact_raw;
+    int32_t overload_alarm_level_count; /* 0.01 % */
+    int32_t arrival_frequency_acceleration_count; /* 0.1 Hz */
+    int32_t arrival_frequency_deceleration_count; /* 0.1 Hz */
+    int32_t pid_deviation_level_count; /* 0.1 % */
+    int32_t pid_process_value_upper_limit_count; /* 0.1 % */
+    int32_t pid_process_value_lower_limit_count; /* 0.1 % */
+    int32_t input_o_calibration_count; /* 0.1 % */
+    int32_t input_oi_calibration_count; /* 0.1 % */
+    int32_t thermistor_input_calibration_count; /* 0.1 % */
+    int32_t analog_output_offset_count; /* 0.1 V */
+    uint16_t motor_potentiometer_memory_raw;
+    uint16_t reset_mode_raw;
+    uint16_t logic_input_a_raw;
+    uint16_t logic_input_b_raw;
+    uint16_t logic_operator_raw;
+    int32_t digital_output_11_on_delay_count; /* 0.1 s */
+    int32_t digital_output_11_off_delay_count; /* 0.1 s */
+    int32_t digital_output_12_on_delay_count; /* 0.1 s */
+    int32_t digital_output_12_off_delay_count; /* 0.1 s */
+    int32_t relay_output_on_delay_count; /* 0.1 s */
+    int32_t relay_output_off_delay_count; /* 0.1 s */
+    uint16_t digital_input_1_function_set_2_raw;
+    uint16_t digital_input_2_function_set_2_raw;
+    uint16_t digital_input_3_function_set_2_raw;
+    uint16_t digital_input_4_function_set_2_raw;
+    uint16_t digital_input_5_function_set_2_raw;
+    int32_t overload_alarm_level_set_2_count; /* 0.01 % */
+} hitachi_l200_control_c_group;
+
+static inline void hitachi_l200_control_c_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_control_c_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->digital_input_1_function_raw = words[0];
+        group->digital_input_2_function_raw = words[1];
+        group->digital_input_3_function_raw = words[2];
+        group->digital_input_4_function_raw = words[3];
+        break;
+    case 1U:
+        group->digital_input_5_function_raw = words[0];
+        break;
+    case 2U:
+        group->digital_input_1_contact_raw = words[0];
+        group->digital_input_2_contact_raw = words[1];
+        group->digital_input_3_contact_raw = words[2];
+        group->digital_input_4_contact_raw = words[3];
+        break;
+    case 3U:
+        group->digital_input_5_contact_raw = words[0];
+        break;
+    case 4U:
+        group->digital_output_11_function_raw = words[0];
+        group->digital_output_12_function_raw = words[1];
+        break;
+    case 5U:
+        group->relay_output_function_raw = words[0];
+        break;
+    case 6U:
+        group->analog_output_source_raw = words[0];
+        break;
+    case 7U:
+        group->digital_output_11_contact_raw = words[0];
+        group->digital_output_12_contact_raw = words[1];
+        break;
+    case 8U:
+        group->relay_output_contact_raw = words[0];
+        break;
+    case 9U:
+        group->overload_alarm_level_count = hitachi_l200_overload_alarm_level_decode_count(words[0]);
+        break;
+    case 10U:
+        group->arrival_frequency_acceleration_count = hitachi_l200_arrival_frequency_acceleration_decode_count(
+        words[0]);
+        break;
+    case 11U:
+        group->arrival_frequency_deceleration_count = hitachi_l200_arrival_frequency_deceleration_decode_count(
+        words[0]);
+        group->pid_deviation_level_count = hitachi_l200_pid_deviation_level_decode_count(words[1]);
+        break;
+    case 12U:
+        group->pid_process_value_upper_limit_count = hitachi_l200_pid_process_value_upper_limit_decode_count(words[0]);
+        group->pid_process_value_lower_limit_count = hitachi_l200_pid_process_value_lower_limit_decode_count(words[1]);
+        break;
+    case 13U:
+        group->input_o_calibration_count = hitachi_l200_input_o_calibration_decode_count(words[0]);
+        group->input_oi_calibration_count = hitachi_l200_input_oi_calibration_decode_count(words[1]);
+        break;
+    case 14U:
+        group->thermistor_input_calibration_count = hitachi_l200_thermistor_input_calibration_decode_count(words[0]);
+        group->analog_output_offset_count = hitachi_l200_analog_output_offset_decode_count(words[1]);
+        break;
+    case 15U:
+        group->motor_potentiometer_memory_raw = words[0];
+        group->reset_mode_raw = words[1];
+        break;
+    case 16U:
+        group->logic_input_a_raw = words[0];
+        group->logic_input_b_raw = words[1];
+        group->logic_operator_raw = words[2];
+        group->digital_output_11_on_delay_count = hitachi_l200_digital_output_11_on_delay_decode_count(words[3]);
+        break;
+    case 17U:
+        group->digital_output_11_off_delay_count = hitachi_l200_digital_output_11_off_delay_decode_count(words[0]);
+        group->digital_output_12_on_delay_count = hitachi_l200_digital_output_12_on_delay_decode_count(words[1]);
+        group->digital_output_12_off_delay_count = hitachi_l200_digital_output_12_off_delay_decode_count(words[2]);
+        group->relay_output_on_delay_count = hitachi_l200_relay_output_on_delay_decode_count(words[3]);
+        break;
+    case 18U:
+        group->relay_output_off_delay_count = hitachi_l200_relay_output_off_delay_decode_count(words[0]);
+        break;
+    case 19U:
+        group->digital_input_1_function_set_2_raw = words[0];
+        group->digital_input_2_function_set_2_raw = words[1];
+        group->digital_input_3_function_set_2_raw = words[2];
+        group->digital_input_4_function_set_2_raw = words[3];
+        break;
+    case 20U:
+        group->digital_input_5_function_set_2_raw = words[0];
+        break;
+    case 21U:
+        group->overload_alarm_level_set_2_count = hitachi_l200_overload_alarm_level_set_2_decode_count(words[0]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct hitachi_l200_motor_h_group {
+    uint16_t motor_power_raw;
+    uint16_t motor_poles_raw;
+    uint16_t stabilization_constant_raw;
+    uint16_t motor_power_set_2_raw;
+    uint16_t motor_poles_set_2_raw;
+    uint16_t stabilization_constant_set_2_raw;
+} hitachi_l200_motor_h_group;
+
+static inline void hitachi_l200_motor_h_group_decode(
+    size_t block, const uint16_t *words, hitachi_l200_motor_h_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->motor_power_raw = words[0];
+        group->motor_poles_raw = words[1];
+        break;
+    case 1U:
+        group->stabilization_constant_raw = words[0];
+        break;
+    case 2U:
+        group->motor_power_set_2_raw = words[0];
+        group->motor_poles_set_2_raw = words[1];
+        break;
+    case 3U:
+        group->stabilization_constant_set_2_raw = words[0];
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
 /* ---- Commands ---- */
 
 /* Enter: any value does; the memory stands 100000 writes. */

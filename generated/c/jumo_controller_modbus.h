@@ -75,6 +75,110 @@ static const fieldscribe_modbus_reading jumo_controller_command_words_blocks[] =
     {3U, 0x006FU, 4U}, /* program_controller_commands..timer_commands */
 };
 
+/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+
+typedef struct jumo_controller_process_data_group {
+    uint16_t program_status_raw;
+    uint16_t controller_status_raw;
+    uint16_t binary_outputs_raw;
+    uint16_t binary_inputs_raw;
+    uint16_t control_contacts_raw;
+    uint16_t binary_signals_raw;
+    uint16_t binary_output_control_raw;
+    uint32_t program_run_time_raw; /* s */
+    uint32_t program_remaining_time_raw; /* s */
+    uint32_t section_run_time_raw;
+    uint32_t section_remaining_time_raw;
+    uint32_t timer_1_run_time_raw;
+    uint32_t timer_2_run_time_raw;
+    uint32_t timer_3_run_time_raw;
+    uint32_t timer_4_run_time_raw;
+} jumo_controller_process_data_group;
+
+static inline void jumo_controller_process_data_group_decode(
+    size_t block, const uint16_t *words, jumo_controller_process_data_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->program_status_raw = words[0];
+        group->controller_status_raw = words[1];
+        group->binary_outputs_raw = words[2];
+        break;
+    case 1U:
+        group->binary_inputs_raw = words[0];
+        break;
+    case 2U:
+        group->control_contacts_raw = words[0];
+        group->binary_signals_raw = words[1];
+        group->binary_output_control_raw = words[2];
+        break;
+    case 3U:
+        group->program_run_time_raw = jumo_controller_program_run_time_from_words(&words[0]);
+        group->program_remaining_time_raw = jumo_controller_program_remaining_time_from_words(&words[2]);
+        break;
+    case 4U:
+        group->section_run_time_raw = jumo_controller_section_run_time_from_words(&words[0]);
+        group->section_remaining_time_raw = jumo_controller_section_remaining_time_from_words(&words[2]);
+        break;
+    case 5U:
+        group->timer_1_run_time_raw = jumo_controller_timer_1_run_time_from_words(&words[0]);
+        group->timer_2_run_time_raw = jumo_controller_timer_2_run_time_from_words(&words[2]);
+        group->timer_3_run_time_raw = jumo_controller_timer_3_run_time_from_words(&words[4]);
+        group->timer_4_run_time_raw = jumo_controller_timer_4_run_time_from_words(&words[6]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct jumo_controller_examples_group {
+    uint32_t value_00ce_raw;
+    uint32_t proportional_band_1_set_2_raw;
+    uint32_t setpoint_1_raw;
+    uint32_t setpoint_2_raw;
+} jumo_controller_examples_group;
+
+static inline void jumo_controller_examples_group_decode(
+    size_t block, const uint16_t *words, jumo_controller_examples_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->value_00ce_raw = jumo_controller_value_00ce_from_words(&words[0]);
+        break;
+    case 1U:
+        group->proportional_band_1_set_2_raw = jumo_controller_proportional_band_1_set_2_from_words(&words[0]);
+        break;
+    case 2U:
+        group->setpoint_1_raw = jumo_controller_setpoint_1_from_words(&words[0]);
+        group->setpoint_2_raw = jumo_controller_setpoint_2_from_words(&words[2]);
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
+typedef struct jumo_controller_command_words_group {
+    uint16_t program_controller_commands_raw;
+    uint16_t controller_commands_raw;
+    uint16_t operation_commands_raw;
+    uint16_t timer_commands_raw;
+} jumo_controller_command_words_group;
+
+static inline void jumo_controller_command_words_group_decode(
+    size_t block, const uint16_t *words, jumo_controller_command_words_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->program_controller_commands_raw = words[0];
+        group->controller_commands_raw = words[1];
+        group->operation_commands_raw = words[2];
+        group->timer_commands_raw = words[3];
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
 /* ---- How raw numbers lie in words: type, words, their order, shared, shift, mask, fixed bits ---- */
 
 static const fieldscribe_layout jumo_controller_layout_u16 =

@@ -55,6 +55,48 @@ static const fieldscribe_modbus_reading nord_sk5xxe_process_data_blocks[] = {
     {3U, 0x0CC0U, 6U}, /* P051[1]..P051[6] */
 };
 
+/* ---- The numbers of each group; `_decode` fills in those that a read brings: `block` is its row above ---- */
+
+typedef struct nord_sk5xxe_process_data_group {
+    uint16_t control_word_raw;
+    uint16_t setpoint_1_raw;
+    uint16_t setpoint_2_raw;
+    uint16_t setpoint_3_raw;
+    uint16_t setpoint_4_raw;
+    uint16_t setpoint_5_raw;
+    uint16_t status_word_raw;
+    uint16_t actual_value_1_raw;
+    uint16_t actual_value_2_raw;
+    uint16_t actual_value_3_raw;
+    uint16_t actual_value_4_raw;
+    uint16_t actual_value_5_raw;
+} nord_sk5xxe_process_data_group;
+
+static inline void nord_sk5xxe_process_data_group_decode(
+    size_t block, const uint16_t *words, nord_sk5xxe_process_data_group *group)
+{
+    switch (block) {
+    case 0U:
+        group->control_word_raw = words[0];
+        group->setpoint_1_raw = words[1];
+        group->setpoint_2_raw = words[2];
+        group->setpoint_3_raw = words[3];
+        group->setpoint_4_raw = words[4];
+        group->setpoint_5_raw = words[5];
+        break;
+    case 1U:
+        group->status_word_raw = words[0];
+        group->actual_value_1_raw = words[1];
+        group->actual_value_2_raw = words[2];
+        group->actual_value_3_raw = words[3];
+        group->actual_value_4_raw = words[4];
+        group->actual_value_5_raw = words[5];
+        break;
+    default:
+        break; /* there is no such block */
+    }
+}
+
 /* ---- Commands ---- */
 
 /* Make ready to switch on. */

@@ -219,14 +219,15 @@ int main(void)
 {
     static const uint8_t noise[] = {0x05U, 0x03U, 0x05U};
     static const uint8_t longer[] = {0x05U, 0x03U, 0xC8U}; /* as of an answer with 200 bytes */
+    hitachi_l200_monitor_d_group group;
     uint16_t frequency;
-    uint16_t current;
     fieldscribe_modbus_request request;
     script = steps;
     request = fieldscribe_modbus_read(UNIT, &hitachi_l200_output_frequency_frame.read);
     CHECK(is_not_available_now(&request)); /* at the third time */
     CHECK(!is_not_available_now(&request));
-    CHECK(monitor(&frequency, &current) && frequency == 300U && current == 512U);
+    CHECK(monitor(&group) && group.output_frequency_count == 300 && group.motor_current_count == 512);
+    CHECK(group.rotation_direction_raw == 1U && !monitor(&group));
     CHECK(!limit(4001, 0U, 400U) && !limit(600, 0U, 50U) && !limit(20, 30U, 50U));
     CHECK(limit(500, 0U, 50U) && limit(0, 0U, 50U));
     CHECK(store());
@@ -248,7 +249,7 @@ def test_blocks_on_modbus(page: Page) -> None:
     steps = [
         *((READ, ""), (READ, "FF"), (READ, crc("05 83 22"))),
         (READ, crc("05 83 21")),
-        (BLOCK, crc("05 03 06 01 2C 02 00 00 01")),
+        *((BLOCK, crc("05 03 06 01 2C 02 00 00 01")), (BLOCK, crc("05 83 21"))),
         *((LIMIT, LIMIT), (NO_LIMIT, NO_LIMIT), (ENTER, ENTER)),
         *[(READ, crc("05 03 02 01 01"))] * 2,
     ]

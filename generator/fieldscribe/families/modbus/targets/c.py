@@ -17,6 +17,7 @@ from fieldscribe.targets.c.frames import (
     frames_header,
     lies,
 )
+from fieldscribe.targets.c.groups import Part, StructView, members_of
 from fieldscribe.targets.c.literals import hexadecimal, unsigned, wire_kind
 from fieldscribe.targets.c.point_templates import GeneratedPoint
 from fieldscribe.targets.c.scope import HeaderScope
@@ -35,6 +36,7 @@ class BlocksView:
     name: str
     array: str
     rows: tuple[tuple[str, str, str, str], ...]
+    values: StructView
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,11 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
     layouts = Layouts(scope)
     labels = {point.name: point.code or point.name for point in device.points}
     counts = [block.count for blocks in device.blocks.values() for block in blocks]
-    blocks = [_blocks(group, blocks, labels, scope) for group, blocks in device.blocks.items() if blocks]
+    by_name: dict[str, list[GeneratedPoint]] = {}
+    for each in placed:
+        if each.point.readable:
+            by_name.setdefault(each.point.name, []).append(each)
+    blocks = [_blocks(group, blocks, labels, by_name, scope) for group, blocks in device.blocks.items() if blocks]
     block_most = f"{scope.upper}_BLOCK_MOST", unsigned(max(counts, default=0))
     commands = [_command(command, scope) for command in device.commands]
     frames = Frames(
@@ -70,7 +76,7 @@ def header(device: Device, placed: Sequence[GeneratedPoint], scope: HeaderScope)
         if blocks:
             yield Owner("target", "the largest block"), (block_most[0],)
         for view in blocks:
-            yield Owner("group", view.name), (view.array,)
+            yield Owner("group", view.name), (view.array, *view.values.names)
         for command, command_view in zip(device.commands, commands, strict=True):
             names = command_view.descriptor.name, *(name for name, _ in command_view.defines)
             yield Owner("command", command.name), names
@@ -133,13 +139,33 @@ def _cases(point: Point, view: PointView, access: str) -> Iterator[str]:
             yield f"{way}{'_TEXT' if text else ''}({what})"
 
 
-def _blocks(group: str, blocks: tuple[Block, ...], labels: Mapping[str, str], scope: HeaderScope) -> BlocksView:
+def _blocks(
+    group: str,
+    blocks: tuple[Block, ...],
+    labels: Mapping[str, str],
+    by_name: Mapping[str, Sequence[GeneratedPoint]],
+    scope: HeaderScope,
+) -> BlocksView:
     rows = []
     for block in blocks:
         ends = dict.fromkeys(labels[name] for name in (block.points[0], block.points[-1]))
         holds = c_comment("..".join(ends))
         rows.append((unsigned(block.function), hexadecimal(block.address), unsigned(block.count), holds))
-    return BlocksView(group, f"{scope.prefix}_{group}_blocks", tuple(rows))
+
+    def parts() -> Iterator[Part]:
+        for number, block in enumerate(blocks):
+            members = [
+                member
+                for name in block.points
+                for point, view, _ in by_name[name]
+                if 0 <= (at := min(point.place.addresses, default=-1) - block.address) <= block.count - point.words
+                and point.space == block.space
+                for member in members_of(point, view, at, scope)
+            ]
+            yield Part(unsigned(number), tuple(members))
+
+    values = StructView(f"{scope.prefix}_{group}_group", parts)
+    return BlocksView(group, f"{scope.prefix}_{group}_blocks", tuple(rows), values)
 
 
 def _command(command: Command, scope: HeaderScope) -> CommandView:
