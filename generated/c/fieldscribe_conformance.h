@@ -30,6 +30,13 @@ enum {
     FIELDSCRIBE_SHOWN_FAILURES = 20
 };
 
+/* A function that all points call: compiled once, for a copy at each of thousands of calls costs compilers a minute. */
+#if defined(__GNUC__)
+#define FIELDSCRIBE_ONCE static __attribute__((noinline, unused))
+#else
+#define FIELDSCRIBE_ONCE static inline
+#endif
+
 /* What the head of the file says of a kind or a set. */
 typedef struct fieldscribe_kind {
     const char *name;
@@ -102,7 +109,7 @@ static bool fieldscribe_absent(const char *field)
 }
 
 /* The field of that name of the line, or else of the set nearest to it; a name that nothing has is a difference. */
-static const char *fieldscribe_field(fieldscribe_vector *v, const char *key)
+FIELDSCRIBE_ONCE const char *fieldscribe_field(fieldscribe_vector *v, const char *key)
 {
     fieldscribe_line *line = &v->own;
     size_t left = v->set_count;
@@ -130,7 +137,7 @@ static uint64_t fieldscribe_pattern(const char *text)
     return *text == '-' && size != 0U ? ~(size - 1U) : size;
 }
 
-static uint64_t fieldscribe_bits(fieldscribe_vector *v, const char *key)
+FIELDSCRIBE_ONCE uint64_t fieldscribe_bits(fieldscribe_vector *v, const char *key)
 {
     return fieldscribe_pattern(fieldscribe_field(v, key));
 }
@@ -143,7 +150,7 @@ static inline uint32_t fieldscribe_at_most(fieldscribe_vector *v, const char *ke
     return *field == '-' && number != 0U ? most : number > most ? most : (uint32_t)number;
 }
 
-static inline double fieldscribe_number_of(fieldscribe_vector *v, const char *key)
+FIELDSCRIBE_ONCE double fieldscribe_number_of(fieldscribe_vector *v, const char *key)
 {
     const char *const field = fieldscribe_field(v, key);
     const size_t length = strlen(field);
@@ -173,13 +180,13 @@ static size_t fieldscribe_hex(const char *field, uint8_t *bytes, size_t most)
     return count;
 }
 
-static inline size_t fieldscribe_bytes(fieldscribe_vector *v, const char *key, uint8_t *bytes, size_t most)
+FIELDSCRIBE_ONCE size_t fieldscribe_bytes(fieldscribe_vector *v, const char *key, uint8_t *bytes, size_t most)
 {
     return fieldscribe_hex(fieldscribe_field(v, key), bytes, most);
 }
 
 /* The numbers of a list; returns how many there are, of which at most `most` are stored. */
-static size_t fieldscribe_numbers(fieldscribe_vector *v, const char *key, uint16_t *numbers, size_t most)
+FIELDSCRIBE_ONCE size_t fieldscribe_numbers(fieldscribe_vector *v, const char *key, uint16_t *numbers, size_t most)
 {
     const char *at = fieldscribe_field(v, key);
     size_t count = 0U;
@@ -198,7 +205,7 @@ static size_t fieldscribe_numbers(fieldscribe_vector *v, const char *key, uint16
 }
 
 /* Whether a field up to its end, a comma or an equals sign, its escapes undone, is the text. */
-static bool fieldscribe_spells(const char *field, const char *text)
+FIELDSCRIBE_ONCE bool fieldscribe_spells(const char *field, const char *text)
 {
     while (*field != '\0' && *field != ',' && *field != '=') {
         char one = *field;
@@ -237,7 +244,7 @@ static const char *fieldscribe_pair(fieldscribe_vector *v, const char *key, cons
 }
 
 /* The raw number of another point that this one needs. */
-static inline uint64_t fieldscribe_with(fieldscribe_vector *v, const char *name)
+FIELDSCRIBE_ONCE uint64_t fieldscribe_with(fieldscribe_vector *v, const char *name)
 {
     const char *const raw = fieldscribe_pair(v, "with", name);
     v->differs = v->differs || raw == NULL;
@@ -246,18 +253,18 @@ static inline uint64_t fieldscribe_with(fieldscribe_vector *v, const char *name)
 
 /* ---- Answers ---- */
 
-static bool fieldscribe_asks(const fieldscribe_vector *v, const char *kind)
+FIELDSCRIBE_ONCE bool fieldscribe_asks(const fieldscribe_vector *v, const char *kind)
 {
     return strcmp(v->own.kind->name, kind) == 0;
 }
 
 /* Whether the line is about that part of the point. */
-static inline bool fieldscribe_asks_of(fieldscribe_vector *v, const char *kind, const char *key, const char *name)
+FIELDSCRIBE_ONCE bool fieldscribe_asks_of(fieldscribe_vector *v, const char *kind, const char *key, const char *name)
 {
     return fieldscribe_asks(v, kind) && fieldscribe_spells(fieldscribe_field(v, key), name);
 }
 
-static void fieldscribe_agree(fieldscribe_vector *v, bool same)
+FIELDSCRIBE_ONCE void fieldscribe_agree(fieldscribe_vector *v, bool same)
 {
     v->answered = true;
     v->differs = v->differs || !same;
@@ -329,26 +336,26 @@ static inline bool fieldscribe_stream_receive(void *context, uint32_t millisecon
     return false;
 }
 
-static inline void fieldscribe_is_number(fieldscribe_vector *v, const char *key, uint64_t bits)
+FIELDSCRIBE_ONCE void fieldscribe_is_number(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
     const char *const field = fieldscribe_field(v, key);
     fieldscribe_agree(v, !fieldscribe_absent(field) && fieldscribe_pattern(field) == bits);
 }
 
 /* A number that is 0 where the field is absent, as it is when nothing was read. */
-static inline void fieldscribe_is_count(fieldscribe_vector *v, const char *key, uint64_t bits)
+FIELDSCRIBE_ONCE void fieldscribe_is_count(fieldscribe_vector *v, const char *key, uint64_t bits)
 {
     fieldscribe_agree(v, fieldscribe_bits(v, key) == bits);
 }
 
-static inline void fieldscribe_is_text(fieldscribe_vector *v, const char *key, const char *text)
+FIELDSCRIBE_ONCE void fieldscribe_is_text(fieldscribe_vector *v, const char *key, const char *text)
 {
     const char *const field = fieldscribe_field(v, key);
     fieldscribe_agree(v, fieldscribe_absent(field) ? text == NULL : text != NULL && fieldscribe_spells(field, text));
 }
 
 /* Same bits, or both not a number; of a value in binary32 those of the number nearest to it. */
-static inline void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, double b)
+FIELDSCRIBE_ONCE void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, double b)
 {
     const double wide = fieldscribe_number_of(v, "value");
     const float narrow = (float)wide;
@@ -358,14 +365,14 @@ static inline void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, do
     fieldscribe_agree(v, (nan_a || nan_b) ? (nan_a && nan_b) : memcmp(&a, &b, sizeof a) == 0);
 }
 
-static inline void fieldscribe_is_bytes(fieldscribe_vector *v, const char *key, const void *bytes, size_t length)
+FIELDSCRIBE_ONCE void fieldscribe_is_bytes(fieldscribe_vector *v, const char *key, const void *bytes, size_t length)
 {
     uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
     const size_t count = fieldscribe_bytes(v, key, expected, sizeof expected);
     fieldscribe_agree(v, count == length && memcmp(expected, bytes, count) == 0);
 }
 
-static inline void fieldscribe_is_words(fieldscribe_vector *v, const char *key, const uint16_t *words, size_t length)
+FIELDSCRIBE_ONCE void fieldscribe_is_words(fieldscribe_vector *v, const char *key, const uint16_t *words, size_t length)
 {
     static uint16_t expected[FIELDSCRIBE_VALUES_MOST];
     const size_t count = fieldscribe_numbers(v, key, expected, FIELDSCRIBE_VALUES_MOST);
@@ -376,13 +383,13 @@ static inline void fieldscribe_is_words(fieldscribe_vector *v, const char *key, 
 /* What a caller's memory holds before a call, so that it shows what the call stores, and where. */
 enum { FIELDSCRIBE_PATTERN = 0x5A };
 
-static inline void fieldscribe_fill(void *memory, size_t size)
+FIELDSCRIBE_ONCE void fieldscribe_fill(void *memory, size_t size)
 {
     memset(memory, FIELDSCRIBE_PATTERN, size);
 }
 
 /* Nothing may have been stored from there on. */
-static inline void fieldscribe_untouched(fieldscribe_vector *v, const void *memory, size_t size)
+FIELDSCRIBE_ONCE void fieldscribe_untouched(fieldscribe_vector *v, const void *memory, size_t size)
 {
     const uint8_t *const bytes = (const uint8_t *)memory;
     size_t at = 0U;
@@ -393,14 +400,15 @@ static inline void fieldscribe_untouched(fieldscribe_vector *v, const void *memo
 }
 
 /* One more pair of a map. */
-static inline void fieldscribe_is_pair(fieldscribe_vector *v, const char *key, const char *name, uint64_t bits)
+FIELDSCRIBE_ONCE void fieldscribe_is_pair(fieldscribe_vector *v, const char *key, const char *name, uint64_t bits)
 {
     const char *const found = fieldscribe_pair(v, key, name);
     fieldscribe_agree(v, found != NULL && fieldscribe_pattern(found) == bits);
     ++v->matched;
 }
 
-static inline void fieldscribe_is_text_pair(fieldscribe_vector *v, const char *key, const char *name, const char *text)
+FIELDSCRIBE_ONCE void fieldscribe_is_text_pair(
+    fieldscribe_vector *v, const char *key, const char *name, const char *text)
 {
     const char *const found = fieldscribe_pair(v, key, name);
     fieldscribe_agree(v, found != NULL && fieldscribe_spells(found, text));
@@ -408,7 +416,7 @@ static inline void fieldscribe_is_text_pair(fieldscribe_vector *v, const char *k
 }
 
 /* The map has no more pairs than were asked for. */
-static inline void fieldscribe_are_all_pairs(fieldscribe_vector *v, const char *key)
+FIELDSCRIBE_ONCE void fieldscribe_are_all_pairs(fieldscribe_vector *v, const char *key)
 {
     const char *at = fieldscribe_field(v, key);
     size_t count = 0U;
@@ -420,7 +428,7 @@ static inline void fieldscribe_are_all_pairs(fieldscribe_vector *v, const char *
     fieldscribe_agree(v, count == v->matched);
 }
 
-static void fieldscribe_is_status(fieldscribe_vector *v, int status)
+FIELDSCRIBE_ONCE void fieldscribe_is_status(fieldscribe_vector *v, int status)
 {
     const fieldscribe_status_name *one = v->suite->statuses;
     while (one->name != NULL && one->status != status) {
@@ -430,7 +438,8 @@ static void fieldscribe_is_status(fieldscribe_vector *v, int status)
 }
 
 /* A status and, where it is ok, a number; nothing may be stored where it is not. */
-static inline void fieldscribe_stored(fieldscribe_vector *v, int status, const char *key, uint64_t bits, bool untouched)
+FIELDSCRIBE_ONCE void fieldscribe_stored(
+    fieldscribe_vector *v, int status, const char *key, uint64_t bits, bool untouched)
 {
     fieldscribe_is_status(v, status);
     if (status == 0) {
@@ -441,7 +450,7 @@ static inline void fieldscribe_stored(fieldscribe_vector *v, int status, const c
 }
 
 /* What stands in a number before it is read: another one than is expected, and 1 where none is. */
-static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
+FIELDSCRIBE_ONCE uint64_t fieldscribe_other(fieldscribe_vector *v)
 {
     return fieldscribe_bits(v, "raw") ^ 1U;
 }
@@ -454,18 +463,18 @@ static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
 #define FIELDSCRIBE_TOGETHER(filled) , filled(v)
 
 /* Whether a number can be passed in that type at all; one that cannot is out of range by the type alone. */
-static inline bool fieldscribe_fits_int32_t(const char *field)
+FIELDSCRIBE_ONCE bool fieldscribe_fits_int32_t(const char *field)
 {
     const uint64_t bits = fieldscribe_pattern(field);
     return (uint64_t)(int32_t)bits == bits && ((int32_t)bits < 0) == (*field == '-');
 }
 
-static inline bool fieldscribe_fits_int64_t(const char *field)
+FIELDSCRIBE_ONCE bool fieldscribe_fits_int64_t(const char *field)
 {
     return ((int64_t)fieldscribe_pattern(field) < 0) == (*field == '-');
 }
 
-static inline bool fieldscribe_fits_uint64_t(const char *field)
+FIELDSCRIBE_ONCE bool fieldscribe_fits_uint64_t(const char *field)
 {
     return *field != '-';
 }
@@ -504,7 +513,7 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
 #define FIELDSCRIBE_TRY_DECODE(function, real_type, raw_type, with)
 #else
 /* Whether a value of a line can be told in that type; where float is chosen, what it cannot hold is not asked. */
-static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
+FIELDSCRIBE_ONCE bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 {
     const double value = fieldscribe_number_of(v, "value");
     const float narrow = (float)value;
@@ -775,7 +784,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     }
 
 /* Whether the line is about that part of a device, or about none where there is no part. */
-static inline bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
+FIELDSCRIBE_ONCE bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
 {
     const char *const field = fieldscribe_field(v, "of");
     return fieldscribe_absent(field) ? *part == '\0' : fieldscribe_spells(field, part);
@@ -794,17 +803,17 @@ static inline bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
 /* What a point was called before: each old name stands for the same as the new one. */
 typedef void (*fieldscribe_function)(void);
 
-static inline bool fieldscribe_same_function(fieldscribe_function one, fieldscribe_function other)
+FIELDSCRIBE_ONCE bool fieldscribe_same_function(fieldscribe_function one, fieldscribe_function other)
 {
     return one == other;
 }
 
-static inline bool fieldscribe_same_object(const void *one, const void *other)
+FIELDSCRIBE_ONCE bool fieldscribe_same_object(const void *one, const void *other)
 {
     return one == other;
 }
 
-static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
+FIELDSCRIBE_ONCE bool fieldscribe_same_number(uint64_t one, uint64_t other)
 {
     return one == other;
 }
@@ -840,45 +849,13 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
 
 /* ---- Raw numbers in words ---- */
 
-/* The raw number of the line out of words; a layout of another type stores nothing, and too few words bring nothing. */
-#define FIELDSCRIBE_TAKEN(how, kind, raw_type, from)                                             \
-    {                                                                                            \
-        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
-        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
-        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
-        fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, from, (how)->words, &raw) &&  \
-            !fieldscribe_take_##kind(how, from, (how)->words - 1U, &raw) &&                      \
-            !fieldscribe_take_##kind(how, NULL, (how)->words, &raw) && raw == (raw_type)fieldscribe_other(v)); \
-        fieldscribe_agree(v, fieldscribe_take_##kind(how, from, (how)->words, &raw));            \
-        fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
-    }
-
-/* The raw number of the line into words; one that has too few of them, or no room in a shared one, changes nothing. */
-#define FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, field, into)                                  \
-    {                                                                                            \
-        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
-        const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
-        const uint16_t before = (into)[0];                                                       \
-        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
-        fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, into, (how)->words) &&    \
-            !fieldscribe_put_##kind(how, raw, into, (how)->words - 1U) &&                        \
-            !fieldscribe_put_##kind(how, raw, NULL, (how)->words));                              \
-        if ((how)->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                        \
-            fieldscribe_agree(v,                                                                 \
-                !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), into, (how)->words)); \
-        }                                                                                        \
-        fieldscribe_agree(v, (into)[0] == before);                                               \
-        fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, into, (how)->words));              \
-    }
-#define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
-
 /* Whether the other bits of a word are other points, and which of them are constant. */
 #define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
     v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
         (frame).layout->fixed_bits != (bits);
 
 /* The same layout, of another type. */
-static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
+FIELDSCRIBE_ONCE fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
 {
     fieldscribe_layout other = *layout;
     other.type = (uint8_t)(layout->type + 1U);
@@ -886,7 +863,7 @@ static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout
 }
 
 /* The least number that a point has no bit for, in two's complement as well as from 0 on. */
-static inline uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
+FIELDSCRIBE_ONCE uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
 {
     const uint32_t most = (uint32_t)(layout->mask >> layout->shift);
     const bool with_sign = layout->type == (uint8_t)FIELDSCRIBE_S8 || layout->type == (uint8_t)FIELDSCRIBE_S16;
@@ -894,17 +871,63 @@ static inline uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
 }
 
 /* Whether a point with words of its own has all the bits of its type. */
-static inline bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
+FIELDSCRIBE_ONCE bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
 {
     const uint64_t all = UINT64_MAX >> (64U - 8U * size);
     return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == all;
 }
 
 /* Whether the bits of a point are all that its type has. */
-static inline bool fieldscribe_fills(const fieldscribe_layout *layout, size_t size)
+FIELDSCRIBE_ONCE bool fieldscribe_fills(const fieldscribe_layout *layout, size_t size)
 {
     return layout->type == (uint8_t)FIELDSCRIBE_BIT || (layout->mask >> layout->shift) >> (8U * size - 1U) != 0U;
 }
+
+/*
+ * By kind of number. `taken`: the raw number of the line out of words; a layout of another type stores nothing, and too
+ * few words bring nothing. `put`: that of a field into words; one that has too few of them, or no room in a shared one,
+ * changes nothing.
+ */
+#define FIELDSCRIBE_KIND(kind, raw_type)                                                         \
+    FIELDSCRIBE_ONCE void fieldscribe_taken_##kind(                                              \
+        fieldscribe_vector *v, const fieldscribe_layout *how, const uint16_t *from)              \
+    {                                                                                            \
+        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
+        fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, from, how->words, &raw) &&    \
+            !fieldscribe_take_##kind(how, from, how->words - 1U, &raw) &&                        \
+            !fieldscribe_take_##kind(how, NULL, how->words, &raw) && raw == (raw_type)fieldscribe_other(v)); \
+        fieldscribe_agree(v, fieldscribe_take_##kind(how, from, how->words, &raw));              \
+        fieldscribe_is_number(v, "raw", (uint64_t)raw);                                          \
+    }                                                                                            \
+    FIELDSCRIBE_ONCE void fieldscribe_put_field_##kind(                                          \
+        fieldscribe_vector *v, const fieldscribe_layout *how, const char *field, uint16_t *into) \
+    {                                                                                            \
+        const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
+        const uint16_t before = into[0];                                                         \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
+        fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, into, how->words) &&      \
+            !fieldscribe_put_##kind(how, raw, into, how->words - 1U) &&                          \
+            !fieldscribe_put_##kind(how, raw, NULL, how->words));                                \
+        if (how->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                          \
+            fieldscribe_agree(v,                                                                 \
+                !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), into, how->words)); \
+        }                                                                                        \
+        fieldscribe_agree(v, into[0] == before);                                                 \
+        fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, into, how->words));                \
+    }
+
+FIELDSCRIBE_KIND(bit, bool)
+FIELDSCRIBE_KIND(u8, uint8_t)
+FIELDSCRIBE_KIND(s8, int8_t)
+FIELDSCRIBE_KIND(u16, uint16_t)
+FIELDSCRIBE_KIND(s16, int16_t)
+FIELDSCRIBE_KIND(u32, uint32_t)
+FIELDSCRIBE_KIND(s32, int32_t)
+FIELDSCRIBE_KIND(u64, uint64_t)
+FIELDSCRIBE_KIND(s64, int64_t)
 
 /* Numbers with a sign around 0 and at the ends of their bits, in a word of their own and in one that is shared. */
 static inline void fieldscribe_holds_signs(fieldscribe_vector *v)
@@ -1003,7 +1026,7 @@ static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, co
 
 
 /* Which of the addresses, counted upwards from the lowest, is the one at that place. */
-static inline size_t fieldscribe_rank(const uint16_t *addresses, size_t count, size_t at)
+FIELDSCRIBE_ONCE size_t fieldscribe_rank(const uint16_t *addresses, size_t count, size_t at)
 {
     size_t rank = 0U;
     size_t other;

@@ -32,7 +32,7 @@ static inline const fieldscribe_tables *fieldscribe_tables_of(const fieldscribe_
     return (const fieldscribe_tables *)v->suite->family;
 }
 
-static const char *fieldscribe_can_status_text(fieldscribe_can_status status)
+FIELDSCRIBE_ONCE const char *fieldscribe_can_status_text(fieldscribe_can_status status)
 {
     static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
         "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn",
@@ -83,7 +83,7 @@ static inline void fieldscribe_refuses_others(
 }
 
 /* Asks for a parameter as the script does at that place; whether its word came. */
-static inline bool fieldscribe_asks_for(
+FIELDSCRIBE_ONCE bool fieldscribe_asks_for(
     fieldscribe_vector *v, size_t place, const fieldscribe_can_reading *what, uint16_t *word)
 {
     const fieldscribe_can_dialogue *const dialogue = fieldscribe_tables_of(v)->dialogue;
@@ -111,7 +111,7 @@ static inline bool fieldscribe_asks_for(
 }
 
 /* Writes a word as the script does at that place. */
-static inline void fieldscribe_writes_to(
+FIELDSCRIBE_ONCE void fieldscribe_writes_to(
     fieldscribe_vector *v, size_t place, const fieldscribe_can_writing *what, const uint16_t *word)
 {
     const fieldscribe_can_dialogue *const dialogue = fieldscribe_tables_of(v)->dialogue;
@@ -131,7 +131,7 @@ static inline void fieldscribe_writes_to(
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t word;                                                                           \
         if (fieldscribe_asks_for(v, 0U, &(frame).read, &word)) {                                 \
-            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, &word)                             \
+            fieldscribe_taken_##kind(v, (frame).layout, &word);                                  \
         } else {                                                                                 \
             fieldscribe_agree(v, fieldscribe_bits(v, "raw") == 0U);                              \
         }                                                                                        \
@@ -140,7 +140,7 @@ static inline void fieldscribe_writes_to(
 #define FIELDSCRIBE_WRITE(frame, kind, raw_type)                                                 \
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t word = 0x5A5AU;                                                                 \
-        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, &word)                               \
+        fieldscribe_put_field_##kind(v, (frame).layout, "raw", &word);                           \
         fieldscribe_writes_to(v, 0U, &(frame).write, &word);                                     \
     }
 
@@ -149,7 +149,7 @@ static inline void fieldscribe_writes_to(
     if (fieldscribe_asks(v, "write")) {                                                          \
         uint16_t word;                                                                           \
         if (fieldscribe_asks_for(v, 0U, &(frame).read, &word)) {                                 \
-            FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, &word)                           \
+            fieldscribe_put_field_##kind(v, (frame).layout, "raw", &word);                       \
             fieldscribe_writes_to(v, 1U, &(frame).update, &word);                                \
         }                                                                                        \
     }
@@ -186,7 +186,7 @@ static inline void fieldscribe_writes_to(
     }
 
 /* The frames of what was received came at times from 0 on; a clock that runs over is no matter. */
-static inline void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can_heard *what)
+FIELDSCRIBE_ONCE void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can_heard *what)
 {
     const fieldscribe_can_receiver *const receiver = (const fieldscribe_can_receiver *)v->receiver;
     uint32_t age = 0U;
@@ -211,7 +211,7 @@ static inline void fieldscribe_ages(fieldscribe_vector *v, const fieldscribe_can
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
         if (status == FIELDSCRIBE_CAN_OK) {                                                      \
             fieldscribe_untouched(v, words + (frame).layout->words, sizeof words[0]);            \
-            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, words)                             \
+            fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
             fieldscribe_ages(v, &(frame).heard);                                                 \
         } else {                                                                                 \
             fieldscribe_untouched(v, words, sizeof words);                                       \

@@ -48,7 +48,7 @@ static inline fieldscribe_modbus_request fieldscribe_request_of(uint8_t function
 }
 
 /* A point is found in a block that reaches beyond it, and in none that ends or begins within it, or has other items. */
-static inline bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
+FIELDSCRIBE_ONCE bool fieldscribe_is_in_blocks(const fieldscribe_modbus_reading *point)
 {
     uint16_t values[FIELDSCRIBE_ROOM];
     const uint8_t function = point->function;
@@ -117,7 +117,7 @@ static inline void fieldscribe_is_awaited(fieldscribe_vector *v, fieldscribe_mod
 }
 
 /* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
-static inline bool fieldscribe_exchange(
+FIELDSCRIBE_ONCE bool fieldscribe_exchange(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
 {
     const fieldscribe_modbus_framing framing = fieldscribe_framing(v);
@@ -146,7 +146,7 @@ static inline bool fieldscribe_exchange(
 }
 
 /* Writes words, which nobody looks at any more when the answer comes. */
-static inline void fieldscribe_writes(
+FIELDSCRIBE_ONCE void fieldscribe_writes(
     fieldscribe_vector *v, size_t place, const fieldscribe_modbus_writing *what, const uint16_t *words, size_t count)
 {
     uint16_t echoed[FIELDSCRIBE_ROOM];
@@ -172,7 +172,7 @@ static inline void fieldscribe_writes(
         fieldscribe_fill(words, sizeof words);                                                   \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
             fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
-            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, words)                             \
+            fieldscribe_taken_##kind(v, (frame).layout, words);                                  \
             fieldscribe_agree(v, fieldscribe_is_in_blocks(&(frame).read));                       \
         }                                                                                        \
     }
@@ -195,7 +195,7 @@ static inline void fieldscribe_writes(
         uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const size_t count = (frame).write.count;                                                \
         fieldscribe_fill(words, sizeof words);                                                   \
-        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                               \
+        fieldscribe_put_field_##kind(v, (frame).layout, "raw", words);                           \
         fieldscribe_untouched(v, words + count, sizeof words - count * sizeof words[0]);         \
         fieldscribe_writes(v, 0U, &(frame).write, words, count);                                 \
     }
@@ -226,13 +226,13 @@ static inline void fieldscribe_writes(
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
         const fieldscribe_modbus_request request = fieldscribe_modbus_read(unit, &(frame).read); \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
-            FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, words)                           \
+            fieldscribe_put_field_##kind(v, (frame).layout, "raw", words);                       \
             fieldscribe_writes(v, 1U, &(frame).update, words, 1U);                               \
         }                                                                                        \
     }
 
 /* Whether the words of a text in the order of reading are those of the answer. */
-static inline bool fieldscribe_reads_text(const fieldscribe_text *text, const uint16_t *words)
+FIELDSCRIBE_ONCE bool fieldscribe_reads_text(const fieldscribe_text *text, const uint16_t *words)
 {
     uint16_t reading[FIELDSCRIBE_ROOM];
     size_t at = 0U;

@@ -63,7 +63,7 @@ static inline void fieldscribe_receives(
 }
 
 /* Sends a request of the script with process data, and reads what comes back into `words`; whether it is an answer. */
-static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
+FIELDSCRIBE_ONCE bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
     uint16_t *words, fieldscribe_uss_reply *reply)
 {
     const fieldscribe_uss_link link = fieldscribe_read_link(v);
@@ -88,7 +88,7 @@ static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, con
 }
 
 /* The words of a value; a value of another width, and of none, brings none. */
-static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe_uss_reply *reply,
+FIELDSCRIBE_ONCE void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe_uss_reply *reply,
     const fieldscribe_uss_reading *what, uint16_t *words)
 {
     fieldscribe_uss_reply other = *reply;
@@ -115,7 +115,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
             fieldscribe_uss_read((uint8_t)fieldscribe_bits(v, "unit"), &(frame).read);           \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
             fieldscribe_is_value(v, &reply, &(frame).read, value);                               \
-            FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, value)                             \
+            fieldscribe_taken_##kind(v, (frame).layout, value);                                  \
         }                                                                                        \
     }
 
@@ -125,7 +125,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         uint16_t value[2] = {0U, 0U};                                                            \
         fieldscribe_uss_reply reply;                                                             \
         fieldscribe_uss_request request;                                                         \
-        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                               \
+        fieldscribe_put_field_##kind(v, (frame).layout, "raw", value);                           \
         request = fieldscribe_uss_write(                                                         \
             (uint8_t)fieldscribe_bits(v, "unit"), &(frame).write, value, (frame).write.width - 1U); \
         fieldscribe_agree(v, request.width == FIELDSCRIBE_USS_TOO_FEW_WORDS);                    \
@@ -145,7 +145,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         fieldscribe_uss_request request = fieldscribe_uss_read(unit, &(reading));                \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
             fieldscribe_is_value(v, &reply, &(reading), value);                                  \
-            FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, value)                           \
+            fieldscribe_put_field_##kind(v, (frame).layout, "raw", value);                       \
             request = fieldscribe_uss_write(unit, &(frame).update, value, 1U);                   \
             (void)fieldscribe_exchange(v, 1U, &request, words, &reply);                          \
         }                                                                                        \
@@ -157,7 +157,8 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \
         const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
-        FIELDSCRIBE_PUT_RAW((frame).layout, kind, raw_type, fieldscribe_uss_words_sent(&(frame).sent, words, 256U)) \
+        fieldscribe_put_field_##kind(                                                            \
+            v, (frame).layout, "raw", fieldscribe_uss_words_sent(&(frame).sent, words, 256U));   \
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
@@ -172,7 +173,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
             &(frame).sent, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);        \
         fieldscribe_fill(words, sizeof words);                                                   \
         own[0] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;                              \
-        FIELDSCRIBE_PUT_FIELD((frame).layout, kind, raw_type, part ? "replaced" : "raw", own)    \
+        fieldscribe_put_field_##kind(v, (frame).layout, part ? "replaced" : "raw", own);         \
         if (part) {                                                                              \
             fieldscribe_is_number(v, "result", own[0]);                                          \
         } else {                                                                                 \
@@ -193,8 +194,8 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         }                                                                                        \
         fieldscribe_agree(v, (frame).heard.words == (frame).layout->words && fieldscribe_uss_words_heard( \
             &(frame).heard, words, macro##_ADDRESS + (frame).layout->words - 1U) == NULL);       \
-        FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type,                                        \
-            fieldscribe_uss_words_heard(&(frame).heard, words, macro##_ADDRESS + (frame).layout->words)) \
+        fieldscribe_taken_##kind(v, (frame).layout,                                              \
+            fieldscribe_uss_words_heard(&(frame).heard, words, macro##_ADDRESS + (frame).layout->words)); \
     }
 
 #define FIELDSCRIBE_HEAR(frame, kind, raw_type)                                                  \
@@ -203,8 +204,8 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         fieldscribe_uss_reply reply;                                                             \
         const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
-            FIELDSCRIBE_TAKEN(                                                                   \
-                (frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words, 256U)) \
+            fieldscribe_taken_##kind(                                                            \
+                v, (frame).layout, fieldscribe_uss_words_heard(&(frame).heard, words, 256U));    \
         }                                                                                        \
     }
 
