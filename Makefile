@@ -53,6 +53,7 @@ misra:              ## compare MISRA C:2012 findings in generated headers and ru
 fuzz:               ## feed mutated descriptions, frames and words to everything that reads them (SEED=1)
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
+	PYTHONPATH=tests $(PYTHON) tests/fuzz/soak.py --seed $(or $(SEED),1)
 
 mutants:            ## change one thing at a time and list what no test notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions|generator ROOM=resolve)
 	@sh generator/setup.sh tests

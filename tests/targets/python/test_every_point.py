@@ -1,18 +1,21 @@
-"""Every point of the devices on Modbus against a server of pymodbus; a client of pymodbus looks at the words."""
+"""Every point of the devices on Modbus and CAN: pymodbus, or python-can, looks at the words at the other end."""
 
 from __future__ import annotations
 
+import random
+import struct
 from collections.abc import Callable
 from contextlib import contextmanager
 from typing import Any
 
+import can
 import pytest
 from pymodbus import FramerType
 from pymodbus.client import ModbusTcpClient
 from support.modbus_server import server
 from support.places import PACKAGES, ROOT
 from support.python_package import imported
-from support.python_transports import transport
+from support.python_transports import parameters_on, transport
 from support.vector_file import Vector, vectors_of
 
 DEVICES: dict[str, Callable[[Any, Any], list[Any]]] = {
@@ -29,8 +32,7 @@ def test_every_point_is_read_and_written_where_it_stands(name: str) -> None:
     found = vectors_of((ROOT / "generated/vectors" / f"{name}.txt").read_text("utf-8"))
     places = {one["point"]: one for one in found if one["kind"] == "address"}
     words = {(one["point"], one["raw"]): one["words"] for one in found if one["kind"] == "words"}
-    checks = (one for one in reversed(found) if one["kind"] == "check" and one["status"] == "ok" and one["raw"])
-    allowed = {one["point"]: one for one in checks}
+    allowed = _allowed(name)
     with contextmanager(imported)(PACKAGES, name) as package, server(FramerType.RTU, addresses=0x10000) as port:
         peer = Peer(port)
         with transport("tcp").TcpLine("127.0.0.1", port, framing="rtu") as line:
@@ -51,6 +53,50 @@ def test_every_point_is_read_and_written_where_it_stands(name: str) -> None:
                     )
                     peer.put(place, *numbers)
                     assert point.read_raw() == raw, item
+
+
+def _allowed(name: str) -> dict[str, Vector]:
+    """A raw number other than 0 for each point that can be written, with the numbers that its limits need."""
+    found = vectors_of((ROOT / "generated/vectors" / f"{name}.txt").read_text("utf-8"))
+    return {
+        one["point"]: one for one in reversed(found) if one["kind"] == "check" and one["status"] == "ok" and one["raw"]
+    }
+
+
+@pytest.mark.full(seconds=5)
+def test_every_point_on_a_can_bus() -> None:
+    """Telegrams as python-can sends them, and parameters of a unit that lives on python-can."""
+    allowed, words = _allowed("woodward_mpu2s"), [random.Random(1).randrange(0x10000) for _ in range(69)]
+    with (
+        contextmanager(imported)(PACKAGES, "woodward_mpu2s") as package,
+        parameters_on("every", chatters=False) as held,
+        transport("can").CanLine(can.Bus("every", interface="virtual")) as line,
+        can.Bus("every", interface="virtual") as other,
+    ):
+        device = package.WoodwardMpu2s(line, 1)
+        device.fresh_for = 60.0
+        for slot in (*range(23), *range(23)):
+            data = bytes((0xDD, slot)) + struct.pack(">3H", *words[3 * slot : 3 * slot + 3])
+            other.send(can.Message(arbitration_id=0x321, data=data, is_extended_id=False))
+        for item in device.POINTS:
+            point = device.point(item)
+            at = point.facts.at.addresses
+            if point.facts.at.telegram:
+                number = int.from_bytes(struct.pack(f">{len(at)}H", *[words[one] for one in at]), "big")
+                high, low = point.facts.bits or (16 * len(at) - 1, 0)
+                number = number >> low & (1 << high - low + 1) - 1
+                assert point.read_raw() & (1 << high - low + 1) - 1 == number, item
+            elif item in allowed and hasattr(point, "write_raw"):
+                for other_item, raw in allowed[item].get("with", {}).items():
+                    held[1, device.point(other_item).facts.at.address] = int(raw) & 0xFFFF
+                raw = allowed[item]["raw"]
+                point.write_raw(raw)
+                if len(at) == 1 and point.facts.bits is None:
+                    assert held[1, at[0]] == raw & 0xFFFF, item
+                assert not hasattr(point, "read_raw") or point.read_raw() == raw, item
+            else:
+                held.update({(1, one): 1 for one in at})
+                assert point.read_raw() is not None
 
 
 class Peer:

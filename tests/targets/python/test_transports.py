@@ -7,10 +7,8 @@ import asyncio
 import importlib
 import socket
 import threading
-import time
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import can
@@ -22,7 +20,7 @@ from support.line_ends import pty_end
 from support.modbus_server import server
 from support.places import PACKAGES, ROOT
 from support.python_package import error, imported
-from support.python_transports import NOISE, behind_a_gateway, socket_end, transport, with_word
+from support.python_transports import NOISE, behind_a_gateway, parameters_on, socket_end, transport, with_word
 
 FREQUENCY, STATUS = 0x1028, 0x0002
 
@@ -87,24 +85,6 @@ def test_a_serial_line_by_url(l200: Any) -> None:
                 await use_async(l200.HitachiL200Async(line, unit=1))
 
         asyncio.run(asynchronous())
-
-
-def test_what_came_too_late_is_not_the_next_answer(l200: Any) -> None:
-    """The first answer is late; the line is silent again before the next request is sent."""
-    frames = importlib.import_module("fieldscribe_runtime.modbus")
-    answers = iter((7, 9))
-
-    def reply(request: bytes) -> Iterator[bytes]:
-        number = next(answers)
-        if number == 7:
-            time.sleep(0.35)
-        body = request[:2] + bytes((2, 0, number))
-        yield body + frames.crc(body).to_bytes(2, "little")
-
-    with pty_end(reply) as port, transport("serial").SerialLine(port, timeout=0.25) as line:
-        drive = l200.HitachiL200(line, unit=1)
-        assert error(drive.read_at, "holding", STATUS).status == "timeout"
-        assert drive.read_at("holding", STATUS) == (9,)
 
 
 def test_an_adapter_that_echoes(l200: Any) -> None:
@@ -261,25 +241,6 @@ def test_a_reply_that_comes_twice(l200: Any) -> None:
         line.close()
 
 
-@pytest.mark.full(seconds=1)
-def test_a_reply_that_a_network_delays(l200: Any) -> None:
-    """It comes when the next request is under way, on the connection that was given up."""
-    words = iter((7, 9))
-
-    def late(request: bytes) -> bytes:
-        word = next(words)
-        time.sleep(0.2 if word == 7 else 0)
-        return with_word(request, word)
-
-    with (
-        socket_end(late) as port,
-        transport("serial").SerialLine(f"socket://127.0.0.1:{port}", timeout=0.08) as line,
-    ):
-        drive = l200.HitachiL200(line, unit=1)
-        assert error(drive.read_at, "holding", STATUS).status == "timeout"
-        assert drive.read_at("holding", STATUS) == (9,)
-
-
 BACK = can.Message(arbitration_id=0x346, data=b"\x01\x02", is_extended_id=False)
 
 
@@ -321,37 +282,6 @@ def test_a_can_bus_without_blocking(bus: tuple[can.BusABC, can.BusABC]) -> None:
 
 
 ROUNDS = 15
-
-
-@contextmanager
-def parameters_on(channel: str) -> Iterator[None]:
-    """Two units that take and give a parameter, and send telegrams all the time."""
-    far, stop, held = can.Bus(channel, interface="virtual"), threading.Event(), {1: 0, 2: 0}
-
-    def send(unit: int, data: list[int]) -> None:
-        far.send(can.Message(arbitration_id=0x320 + unit, data=data, is_extended_id=False))
-
-    def serve() -> None:
-        while not stop.is_set():
-            message = far.recv(0.01)
-            if message is not None and message.arbitration_id == 0x33F:
-                data = list(message.data)
-                unit = data[1]
-                if data[0] == 0xEE:
-                    held[unit] = data[4] << 8 | data[5]
-                data = [*data[:4], held[unit] >> 8, held[unit] & 255]
-                send(unit, [*data, data[0] ^ data[2] ^ data[4], data[1] ^ data[3] ^ data[5]])
-            for unit in held:
-                send(unit, [0xDD, 0, 0, 0, 0, unit, 0, 0])
-
-    thread = threading.Thread(target=serve, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        stop.set()
-        thread.join(2)
-        far.shutdown()
 
 
 def test_devices_share_a_can_line(mpu2s: Any) -> None:

@@ -61,9 +61,8 @@ class Session(NamedPoints, ABC):
     def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, in ascending order of address."""
 
-    def _retried_steps(self, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
-        """Carry out one request, again while the line loses it and `retries` are left."""
-        left = self.retries
+    def _retried_steps(self, left: int, ask: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
+        """Carry out one request, again while the line loses it, as often as is left; failures are counted."""
         while True:
             try:
                 return (yield from ask(*arguments))

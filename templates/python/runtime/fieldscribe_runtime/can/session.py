@@ -87,7 +87,10 @@ class CanSession(Session):
         answer = self.PROFILE.answer(request)
         words: tuple[int, ...] = ()
         for address in sorted(place.addresses):
-            words = (*words, (yield from self._retried_steps(self._ask_steps, request, answer, address, 0)))
+            words = (
+                *words,
+                (yield from self._retried_steps(self.retries, self._ask_steps, request, answer, address, 0)),
+            )
         return words
 
     def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
@@ -105,7 +108,7 @@ class CanSession(Session):
         request = self.PROFILE.request(writes=True)
         answer = self.PROFILE.answer(request)
         for address, word in zip(sorted(place.addresses), values, strict=True):
-            raw = yield from self._retried_steps(self._ask_steps, request, answer, address, word)
+            raw = yield from self._retried_steps(self.retries, self._ask_steps, request, answer, address, word)
             if answer is not None and answer.carries("raw") and raw != word:
                 text = f"{word} was written to {address}, and the device answered {raw}"
                 raise EchoError(text, (word,), (raw,))

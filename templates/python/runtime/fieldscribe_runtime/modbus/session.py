@@ -76,7 +76,7 @@ class ModbusSession(Session):
                 self.traffic.sent(known[1])
                 yield Broadcast(known[1])
             return ()
-        return (yield from self._retried_steps(self._exchange_steps, *known))
+        return (yield from self._retried_steps(self.retries, self._exchange_steps, *known))
 
     def _exchange_steps(self, request: Request, frame: bytes) -> Steps[tuple[int, ...]]:
         """Send a frame; return what the reply brings."""

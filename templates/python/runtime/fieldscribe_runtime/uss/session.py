@@ -137,7 +137,7 @@ class UssSession(Session):
         request = Request(self.unit, words=self._words(sent))
         check_request(request, self.PROFILE, self.link)  # what raises here was not sent: the old words still hold
         self._sent = {}  # until the device has answered, whatever ends the wait
-        yield from self._telegram_steps(request, sent)
+        yield from self._retried_steps(0, self._telegram_steps, request, sent)
         self._sent = sent
 
     def _change_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
@@ -174,7 +174,7 @@ class UssSession(Session):
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task as `_telegram_steps` carries it out, again while it is lost: it changes no process data."""
-        return (yield from self._retried_steps(self._telegram_steps, request, sent))
+        return (yield from self._retried_steps(self.retries, self._telegram_steps, request, sent))
 
     def _telegram_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task with process data, and the reply; a task is repeated until the device answers it."""

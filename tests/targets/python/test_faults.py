@@ -1,0 +1,253 @@
+"""Replies that are broken, cut, late, doubled, foreign or missing, at each byte: the error comes in time, and the next
+request has its reply."""
+
+from __future__ import annotations
+
+import asyncio
+import importlib
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from typing import Any
+
+import pytest
+from support.line_ends import pty_end
+from support.places import PACKAGES
+from support.python_families import CanUnit, UssDrive
+from support.python_package import Slave, imported, status
+from support.python_transports import behind_a_gateway, socket_end, transport, with_word
+
+TIMEOUT = 0.06
+LATE = 1.5 * TIMEOUT
+MOST = 0.5
+"""An error comes in so many seconds, on a machine that does other work, too."""
+
+Fault = Callable[[bytes], Iterator[bytes]]
+
+AT_EACH_BYTE: dict[str, Callable[[bytes, int], bytes]] = {
+    "broken": lambda reply, at: reply[:at] + bytes((reply[at] ^ 0xFF,)) + reply[at + 1 :],
+    "cut": lambda reply, at: reply[:at],
+    "without it": lambda reply, at: reply[:at] + reply[at + 1 :],
+    "twice": lambda reply, at: reply[: at + 1] + reply[at:],
+}
+TCP = {  # the errors by position; a broken word (and a byte too many behind it) is none that TCP could tell
+    "broken": "wrong_transaction*2 bad_protocol*2 long_frame timeout wrong_unit wrong_function bad_byte_count ok*2",
+    "cut": "timeout*11",
+    "without it": "long_frame*5 short_frame timeout*5",
+    "twice": "short_frame*5 wrong_unit wrong_function bad_byte_count ok*3",
+}
+RTU = {
+    "broken": "bad_crc timeout long_frame bad_crc*4",
+    "cut": "timeout*7",
+    "without it": "bad_crc*3 timeout*4",
+    "twice": "bad_crc*6 ok",
+}
+ERRORS = {"tcp": TCP, "rtu": RTU}
+
+
+def late(reply: bytes) -> Iterator[bytes]:
+    time.sleep(LATE)
+    yield reply
+
+
+def noise(_: bytes) -> Iterator[bytes]:
+    while ends.noise:
+        yield b"\x55"
+        time.sleep(0.002)
+
+
+def of_another(reply: bytes) -> bytes:
+    """The reply of unit 9, or with TCP to another request."""
+    return b"\x09" + reply[1:] if len(reply) == 11 else with_word(b"\x09" + reply[1:2], reply[-3])
+
+
+WHOLE: dict[str, tuple[Fault, dict[str, str]]] = {
+    "missing": (lambda _: iter(()), {"": "timeout"}),
+    "late": (late, {"": "timeout"}),
+    "doubled": (lambda reply: iter((reply + reply,)), {"": "ok"}),
+    "in pieces": (lambda reply: iter([bytes((byte,)) for byte in reply]), {"": "ok"}),
+    "foreign": (lambda reply: iter((of_another(reply),)), {"rtu": "wrong_unit", "tcp": "wrong_transaction"}),
+    "behind a foreign one": (lambda reply: iter((of_another(reply), reply)), {"": "ok"}),
+    "joined to a foreign one": (lambda reply: iter((of_another(reply) + reply,)), {"": "ok"}),
+    "noise without end": (noise, {"": "timeout", "tcp": "long_frame"}),
+    "too many bytes": (lambda _: iter((b"\x55" * 3000,)), {"": "long_frame"}),
+}
+
+
+class Ends:
+    """The other end of all lines: it numbers its replies, and spoils the next one."""
+
+    fault: Fault | None = None
+    noise = False
+    number = 0
+
+    def answer(self, request: bytes) -> Iterator[bytes]:
+        self.number = self.number % 250 + 1
+        is_tcp = request[2:4] == b"\0\0"
+        head = request[:4] + b"\0\5" + request[6:8] + b"\2\0"
+        reply = head + bytes((self.number,)) if is_tcp else with_word(request, self.number)
+        fault, self.fault = self.fault, None
+        return iter((reply,)) if fault is None else fault(reply)
+
+
+ends = Ends()
+
+
+@pytest.fixture(scope="module")
+def reads() -> Iterator[dict[str, Callable[[], Any]]]:
+    """A read over each line, by the name of the line and its framing."""
+    with ExitStack() as stack:
+        l200 = stack.enter_context(contextmanager(imported)(PACKAGES, "hitachi_l200"))
+        drive, tcp = behind_a_gateway(l200.HitachiL200), transport("tcp")
+        port, pty = stack.enter_context(socket_end(ends.answer)), stack.enter_context(pty_end(ends.answer))
+        lines = {
+            "TcpLine tcp": tcp.TcpLine("127.0.0.1", port, timeout=TIMEOUT),
+            "TcpLine rtu": tcp.TcpLine("127.0.0.1", port, framing="rtu", timeout=TIMEOUT),
+            "SerialLine rtu": transport("serial").SerialLine(pty, 115200, timeout=TIMEOUT),
+            "SerialLine socket:// rtu": transport("serial").SerialLine(
+                f"socket://127.0.0.1:{port}", 115200, timeout=TIMEOUT
+            ),
+        }
+        for line in lines.values():
+            stack.callback(line.close)
+        made: dict[str, Callable[[], Any]] = {
+            name: partial(drive(line, 1).read_at, "holding", 2) for name, line in lines.items()
+        }
+        for framing in ("tcp", "rtu"):
+            line = tcp.AsyncTcpLine("127.0.0.1", port, framing=framing, timeout=TIMEOUT)
+            awaiting = behind_a_gateway(l200.HitachiL200Async)(line, 1)
+            made[f"AsyncTcpLine {framing}"] = partial(awaited, awaiting)
+        yield made
+
+
+def awaited(drive: Any) -> Any:
+    return asyncio.run(drive.read_at("holding", 2))
+
+
+def spoiled(read: Callable[[], Any], fault: Fault) -> str:
+    """The status of a read whose reply is spoiled; it ends in time, and the next read has its reply."""
+    ends.fault, ends.noise = fault, True
+    before = time.monotonic()
+    found = status(read)[0]
+    took, ends.noise = time.monotonic() - before, False
+    assert took < MOST
+    word = read()[0]
+    assert word == ends.number, "an old reply"
+    return found
+
+
+LINES = (
+    "TcpLine tcp",
+    "TcpLine rtu",
+    "SerialLine rtu",
+    "SerialLine socket:// rtu",
+    "AsyncTcpLine tcp",
+    "AsyncTcpLine rtu",
+)
+
+
+@pytest.mark.full(seconds=2)
+@pytest.mark.parametrize("kind", AT_EACH_BYTE)
+@pytest.mark.parametrize("line", LINES)
+def test_each_byte_of_a_reply(line: str, kind: str, reads: dict[str, Callable[[], Any]]) -> None:
+    found = [spoiled(reads[line], partial(_spoiled_at, kind, at)) for at in range(11 if line[-3:] == "tcp" else 7)]
+    assert found == _each(ERRORS[line[-3:]][kind])
+
+
+def _spoiled_at(kind: str, at: int, reply: bytes) -> Iterator[bytes]:
+    yield AT_EACH_BYTE[kind](reply, at)
+
+
+@pytest.mark.full(seconds=1)
+@pytest.mark.parametrize("kind", WHOLE)
+@pytest.mark.parametrize("line", LINES)
+def test_whole_replies(line: str, kind: str, reads: dict[str, Callable[[], Any]]) -> None:
+    fault, errors = WHOLE[kind]
+    assert spoiled(reads[line], fault) == (errors.get(line[-3:]) or errors[""])
+
+
+def _each(statuses: str) -> list[str]:
+    """Statuses position by position: `ok*2` is two."""
+    counted = [one.partition("*") for one in statuses.split()]
+    return [name for name, _, count in counted for _ in range(int(count or 1))]
+
+
+class Losing:
+    """A peer that loses what it was asked first, so often."""
+
+    def __init__(self, peer: Any, times: int) -> None:
+        self.peer, self.framing, self.times, self.sent = peer, getattr(peer, "framing", "uss"), times, 0
+
+    def exchange(self, request: bytes) -> bytes:
+        self.sent += 1
+        reply: bytes = self.peer.exchange(request)
+        self.times -= 1
+        if self.times >= 0:
+            raise TimeoutError("no byte came")
+        return reply
+
+    def send(self, frame: Any) -> None:
+        self.sent += 1
+        self.peer.send(frame)
+        self.times -= 1
+        if self.times >= 0:
+            self.peer.waiting.clear()
+
+    def receive(self) -> Any:
+        return self.peer.receive()
+
+
+def on_modbus(line: Callable[[Any], Any]) -> tuple[Any, Any]:
+    package = importlib.import_module("hitachi_l200")
+    drive = behind_a_gateway(package.HitachiL200)(line(Slave("tcp")), 1)
+    return drive, drive.base_frequency
+
+
+def on_uss(line: Callable[[Any], Any]) -> tuple[Any, Any]:
+    package, uss = importlib.import_module("siemens_mm4"), importlib.import_module("fieldscribe_runtime.uss")
+    mm4 = UssDrive()
+    mm4.ram[1082, 0] = (0x4248, 0)
+    drive = package.SiemensMm4(line(mm4), 1, uss.Link(4, 2))
+    return drive, drive.maximum_frequency
+
+
+def on_can(line: Callable[[Any], Any]) -> tuple[Any, Any]:
+    package, frames = importlib.import_module("woodward_mpu2s"), importlib.import_module("fieldscribe_runtime.can")
+    device = package.WoodwardMpu2s(line(CanUnit(frames.Frame, 1)), 1)
+    return device, device.generator_frequency_setpoint
+
+
+@pytest.mark.parametrize(
+    ("name", "made"), [("hitachi_l200", on_modbus), ("siemens_mm4", on_uss), ("woodward_mpu2s", on_can)]
+)
+def test_what_is_lost_is_sent_again(name: str, made: Any, caplog: pytest.LogCaptureFixture) -> None:
+    with contextmanager(imported)(PACKAGES, name), caplog.at_level("DEBUG", "fieldscribe"):
+        device, point = made(lambda peer: Losing(peer, 2))
+        device.retries = 1
+        assert status(point.read)[0] == "timeout"
+        device.retries = 2
+        point.read()
+        assert (device.traffic.requests, device.traffic.replies, device.traffic.errors) == (3, 1, {"timeout": 2})
+        assert point.label in caplog.messages[0]
+        assert "timeout" in repr(device.traffic)
+        device.transport.times = 1
+        point.read()
+        assert device.traffic.errors == {"timeout": 3}
+
+
+def test_what_is_sent_once() -> None:
+    """Commands, what the device refuses, and process data that changes."""
+    with contextmanager(imported)(PACKAGES, "hitachi_l200"):
+        drive, _ = on_modbus(lambda peer: Losing(peer, 1))
+        drive.retries = 2
+        assert status(drive.enter.send)[0] == "timeout"
+        assert (drive.transport.sent, drive.retries) == (1, 2)
+        drive.transport.peer.refuses[0x1028] = 2
+        assert status(drive.base_frequency.read)[0] == "exception"
+        assert (drive.transport.sent, drive.traffic.errors) == (2, {"timeout": 1, "exception": 1})
+    with contextmanager(imported)(PACKAGES, "siemens_mm4"):
+        drive, _ = on_uss(lambda peer: Losing(peer, 1))
+        drive.retries = 2
+        assert status(drive.write_at, "task", 1, 5)[0] == "timeout"
+        assert (drive.transport.sent, drive.traffic.errors) == (1, {"timeout": 1})
